@@ -1,0 +1,105 @@
+"""What an effect is: anything that adds torque to the rigid chain, stated in one file of its own.
+
+The torque is linear in the effect's parameters: torque on joint i = sum over its parameters p of p * column[p][i]. What enters
+otherwise (a length, an exponent, a speed) is a shape value, fixed in the robot file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import sympy
+
+from generator.robot.description import PRISMATIC, REVOLUTE, Joint
+
+#: Torque per unit parameter on each joint, by joint number.
+Column = Mapping[int, sympy.Expr]
+
+
+@dataclass(frozen=True)
+class LinearParameter:
+    """A parameter that multiplies a regressor column. The name is ``stem`` and the joint's number.
+
+    ``units`` are those on a revolute and on a prismatic joint; ``lower`` is the physical bound, None if free.
+    """
+
+    stem: str
+    units: tuple[str, str]
+    meaning: str
+    lower: float | None = None
+
+    def unit(self, joint: Joint) -> str:
+        return self.units[joint.sigma == PRISMATIC]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any."""
+
+    name: str
+    unit: str
+    meaning: str
+    lower: float | None = None
+    upper: float | None = None
+    default: sympy.Expr | None = None
+
+
+@dataclass(frozen=True)
+class Site:
+    """Where an effect sits: the joint, its motion as symbols, and the shape values [SI].
+
+    ``elongation`` is the flexible coordinate q_e of the joint (report eq. 7), used by elastic effects only.
+    """
+
+    joint: Joint
+    values: Mapping[str, sympy.Expr] = field(default_factory=dict)
+
+    @property
+    def q(self) -> sympy.Symbol:
+        return self.joint.variable
+
+    @property
+    def qd(self) -> sympy.Symbol:
+        return sympy.Symbol(f"qd{self.joint.number}", real=True)
+
+    @property
+    def qdd(self) -> sympy.Symbol:
+        return sympy.Symbol(f"qdd{self.joint.number}", real=True)
+
+    @property
+    def elongation(self) -> sympy.Symbol:
+        return sympy.Symbol(f"qe{self.joint.number}", real=True)
+
+    def on_joint(self, torque: sympy.Expr) -> Column:
+        """The column of a torque that acts on this joint alone."""
+        return {self.joint.number: torque}
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A physical effect.
+
+    ``columns`` returns one column per linear parameter, in the order of ``parameters``. ``kinetic_energy`` and
+    ``potential_energy`` return the energy per unit of each parameter [J/unit], where the effect stores any;
+    a potential is zero at q = 0 where it is finite there. ``observables`` names further outputs worth emitting, each
+    an expression that may contain the parameters' symbols (named by their stems), with its unit.
+    ``drive_train`` effects sit on the motor side of an elastic joint. ``kinds`` are
+    the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of one joint.
+    """
+
+    id: str
+    title: str
+    parameters: tuple[LinearParameter, ...]
+    columns: Callable[[Site], tuple[Column, ...]]
+    needs: tuple[str, ...]
+    sign_convention: str
+    source: str
+    assumptions: str = ""
+    shapes: tuple[Shape, ...] = ()
+    kinetic_energy: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
+    potential_energy: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
+    observables: Callable[[Site], Mapping[str, tuple[sympy.Expr, str, str]]] | None = None
+    drive_train: bool = False
+    kinds: tuple[int, ...] = (REVOLUTE, PRISMATIC)
+    rank: int = 100

@@ -1,0 +1,1 @@
+"""Mechanisms that turn a force along a line into a joint torque."""

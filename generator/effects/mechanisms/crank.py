@@ -1,0 +1,34 @@
+"""A link between a point of the fixed body and a point of the moving one: two pivots and the joint between them.
+
+The report's balancers sit on it (eq. 19-29, Table 6). Its lever arm is taken by virtual work as the derivative of the
+length, which holds on both sides of the dead centre; the printed arctangent (eq. 29) has the wrong branch beyond it.
+"""
+
+from __future__ import annotations
+
+import sympy
+
+from generator.effects.effect import Shape, Site
+
+SHAPES = (
+    Shape("d21", "m", "distance from the joint's axis to the pivot on the fixed body", lower=0.0),
+    Shape("d22", "m", "distance from the joint's axis to the pivot on the moving body", lower=0.0),
+    Shape("phi", "rad", "angle between the two arms at q = 0"),
+)
+
+
+def length(at: Site) -> sympy.Expr:
+    """r24(q) [m] (report eq. 22, 28)."""
+    d21, d22, phi = (at.values[name] for name in ("d21", "d22", "phi"))
+    return sympy.sqrt(d21**2 + d22**2 + 2 * d21 * d22 * sympy.cos(phi + at.q))
+
+
+def length_at_zero(at: Site) -> sympy.Expr:
+    """r24(0) [m]."""
+    return length(at).subs(at.q, 0)
+
+
+def lever_arm(at: Site) -> sympy.Expr:
+    """d r24 / d q [m]: equal to d22 sin(psi) of report eq. 20 with the quadrant kept."""
+    d21, d22, phi = (at.values[name] for name in ("d21", "d22", "phi"))
+    return -d21 * d22 * sympy.sin(phi + at.q) / length(at)

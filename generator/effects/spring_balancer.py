@@ -1,0 +1,50 @@
+"""Gravity balancer with a linear spring, as on the KR270-2F's kind of arm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy
+
+from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.laws import linear_spring
+from generator.effects.mechanisms import crank
+from generator.robot.description import REVOLUTE
+
+
+def _columns(at: Site) -> tuple[Column, ...]:
+    arm = crank.lever_arm(at)
+    # Kr's column r dr/dq is written without the root that cancels in it.
+    stiffness = sympy.cancel(crank.length(at) * arm)
+    return at.on_joint(stiffness), at.on_joint(arm)
+
+
+def _observables(at: Site) -> Mapping[str, tuple[sympy.Expr, str, str]]:
+    length = crank.length(at)
+    per_kr, per_k0 = linear_spring.force_columns(length)
+    kr, k0 = sympy.symbols("Kr K0", real=True)
+    force = kr * per_kr + k0 * per_k0
+    return {
+        "length": (length, "m", "distance r24 between the balancer's pivots"),
+        "force": (force, "N", "force F1 with which the balancer pulls its pivots together"),
+        "torque": (force * crank.lever_arm(at), "N m", "torque of the balancer in the inverse dynamic model"),
+    }
+
+
+EFFECT = Effect(
+    id="spring_balancer",
+    title="spring balancer",
+    parameters=(
+        LinearParameter("Kr", ("N/m", "N/m"), "stiffness of the balancer's spring", 0.0),
+        LinearParameter("K0", ("N", "N"), "force of the balancer's spring extrapolated to zero length"),
+    ),
+    columns=_columns,
+    potential_energy=lambda at: linear_spring.energy_columns(crank.length(at), crank.length_at_zero(at)),
+    observables=_observables,
+    shapes=crank.SHAPES,
+    kinds=(REVOLUTE,),
+    needs=("q",),
+    sign_convention="F1 > 0 pulls the pivots together; F1 dr24/dq adds to the inverse dynamic model",
+    assumptions="massless; the pivots do not rub",
+    source="report eq. 19-32",
+)

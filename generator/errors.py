@@ -1,0 +1,31 @@
+"""The one error that a user can cause, with the place where it was caused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Place:
+    """A position in a file that the user wrote; line and column count from 1."""
+
+    file: str
+    line: int = 1
+    column: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+class InputError(Exception):
+    """Bad input: one line that says where, what is wrong and what was expected.
+
+    ``str(error)`` is ``FILE:LINE:COL: what is wrong, expected ...``; the command line puts ``error: `` in front
+    and exits with status 2.
+    """
+
+    def __init__(self, place: Place, problem: str, expected: str) -> None:
+        super().__init__(f"{place}: {problem}, expected {expected}")
+        self.place = place
+        self.problem = problem
+        self.expected = expected

@@ -1,0 +1,41 @@
+"""In which order parameters leave, and the rule that a reviewer reads beside each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from generator.grouping.observability import OFFSET, ROTOR_INERTIA
+from generator.grouping.scalars import Scalar
+from generator.robot.description import FIXED, PRISMATIC, REVOLUTE, Joint
+
+#: First to leave first, as SYMORO chooses (Gautier and Khalil 1990): YY, MZ and M behind a revolute joint.
+_REVOLUTE = ("Ia", "M", "MZ", "YY", "XX", "XY", "XZ", "YZ", "MY", "MX", "ZZ", "Off")
+#: The inertia tensor behind a prismatic joint.
+_PRISMATIC = ("Ia", "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MZ", "MY", "MX", "M", "Off")
+
+_INDEX = {
+    stem: index
+    for index, stem in enumerate(("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"))
+} | {"Ia": ROTOR_INERTIA, "Off": OFFSET}
+
+
+def elimination_order(joint: Joint) -> list[int]:
+    """Indices of the twelve parameters, first to be eliminated first."""
+    return [_INDEX[stem] for stem in (_PRISMATIC if joint.sigma == PRISMATIC else _REVOLUTE)]
+
+
+def rule_of(joint: Joint, stems: Sequence[str], pivot: int, vector: Sequence[Scalar]) -> str:
+    """Why the parameter ``pivot`` of a joint leaves, read off the combination that is invisible."""
+    stem = stems[pivot]
+    partners = [stems[k] for k, coefficient in enumerate(vector) if coefficient and k != pivot]
+    if joint.sigma == FIXED:
+        return "fixed joint: the whole body belongs to its antecedent"
+    if stem == "Ia":
+        return f"rotor inertia acts as {' and '.join(partners)} of the same joint"
+    if joint.sigma == REVOLUTE and stem in ("YY", "MZ", "M") and partners in ([], ["XX"]):
+        return "revolute joint: YY (with XX), MZ and M act as parts of the antecedent"
+    if joint.sigma == PRISMATIC and stem in ("XX", "XY", "XZ", "YY", "YZ", "ZZ") and not partners:
+        return "prismatic joint: the body does not turn, its tensor belongs to the antecedent"
+    if not partners:
+        return "the joints before this one do not move the body in a way that shows it"
+    return f"the joints before this one show it only together with {', '.join(partners)}"

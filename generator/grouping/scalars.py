@@ -1,0 +1,160 @@
+"""Exact numbers of one robot that remember how they are written in its lengths.
+
+Whether a number is zero is decided at the robot's own lengths (a length that happens to vanish, or two that cancel,
+count); what is printed is the symbol. The two are carried together through every operation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy
+from sympy.polys.domains import QQ
+from sympy.polys.fields import field
+
+from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
+from generator.symbolic.lowering import exact_constant
+
+#: Irrational constants are carried to sixty digits; what is smaller than this is zero.
+_NOTHING = Fraction(1, 10**40)
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """A number: ``symbol`` in the field of rational functions of the lengths, ``value`` at the robot's lengths."""
+
+    symbol: Any
+    value: Fraction
+
+    def __add__(self, other: Scalar) -> Scalar:
+        return _settled(self.symbol + other.symbol, self.value + other.value)
+
+    def __sub__(self, other: Scalar) -> Scalar:
+        return _settled(self.symbol - other.symbol, self.value - other.value)
+
+    def __mul__(self, other: Scalar) -> Scalar:
+        if not self.value or not other.value:
+            return self if not self.value else other
+        return Scalar(self.symbol * other.symbol, self.value * other.value)
+
+    def __truediv__(self, other: Scalar) -> Scalar:
+        return Scalar(self.symbol / other.symbol, self.value / other.value)
+
+    def __neg__(self) -> Scalar:
+        return Scalar(-self.symbol, -self.value)
+
+    def __bool__(self) -> bool:
+        return bool(self.value)
+
+
+def _settled(symbol: Any, value: Fraction) -> Scalar:
+    if value and abs(value) < _NOTHING:
+        value = Fraction(0)
+    return Scalar(symbol, value) if value else Scalar(symbol * 0, value)
+
+
+class Numbers:
+    """The field of one robot: makes scalars from its expressions and writes them back."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._values = {sympy.Symbol(length.name, real=True): length.value for length in robot.lengths}
+        self._half_tangents = _half_tangents(robot)
+        names = [str(symbol) for symbol in self._values] + [str(symbol) for symbol in self._half_tangents.values()]
+        self._field: Any = field(names or ["_"], QQ)[0]
+        self._generators = dict(zip(names, self._field.gens, strict=False))
+        self.zero = Scalar(self._field.zero, Fraction(0))
+        self.one = Scalar(self._field.one, Fraction(1))
+
+    def integer(self, value: int) -> Scalar:
+        return Scalar(self._field(value), Fraction(value))
+
+    def length(self, expression: sympy.Expr) -> Scalar:
+        """A rational expression of the lengths."""
+        value = exact_constant(expression.subs(self._values))
+        if not value:
+            return self.zero
+        return Scalar(self._rational(expression), value)
+
+    def constant(self, expression: sympy.Expr) -> Scalar:
+        """A number of the robot that is not written in lengths (gravity), irrational ones to sixty digits."""
+        value = exact_constant(expression)
+        return Scalar(self._field(QQ(value.numerator, value.denominator)), value) if value else self.zero
+
+    def cosine_sine(self, angle: sympy.Expr) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of a constant angle: exact at quarter turns, else through the half angle's tangent."""
+        if (2 * angle / sympy.pi).is_Integer:
+            return self.integer(int(sympy.cos(angle))), self.integer(int(sympy.sin(angle)))
+        positive, sign = _unsigned(angle)
+        t = self._generators[str(self._half_tangents[positive])]
+        at = positive.subs(self._values)
+        cosine = Scalar((1 - t**2) / (1 + t**2), exact_constant(sympy.cos(at)))
+        sine = Scalar(2 * t / (1 + t**2), exact_constant(sympy.sin(at)))
+        return cosine, sine if sign > 0 else -sine
+
+    def expression(self, scalar: Scalar) -> sympy.Expr:
+        """The scalar as it is read: expanded in the lengths, half-angle tangents written as the angles they are."""
+        if not scalar:
+            return sympy.Integer(0)
+        result = scalar.symbol.as_expr()
+        renamed = {sympy.Symbol(str(symbol)): symbol for symbol in self._values}
+        tangents = {sympy.Symbol(str(t)): sympy.tan(angle / 2) for angle, t in self._half_tangents.items()}
+        if result.free_symbols & set(tangents):
+            return sympy.trigsimp(sympy.simplify(result.subs(tangents))).subs(renamed)
+        return result.subs(renamed)
+
+    def value(self, expression: sympy.Expr) -> float:
+        """The number of an expression at the robot's lengths."""
+        return float(exact_constant(sympy.sympify(expression).subs(self._values)))
+
+    def _rational(self, expression: sympy.Expr) -> Any:
+        if expression.is_Symbol:
+            return self._generators[str(expression)]
+        if expression.is_Rational:
+            return self._field(QQ(int(expression.p), int(expression.q)))
+        parts = [self._rational(argument) for argument in expression.args]
+        if expression.is_Add:
+            return sum(parts[1:], parts[0])
+        if expression.is_Mul:
+            product = parts[0]
+            for part in parts[1:]:
+                product = product * part
+            return product
+        if expression.is_Pow and expression.exp.is_Integer:
+            return parts[0] ** int(expression.exp)
+        raise ValueError(f"a length must be a rational expression of named lengths, got {expression}")
+
+
+def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
+    """A symbol for tan(angle/2) of each constant angle of the geometry that is no quarter turn."""
+    angles: dict[sympy.Expr, sympy.Symbol] = {}
+    components = [*_constant_angles(robot)]
+    for angle in components:
+        if not (2 * angle / sympy.pi).is_Integer:
+            positive, _ = _unsigned(angle)
+            angles.setdefault(positive, sympy.Symbol(f"tan_half_{len(angles)}"))
+    return angles
+
+
+def _constant_angles(robot: Robot) -> list[sympy.Expr]:
+    angles = []
+    for joint in robot.joints:
+        angles += [joint.alpha, joint.gamma]
+        if joint.sigma != REVOLUTE:
+            angles.append(joint.theta)
+    return angles
+
+
+def _unsigned(angle: sympy.Expr) -> tuple[sympy.Expr, int]:
+    return (-angle, -1) if angle.could_extract_minus_sign() else (angle, 1)
+
+
+def fixed_angle(joint: Joint) -> sympy.Expr:
+    """theta of a joint that does not turn, zero of one that does: grouping may choose any angle of a turning joint."""
+    return sympy.Integer(0) if joint.sigma == REVOLUTE else joint.theta
+
+
+def fixed_shift(joint: Joint) -> sympy.Expr:
+    """r of a joint that does not slide, zero of one that does."""
+    return joint.r if joint.sigma in (REVOLUTE, FIXED) else sympy.Integer(0)

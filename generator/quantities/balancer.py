@@ -1,0 +1,55 @@
+"""Length, force and torque of the robot's balancers (report eq. 19 to 37)."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import sympy
+
+from generator.effects.library import Instance
+from generator.quantities import signals
+from generator.quantities.quantity import Quantity
+from generator.symbolic.function import Signal
+from generator.symbolic.lowering import lower
+from generator.symbolic.model import Model
+from generator.symbolic.vectors import Array
+
+
+def _observed(model: Model) -> list[Instance]:
+    return [instance for instance in model.effects if instance.effect.observables]
+
+
+def _observables(instance: Instance) -> Mapping[str, tuple[sympy.Expr, str, str]]:
+    assert instance.effect.observables is not None
+    return instance.effect.observables(instance.site)
+
+
+def _signals(model: Model) -> tuple[Signal, ...]:
+    instances = _observed(model)
+    result = []
+    for instance in instances:
+        suffix = f"_{instance.joint.number}" if len(instances) > 1 else ""
+        for name, (_, unit, meaning) in _observables(instance).items():
+            result.append(signals.scalar(name + suffix, unit, f"{meaning}, joint {instance.joint.number}"))
+    return tuple(result)
+
+
+def _build(model: Model) -> tuple[Array, ...]:
+    result = []
+    for instance in _observed(model):
+        values = model.lengths | {joint.variable: model.q[k] for k, joint in enumerate(model.robot.moving)}
+        for parameter, name in zip(instance.effect.parameters, instance.names, strict=True):
+            values[sympy.Symbol(parameter.stem, real=True)] = model.parameter_nodes[name]
+        for expression, _, _ in _observables(instance).values():
+            result.append(np.array(lower(model.program, expression, values), dtype=object))
+    return tuple(result)
+
+
+QUANTITY = Quantity(
+    name="balancer",
+    summary="Length, force and torque of the gravity balancer.",
+    details="Report eq. 19 to 37; the torque is the balancer's part of the inverse dynamic model.",
+    inputs=signals.together(signals.q),
+    outputs=_signals,
+    build=_build,
+    applies=lambda model: bool(_observed(model)),
+)

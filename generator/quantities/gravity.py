@@ -1,0 +1,13 @@
+"""Torques of the bodies' weight (report eq. 73, Q(q))."""
+
+from generator.quantities import signals
+from generator.quantities.quantity import Quantity
+
+QUANTITY = Quantity(
+    name="gravity",
+    summary="Joint torques that hold the bodies' weight at rest.",
+    details="Q(q) of report eq. 73; balancers and offsets are effects and are not in it.",
+    inputs=signals.together(signals.q),
+    outputs=signals.together(signals.renamed(signals.tau, "Q", "gravity torques, on the joint side")),
+    build=lambda model: (model.base.gravity,),
+)

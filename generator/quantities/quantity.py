@@ -1,0 +1,49 @@
+"""What a quantity is: one emitted function, stated in one file of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from generator.symbolic.function import Function, Output, Signal, Sparsity
+from generator.symbolic.model import Model
+
+
+def always(model: Model) -> bool:
+    """Most quantities exist for every robot."""
+    return True
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A function that every backend emits.
+
+    ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); ``build`` returns the output
+    arrays, one per output signal, of nodes. ``applies`` tells for which models it exists. ``sparsity`` gives the
+    structure of a packed output.
+    """
+
+    name: str
+    summary: str
+    details: str
+    inputs: Callable[[Model], Sequence[Signal]]
+    outputs: Callable[[Model], Sequence[Signal]]
+    build: Callable[[Model], Sequence[Any]]
+    applies: Callable[[Model], bool] = always
+    sparsity: Callable[[Model], Sparsity] | None = None
+
+    def function(self, model: Model) -> Function:
+        """The quantity of one robot. Raises ValueError if an array does not have the shape of its signal."""
+        outputs = []
+        for signal, values in zip(self.outputs(model), self.build(model), strict=True):
+            nodes = np.asarray(values, dtype=object)
+            if nodes.shape != signal.shape:
+                raise ValueError(f"{self.name}: {signal.name} is {nodes.shape}, its signal {signal.shape}")
+            outputs.append(Output(signal, tuple(nodes.ravel())))
+        sparsity = self.sparsity(model) if self.sparsity else None
+        return Function(
+            self.name, self.summary, self.details, tuple(self.inputs(model)), tuple(outputs), model.program, sparsity
+        )

@@ -1,0 +1,149 @@
+"""A robot as plain, frozen data: what its file says, exactly, and nothing derived from it.
+
+Expressions are exact sympy expressions (rationals, pi, elementary functions of them). In a joint's geometry the free
+symbols are the named lengths and, in ``theta`` (revolute) or ``r`` (prismatic), the joint's own variable ``q<j>``.
+SI units throughout: m, rad, s, kg, N, N m, A; a prismatic joint has m for rad and N for N m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import sympy
+
+from generator.errors import Place
+
+REVOLUTE, PRISMATIC, FIXED = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Length:
+    """A named length [m] or angle [rad] of the geometry.
+
+    ``value`` is exact. A ``symbolic`` length stays a parameter of the generated code; ``value`` is then its nominal
+    value, used for numbers in the review and for checks.
+    """
+
+    name: str
+    value: sympy.Expr
+    unit: str = "m"
+    symbolic: bool = False
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Joint and frame ``number`` in modified Denavit-Hartenberg notation (Khalil and Kleinfinger 1986).
+
+    Frame ``number`` follows from frame ``antecedent`` by
+    Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r); gamma = b = 0 on a serial chain.
+    ``sigma`` is 0 revolute, 1 prismatic, 2 fixed. A ``tool`` frame is fixed, carries no body of its own, and is where
+    wrenches act and payloads sit. Limits are None where the file gives none.
+    """
+
+    number: int
+    antecedent: int
+    sigma: int
+    alpha: sympy.Expr
+    d: sympy.Expr
+    theta: sympy.Expr
+    r: sympy.Expr
+    gamma: sympy.Expr = sympy.Integer(0)
+    b: sympy.Expr = sympy.Integer(0)
+    lower: sympy.Expr | None = None
+    upper: sympy.Expr | None = None
+    tool: bool = False
+    label: str = ""
+
+    @property
+    def variable(self) -> sympy.Symbol:
+        """The joint variable ``q<number>``."""
+        return sympy.Symbol(f"q{self.number}", real=True)
+
+
+@dataclass(frozen=True)
+class EffectUse:
+    """An effect of the library applied to joints; ``values`` are its fixed shape values by name, exact, in SI units."""
+
+    effect: str
+    joints: tuple[int, ...]
+    values: Mapping[str, sympy.Expr] = field(default_factory=dict)
+    place: Place = Place("")
+
+
+@dataclass(frozen=True)
+class Drives:
+    """Drive train: motor speed = N joint speed (report eq. 14-15), in exact rationals.
+
+    ``coupling`` is the matrix N, row i the motor i, column j the moving joint j. ``torque_constants`` [N m/A] by name
+    ("cold", "warm"), one per motor; ``torque_constant`` names the one in use.
+    """
+
+    ratios: tuple[Fraction, ...]
+    coupling: tuple[tuple[Fraction, ...], ...]
+    torque_constants: Mapping[str, tuple[Fraction, ...]] = field(default_factory=dict)
+    torque_constant: str = ""
+
+
+@dataclass(frozen=True)
+class ParameterValue:
+    """A value of a parameter [``unit``], its relative standard deviation [%] if known, and where it comes from."""
+
+    value: float
+    unit: str
+    relative_std: float | None = None
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class ParameterSet:
+    """A named set of parameter values; names as in the generated parameter order, base or standard."""
+
+    name: str
+    description: str
+    source: str
+    values: Mapping[str, ParameterValue]
+
+
+@dataclass(frozen=True)
+class Robot:
+    """Everything that a robot file says.
+
+    ``gravity`` is the acceleration of free fall [m/s2] in the world frame; ``base`` the 4 x 4 pose of frame 0 in the
+    world frame (exact). ``joints`` are in order, antecedents first, numbered 1..len. ``flexible`` lists the numbers of
+    the joints whose drive train is elastic. ``digest`` is a SHA-256 of what the file says, comments and layout aside.
+    """
+
+    name: str
+    description: str
+    source: str
+    gravity: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
+    base: sympy.ImmutableMatrix
+    lengths: tuple[Length, ...]
+    joints: tuple[Joint, ...]
+    effects: tuple[EffectUse, ...]
+    drives: Drives | None
+    flexible: tuple[int, ...]
+    parameter_sets: Mapping[str, ParameterSet]
+    place: Place
+    digest: str
+
+    @property
+    def moving(self) -> tuple[Joint, ...]:
+        """The joints that move, in order: element i of q belongs to ``moving[i]``."""
+        return tuple(joint for joint in self.joints if joint.sigma != FIXED)
+
+    @property
+    def bodies(self) -> tuple[Joint, ...]:
+        """The frames that carry a body with ten standard inertial parameters: all but the tool frames."""
+        return tuple(joint for joint in self.joints if not joint.tool)
+
+    @property
+    def tool(self) -> Joint:
+        """The frame where wrenches act and payloads sit: the file's tool frame, else the last frame."""
+        return next((joint for joint in self.joints if joint.tool), self.joints[-1])
+
+    def antecedent(self, joint: Joint) -> Joint | None:
+        """The joint that carries ``joint``; None for the base."""
+        return self.joints[joint.antecedent - 1] if joint.antecedent else None

@@ -1,0 +1,156 @@
+"""The dynamic models of one chain for one choice of parameters: each model of report section 2.1, once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from generator.effects.library import Instance
+from generator.symbolic import effect_torques, newton_euler
+from generator.symbolic.bodies import Body, bodies
+from generator.symbolic.direct import solve
+from generator.symbolic.effect_torques import JointMotion
+from generator.symbolic.frames import Chain, Frame
+from generator.symbolic.inertia import inertia_matrix
+from generator.symbolic.kinematics import velocities
+from generator.symbolic.newton_euler import Motion, Wrench
+from generator.symbolic.regressor import column
+from generator.symbolic.kinematics import screws
+from generator.symbolic.statements import Node
+from generator.symbolic.vectors import Array, cross, zeros
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """A chain with its effects, at joint speeds ``qd`` and accelerations ``qdd`` (n each).
+
+    ``parameters`` maps the standard names of the parameters that are kept to their nodes; what is absent is zero.
+    ``payload`` is an additional body in the tool frame (report eq. 50).
+    """
+
+    chain: Chain
+    effects: Sequence[Instance]
+    parameters: Mapping[str, Node]
+    qd: Sequence[Node]
+    qdd: Sequence[Node]
+    payload: Body | None = None
+
+    @cached_property
+    def matter(self) -> dict[int, Body]:
+        """The bodies by frame number, the payload on the tool frame."""
+        program = self.chain.program
+        frames = [frame.number for frame in self.chain.frames if frame.has_body()]
+        result = bodies(program, self.parameters, frames)
+        if self.payload is not None:
+            j = self.chain.tool.number
+            result[j] = result[j] + self.payload if j in result else self.payload
+        return result
+
+    @cached_property
+    def still(self) -> list[Node]:
+        return [self.chain.program.zero] * self.chain.dof
+
+    def joint_motion(self, qd: Sequence[Node], qdd: Sequence[Node]) -> JointMotion:
+        q = [self.chain.values[joint.variable] for joint in self.chain.robot.moving]
+        return JointMotion(q, qd, qdd, {})
+
+    def inverse_dynamics(self, wrench: Wrench | None = None) -> Array:
+        """tau = M(q) qdd + H(q, qd) (report eq. 2), and the torque that holds a wrench of the tool (eq. 73)."""
+        return self._torques(self.qd, self.qdd, wrench)
+
+    @cached_property
+    def bias(self) -> Array:
+        """H(q, qd): everything but the accelerations."""
+        return self._torques(self.qd, self.still, None)
+
+    @cached_property
+    def gravity(self) -> Array:
+        """Torque of the bodies' weight alone; balancers and offsets are effects and are not in it."""
+        motion = newton_euler.motions(self.chain, self.still, self.still)
+        return newton_euler.inverse_dynamics(self.chain, motion, self.matter)
+
+    @cached_property
+    def inertia_matrix(self) -> Array:
+        """M(q) with the rotors' inertias (report eq. 2, 5)."""
+        motion = self.joint_motion(self.qd, self.still)
+        rotors = effect_torques.inertia(self.chain, self.effects, motion, self.parameters)
+        return inertia_matrix(self.chain, self.matter) + rotors
+
+    def direct_dynamics(self, tau: Sequence[Node], wrench: Wrench | None = None) -> Array:
+        """qdd from tau (report eq. 6)."""
+        held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
+        return solve(self.inertia_matrix, tau - held)
+
+    @cached_property
+    def kinetic_energy(self) -> Node:
+        """Kinetic energy of bodies and rotors [J]."""
+        program = self.chain.program
+        velocity = velocities(self.chain, self.qd)
+        twice = program.zero
+        for j, part in self.matter.items():
+            w, v = velocity[j].w, velocity[j].v
+            momentum = part.mass * v + 2 * cross(w, part.moment)
+            twice = twice + w @ (part.inertia @ w) + v @ momentum
+        motion = self.joint_motion(self.qd, self.still)
+        rotors = effect_torques.energy(self.chain, self.effects, "kinetic_energy", motion, self.parameters)
+        return twice / 2 + rotors
+
+    @cached_property
+    def height_energy(self) -> Node:
+        """Potential energy of the bodies' weight [J], up to a constant."""
+        return -(self.chain.gravity @ self._moment_at_base())
+
+    @cached_property
+    def effect_energy(self) -> Node:
+        """Potential energy that effects store [J], zero at q = 0."""
+        motion = self.joint_motion(self.still, self.still)
+        return effect_torques.energy(self.chain, self.effects, "potential_energy", motion, self.parameters)
+
+    def regressor_columns(self, names: Iterable[str]) -> dict[str, dict[int, Node]]:
+        """Columns of the regressor (report eq. 3) by standard parameter, each {coordinate: entry}."""
+        motion = newton_euler.motions(self.chain, self.qd, self.qdd)
+        of_effects = effect_torques.columns(self.chain, self.effects, self.joint_motion(self.qd, self.qdd))
+        carried_by = screws(self.chain)
+        frames = {str(frame.number): frame for frame in self.chain.frames}
+        result = {}
+        for name in names:
+            if name in of_effects:
+                result[name] = of_effects[name]
+            else:
+                stem = name.rstrip("0123456789")
+                frame = frames[name[len(stem) :]]
+                result[name] = column(self.chain, frame, stem, motion[frame.number], carried_by[frame.number])
+        return result
+
+    def _torques(self, qd: Sequence[Node], qdd: Sequence[Node], wrench: Wrench | None) -> Array:
+        motion: dict[int, Motion] = newton_euler.motions(self.chain, qd, qdd)
+        of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
+        return of_bodies + effect_torques.torques(
+            self.chain, self.effects, self.joint_motion(qd, qdd), self.parameters
+        )
+
+    def _moment_at_base(self) -> Array:
+        """First moment of all matter about O_0, in frame 0 [kg m]."""
+        program = self.chain.program
+        total = zeros(program, 3)
+        carried: dict[int, Body] = dict(self.matter)
+        for frame in reversed(self.chain.frames):
+            part = carried.get(frame.number)
+            if part is None:
+                continue
+            below = _first_moment(part, frame)
+            if frame.parent is None:
+                total = total + below.moment
+            else:
+                held = carried.get(frame.parent.number)
+                carried[frame.parent.number] = below if held is None else held + below
+        return total
+
+
+def _first_moment(part: Body, frame: Frame) -> Body:
+    """Mass and first moment seen from the antecedent; the tensor is left as nothing."""
+    moment = frame.rotation @ part.moment + part.mass * frame.position
+    return Body(zeros(part.mass.program, 3, 3), moment, part.mass)
+
+

@@ -1,0 +1,99 @@
+"""A function to be emitted: named, typed inputs and outputs over one straight-line program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import prod
+
+from generator.symbolic.statements import Count, Node, Program
+
+#: The input signal that holds the robot's parameters; C passes it prepared, other backends as a vector.
+PARAMETERS = "parameters"
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A named array: ``shape`` (row-major, () a scalar), ``units`` (one for all entries, or one per entry)."""
+
+    name: str
+    shape: tuple[int, ...]
+    units: tuple[str, ...]
+    meaning: str
+
+    @property
+    def size(self) -> int:
+        return prod(self.shape)
+
+
+@dataclass(frozen=True)
+class Output:
+    """An output signal with its nodes, row-major."""
+
+    signal: Signal
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Sparsity:
+    """Rows and columns, row-major order, of the structural nonzeros that a packed output holds."""
+
+    shape: tuple[int, int]
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Function:
+    """A quantity of one robot, ready to print.
+
+    ``inputs`` are the signals read per call, in call order; the parameters are not among them. ``uses_parameters``
+    tells whether any output depends on the parameters. ``sparsity`` belongs to a packed output.
+    """
+
+    name: str
+    summary: str
+    details: str
+    inputs: tuple[Signal, ...]
+    outputs: tuple[Output, ...]
+    program: Program
+    sparsity: Sparsity | None = None
+
+    @property
+    def roots(self) -> tuple[Node, ...]:
+        """Every output node, in output order."""
+        return tuple(node for output in self.outputs for node in output.nodes)
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All nodes that the outputs need, parameter-only ones included, arguments before users."""
+        return self.program.reachable(self.roots)
+
+    @property
+    def uses_parameters(self) -> bool:
+        return any(node.operation == "input" and node.value[0] == PARAMETERS for node in self.nodes)  # type: ignore[index]
+
+    @property
+    def prepared(self) -> list[Node]:
+        """Parameter-only nodes (neither constants nor inputs) that a moving node or an output reads: computed once."""
+        read: dict[Node, None] = {}
+        for node in self.nodes:
+            if not node.parameter_only:
+                read.update(dict.fromkeys(node.arguments))
+        read.update(dict.fromkeys(self.roots))
+        computed = [n for n in read if n.parameter_only and n.operation not in ("constant", "input", "neg")]
+        computed += [
+            n.arguments[0]
+            for n in read
+            if n.parameter_only and n.operation == "neg" and n.arguments[0].operation != "input"
+        ]
+        return sorted(dict.fromkeys(computed), key=lambda n: n.index)
+
+    @property
+    def moving(self) -> list[Node]:
+        """The nodes computed at each call, in order."""
+        return [node for node in self.nodes if not node.parameter_only]
+
+    @property
+    def count(self) -> Count:
+        """Operations per call, parameter-only work left out."""
+        return self.program.count(self.moving)

@@ -1,0 +1,85 @@
+"""Velocities and Jacobians of the frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.symbolic.frames import Chain, Frame, axis, world_transforms
+from generator.symbolic.statements import Node
+from generator.symbolic.vectors import Array, cross, zeros
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """Angular velocity ``w`` [rad/s] and velocity ``v`` of the origin [m/s] of frame j, in frame j."""
+
+    w: Array
+    v: Array
+
+
+def velocities(chain: Chain, qd: Sequence[Node]) -> dict[int, Velocity]:
+    program = chain.program
+    result: dict[int, Velocity] = {}
+    for frame in chain.frames:
+        z = axis(frame, program)
+        before = result[frame.parent.number] if frame.parent else Velocity(zeros(program, 3), zeros(program, 3))
+        w = frame.rotation.T @ before.w
+        v = frame.rotation.T @ (before.v + cross(before.w, frame.position))
+        if frame.coordinate is not None:
+            if frame.revolute:
+                w = w + qd[frame.coordinate] * z
+            else:
+                v = v + qd[frame.coordinate] * z
+        result[frame.number] = Velocity(w, v)
+    return result
+
+
+def jacobian(chain: Chain, frame: Frame) -> Array:
+    """Jacobian (6 x n) of a frame: rows 1-3 the velocity of its origin, 4-6 the angular velocity, in world axes."""
+    placed = world_transforms(chain)
+    origin = placed[frame.number - 1][1]
+    result = zeros(chain.program, 6, chain.dof)
+    for carrier in frame.path():
+        if carrier.coordinate is None:
+            continue
+        rotation, position = placed[carrier.number - 1]
+        z = rotation[:, 2]
+        if carrier.revolute:
+            result[:3, carrier.coordinate] = cross(z, origin - position)
+            result[3:, carrier.coordinate] = z
+        else:
+            result[:3, carrier.coordinate] = z
+    return result
+
+
+@dataclass(frozen=True)
+class Screw:
+    """Motion of frame j per unit speed of one joint that carries it: ``w`` and ``v`` of O_j, in frame j."""
+
+    w: Array
+    v: Array
+
+
+def screws(chain: Chain) -> dict[int, dict[int, Screw]]:
+    """For each frame, by coordinate, the screws of the joints that carry it."""
+    program = chain.program
+    result: dict[int, dict[int, Screw]] = {}
+    for frame in chain.frames:
+        mine: dict[int, Screw] = {}
+        if frame.parent is not None:
+            for coordinate, screw in result[frame.parent.number].items():
+                v = screw.v + cross(screw.w, frame.position)
+                mine[coordinate] = Screw(frame.rotation.T @ screw.w, frame.rotation.T @ v)
+        if frame.coordinate is not None:
+            z, nothing = axis(frame, program), zeros(program, 3)
+            mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
+        result[frame.number] = mine
+    return result
+
+
+def stacked(rows: list[Array]) -> Array:
+    """Arrays under each other, as one array of the backends' two-dimensional outputs."""
+    return np.stack(rows)

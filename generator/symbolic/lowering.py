@@ -1,0 +1,71 @@
+"""From an exact sympy expression to the straight-line program, once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+import sympy
+
+from generator.symbolic.statements import Node, Program
+
+#: Digits kept of an irrational constant; far beyond double precision, so that folding stays exact in print.
+_DIGITS = 60
+
+_FUNCTIONS = {sympy.sin: "sin", sympy.cos: "cos", sympy.log: "log", sympy.Abs: "abs", sympy.sign: "sign"}
+
+
+def lower(program: Program, expression: sympy.Expr, values: Mapping[sympy.Symbol, Node]) -> Node:
+    """The node of ``expression`` with each of its symbols replaced by its node in ``values``.
+
+    Raises KeyError for a symbol without a node and ValueError for a function that no backend prints.
+    """
+    if isinstance(expression, sympy.Symbol):
+        return values[expression]
+    if not expression.free_symbols:
+        return program.constant(exact_constant(expression))
+    arguments = [lower(program, argument, values) for argument in expression.args]
+    if isinstance(expression, sympy.Add):
+        total = program.zero
+        for argument in arguments:
+            total = total + argument
+        return total
+    if isinstance(expression, sympy.Mul):
+        return _quotient(program, expression, values)
+    if isinstance(expression, sympy.Pow):
+        exponent = expression.exp
+        if not exponent.is_Rational:
+            raise ValueError(f"only exact rational powers are emitted, got {expression}")
+        return program.power(arguments[0], Fraction(int(exponent.p), int(exponent.q)))
+    name = _FUNCTIONS.get(expression.func)
+    if name is None:
+        raise ValueError(f"no backend prints {expression.func.__name__}")
+    return program.function(name, arguments[0])
+
+
+def _quotient(program: Program, product: sympy.Mul, values: Mapping[sympy.Symbol, Node]) -> Node:
+    """A product with its negative powers gathered in one divisor, so that it costs one division."""
+    above, below = program.one, program.one
+    for factor in product.args:
+        base, exponent = factor.as_base_exp()
+        if factor.free_symbols and exponent.is_Rational and exponent < 0:
+            below = below * lower(program, base**-exponent, values)
+        else:
+            above = above * lower(program, factor, values)
+    return above / below
+
+
+def exact_constant(expression: sympy.Expr) -> Fraction:
+    """The fraction of a constant expression: exact if rational, else its value to sixty digits.
+
+    The value does not pass through the machine's floating point, so that it is the same everywhere.
+    """
+    if expression.is_Rational:
+        return Fraction(int(expression.p), int(expression.q))
+    simplified = sympy.nsimplify(expression, rational=True) if expression.is_Float else expression
+    if simplified.is_Rational:
+        return Fraction(int(simplified.p), int(simplified.q))
+    value = sympy.N(simplified, _DIGITS)
+    if not value.is_real or not value.is_finite:
+        raise ValueError(f"{expression} is not a finite real number")
+    return Fraction(str(value))

@@ -1,0 +1,215 @@
+"""One robot's model: its chain, effects, parameters and groupings on one straight-line program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+import sympy
+
+from generator.effects.library import effects_of, motor_side
+from generator.grouping.grouping import Grouping, group
+from generator.robot.description import FIXED, Robot
+from generator.robot.parameters import Parameter, inertial_parameters
+from generator.symbolic.bodies import Body, body, INERTIAL
+from generator.symbolic.dynamics import Dynamics
+from generator.symbolic.flexible import FlexibleDynamics
+from generator.symbolic.frames import Chain, build_chain
+from generator.symbolic.function import PARAMETERS, Function
+from generator.symbolic.lowering import lower
+from generator.symbolic.statements import Node, Program
+from generator.symbolic.vectors import Array
+
+#: Input signal of the standard parameters; unlike ``parameters`` it may change at every call.
+STANDARD = "standard_parameters"
+
+
+class Model:
+    """The symbolic model of ``robot``; ``functions`` is filled by the quantities.
+
+    Raises InputError where the robot's effects are not those of the library.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.program = Program((PARAMETERS,))
+        self.effects = effects_of(robot)
+        self.motor_effects = motor_side(robot)
+        self.functions: dict[str, Function] = {}
+
+    # -- parameters -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def standard_parameters(self) -> tuple[Parameter, ...]:
+        """Ten inertial parameters of each body and the parameters of its effects, joint by joint (report eq. 4)."""
+        result: list[Parameter] = []
+        for joint in self.robot.joints:
+            if not joint.tool:
+                result += inertial_parameters(joint)
+            for instance in self.effects:
+                if instance.joint.number == joint.number:
+                    result += instance.parameters
+        return tuple(result)
+
+    @cached_property
+    def grouping(self) -> Grouping:
+        return group(self.robot, tuple(parameter.name for parameter in self.standard_parameters))
+
+    @cached_property
+    def base_parameters(self) -> tuple[Parameter, ...]:
+        """The base parameters, in the order of their heads among the standard parameters."""
+        standard = {parameter.name: parameter for parameter in self.standard_parameters}
+        result = []
+        for base in self.grouping.base:
+            head = standard[base.head]
+            lower_bound = head.lower if base.alone else None
+            result.append(Parameter(base.name, head.unit, head.joint, head.meaning, lower_bound))
+        return tuple(result)
+
+    @cached_property
+    def motor_parameters(self) -> tuple[Parameter, ...]:
+        """Iam, Fvm, Fcm, Offm, k of each elastic joint (report eq. 12)."""
+        return tuple(parameter for instance in self.motor_effects for parameter in instance.parameters)
+
+    @cached_property
+    def torque_constants(self) -> tuple[Parameter, ...]:
+        """kt of each motor, where the drives are known (report eq. 16)."""
+        drives = self.robot.drives
+        if drives is None or not drives.torque_constants:
+            return ()
+        return tuple(
+            Parameter(f"kt{joint.number}", "N m/A", joint.number, "torque constant of the motor", 0.0)
+            for joint in self.robot.moving
+        )
+
+    @cached_property
+    def symbolic_lengths(self) -> tuple[Parameter, ...]:
+        return tuple(
+            Parameter(length.name, length.unit, 0, "length of the geometry" if length.unit == "m" else "angle of the geometry", None)
+            for length in self.robot.lengths
+            if length.symbolic
+        )
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Order of the generated parameter vector: base, motor side, torque constants, symbolic lengths."""
+        return self.base_parameters + self.motor_parameters + self.torque_constants + self.symbolic_lengths
+
+    @cached_property
+    def parameter_nodes(self) -> dict[str, Node]:
+        """The nodes of the parameter vector by name."""
+        return {p.name: self.program.input(PARAMETERS, index) for index, p in enumerate(self.parameters)}
+
+    def default_parameters(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+        """The parameter vector with nominal lengths and torque constants in place, zero elsewhere."""
+        known: dict[str, float] = {length.name: float(length.value) for length in self.robot.lengths}
+        drives = self.robot.drives
+        if drives is not None and self.torque_constants:
+            constants = drives.torque_constants[drives.torque_constant]
+            known |= {p.name: float(kt) for p, kt in zip(self.torque_constants, constants, strict=True)}
+        return np.array([known.get(parameter.name, 0.0) for parameter in self.parameters])
+
+    # -- signals --------------------------------------------------------------------------------------------------
+
+    def signal(self, name: str, size: int) -> Array:
+        """The nodes of an input signal."""
+        result = np.empty(size, dtype=object)
+        result[:] = [self.program.input(name, index) for index in range(size)]
+        return result
+
+    @property
+    def dof(self) -> int:
+        return len(self.robot.moving)
+
+    @cached_property
+    def elastic(self) -> tuple[int, ...]:
+        """Coordinates of the elastic joints."""
+        return tuple(k for k, joint in enumerate(self.robot.moving) if joint.number in self.robot.flexible)
+
+    @property
+    def flexible_dof(self) -> int:
+        """Size of q = [q_m; q_e]."""
+        return self.dof + len(self.elastic)
+
+    @cached_property
+    def q(self) -> Array:
+        return self.signal("q", self.dof)
+
+    @cached_property
+    def qd(self) -> Array:
+        return self.signal("qd", self.dof)
+
+    @cached_property
+    def qdd(self) -> Array:
+        return self.signal("qdd", self.dof)
+
+    @cached_property
+    def tau(self) -> Array:
+        return self.signal("tau", self.dof)
+
+    # -- models ---------------------------------------------------------------------------------------------------
+
+    def chain_at(self, q: Array) -> Chain:
+        """The chain with the joint variables read from ``q``."""
+        return build_chain(self.robot, self.program, self.lengths | self._variables(q))
+
+    @cached_property
+    def lengths(self) -> dict[sympy.Symbol, Node]:
+        """Nodes of the named lengths: numbers, or parameters where they stay symbolic."""
+        values: dict[sympy.Symbol, Node] = {}
+        for length in self.robot.lengths:
+            symbol = sympy.Symbol(length.name, real=True)
+            values[symbol] = (
+                self.parameter_nodes[length.name] if length.symbolic else lower(self.program, length.value, {})
+            )
+        return values
+
+    @cached_property
+    def chain(self) -> Chain:
+        return self.chain_at(self.q)
+
+    @cached_property
+    def kept(self) -> dict[str, Node]:
+        """Standard names of the kept parameters with the nodes of their base parameters."""
+        return {base.head: self.parameter_nodes[base.name] for base in self.grouping.base}
+
+    @cached_property
+    def standard_nodes(self) -> dict[str, Node]:
+        return {p.name: self.program.input(STANDARD, index) for index, p in enumerate(self.standard_parameters)}
+
+    @cached_property
+    def base(self) -> Dynamics:
+        """The dynamic model in base parameters."""
+        return Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd)
+
+    @cached_property
+    def standard(self) -> Dynamics:
+        """The dynamic model in standard parameters."""
+        return Dynamics(self.chain, self.effects, self.standard_nodes, self.qd, self.qdd)
+
+    @cached_property
+    def loaded(self) -> Dynamics:
+        """The model in base parameters with a payload in the tool frame, signal ``payload`` (report eq. 50)."""
+        return Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd, self._payload())
+
+    @cached_property
+    def flexible(self) -> FlexibleDynamics:
+        """The model with elastic drive trains, in base parameters on the link side."""
+        n, size = self.dof, self.flexible_dof
+        q, qd, qdd = (self.signal(name, size) for name in ("q", "qd", "qdd"))
+        at_links = []
+        for stacked in (q, qd, qdd):
+            link = stacked[:n].copy()
+            for k, joint in enumerate(self.elastic):
+                link[joint] = stacked[joint] + stacked[n + k]
+            at_links.append(link)
+        link = Dynamics(self.chain_at(at_links[0]), self.effects, self.kept, at_links[1], at_links[2])
+        return FlexibleDynamics(link, self.motor_effects, self.parameter_nodes, self.elastic, q, qd, qdd)
+
+    def _payload(self) -> Body:
+        nodes = self.signal("payload", len(INERTIAL))
+        return body(self.program, dict(zip(INERTIAL, nodes, strict=True)))
+
+    def _variables(self, q: Array) -> Mapping[sympy.Symbol, Node]:
+        return {joint.variable: q[index] for index, joint in enumerate(self.robot.moving) if joint.sigma != FIXED}

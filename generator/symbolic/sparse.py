@@ -1,0 +1,38 @@
+"""Regressors as columns of few entries: dense, or packed with their structure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from generator.symbolic.function import Sparsity
+from generator.symbolic.statements import Node, Program
+from generator.symbolic.vectors import Array, zeros
+
+#: Columns by parameter name, each {row: entry}.
+Columns = Mapping[str, Mapping[int, Node]]
+
+
+def dense(program: Program, columns: Columns, rows: int) -> Array:
+    """The matrix (rows x columns) with its structural zeros."""
+    matrix = zeros(program, rows, len(columns))
+    for k, column in enumerate(columns.values()):
+        for row, entry in column.items():
+            matrix[row, k] = entry
+    return matrix
+
+
+def sparsity(program: Program, columns: Columns, rows: int) -> Sparsity:
+    """Where the structural nonzeros stand, row by row."""
+    matrix = dense(program, columns, rows)
+    places = [(i, k) for i in range(rows) for k in range(len(columns)) if matrix[i, k] is not program.zero]
+    return Sparsity((rows, len(columns)), tuple(i for i, _ in places), tuple(k for _, k in places))
+
+
+def packed(program: Program, columns: Columns, rows: int) -> Array:
+    """The structural nonzeros, row by row."""
+    matrix, places = dense(program, columns, rows), sparsity(program, columns, rows)
+    entries = np.empty(len(places.rows), dtype=object)
+    entries[:] = [matrix[i, k] for i, k in zip(places.rows, places.columns, strict=True)]
+    return entries

@@ -1,0 +1,313 @@
+"""The straight-line program: hash-consed nodes that the recursions build and the backends print.
+
+A node is an operation on earlier nodes. Equal operations on equal arguments are the same node, so every common
+subexpression is shared by construction. Constants are exact fractions and are folded; zero and one disappear; signs are
+moved outwards, so that a unary minus (which the counts take as free) is the only place where a sign lives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Union
+
+Number = Union[int, Fraction]
+Operand = Union["Node", int, Fraction]
+
+#: Operations of one argument that are evaluated by the mathematics library of the target language.
+FUNCTIONS = ("sin", "cos", "sqrt", "log", "abs", "sign")
+
+#: Denominators beyond this belong to rounded irrational constants (see ``symbolic.lowering``).
+_EXACT_DENOMINATOR = 10**30
+_ROUNDING = Fraction(1, 10**40)
+
+
+class Node:
+    """One operation of a program; made by the program only, compared by identity.
+
+    ``operation`` is ``constant``, ``input``, ``add``, ``sub``, ``mul``, ``div``, ``neg``, ``pow`` or one of
+    ``FUNCTIONS``. ``value`` is the fraction of a constant, ``(signal, index)`` of an input, else None.
+    ``parameter_only`` tells that no input signal of the moving robot is among its ancestors.
+    """
+
+    __slots__ = ("program", "index", "operation", "arguments", "value", "parameter_only", "name")
+
+    def __init__(
+        self,
+        program: Program,
+        index: int,
+        operation: str,
+        arguments: tuple[Node, ...],
+        value: object,
+        parameter_only: bool,
+    ) -> None:
+        self.program = program
+        self.index = index
+        self.operation = operation
+        self.arguments = arguments
+        self.value = value
+        self.parameter_only = parameter_only
+        self.name: str | None = None
+
+    @property
+    def number(self) -> Fraction | None:
+        """The exact value of a constant, None for every other node."""
+        return self.value if isinstance(self.value, Fraction) else None
+
+    # An operand that is no number (an array, say) is given its own turn.
+    def __add__(self, other: Operand) -> Node:
+        return self.program.add(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __radd__(self, other: Operand) -> Node:
+        return self.program.add(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __sub__(self, other: Operand) -> Node:
+        return self + -self.program.node(other) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __rsub__(self, other: Operand) -> Node:
+        return -self + other if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __mul__(self, other: Operand) -> Node:
+        return self.program.multiply(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __rmul__(self, other: Operand) -> Node:
+        return self.program.multiply(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __truediv__(self, other: Operand) -> Node:
+        return self.program.divide(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __rtruediv__(self, other: Operand) -> Node:
+        return self.program.divide(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+
+    def __neg__(self) -> Node:
+        return self.program.negate(self)
+
+    def __repr__(self) -> str:
+        if self.operation == "constant":
+            return str(self.value)
+        if self.operation == "input":
+            signal, index = self.value  # type: ignore[misc]
+            return f"{signal}[{index}]"
+        return f"{self.operation}({', '.join(map(repr, self.arguments))})"
+
+
+_OPERANDS = (Node, int, Fraction)
+
+
+@dataclass(frozen=True)
+class Count:
+    """Operations of a piece of program: ``div`` counts quotients, ``trig`` sines and cosines, ``other`` the rest."""
+
+    mul: int = 0
+    add: int = 0
+    div: int = 0
+    trig: int = 0
+    other: int = 0
+
+    @property
+    def total(self) -> int:
+        """Multiplications, additions and divisions: the measure that the literature compares."""
+        return self.mul + self.add + self.div
+
+    def as_dict(self) -> dict[str, int]:
+        return {"mul": self.mul, "add": self.add, "div": self.div, "trig": self.trig, "other": self.other}
+
+
+class Program:
+    """Owner of the nodes; every node is made here, once.
+
+    ``parameter_signals`` are the input signals that do not change while the robot moves: what depends on them alone
+    can be computed once (``prepare``).
+    """
+
+    def __init__(self, parameter_signals: Iterable[str] = ("parameters",)) -> None:
+        self._nodes: dict[tuple[object, ...], Node] = {}
+        self._parameter_signals = frozenset(parameter_signals)
+        self.zero = self.constant(0)
+        self.one = self.constant(1)
+
+    def __len__(self) -> int:
+        return len(self._nodes)
+
+    # -- leaves ---------------------------------------------------------------------------------------------------
+
+    def constant(self, value: Number) -> Node:
+        """The node of an exact constant; a rounded irrational that meets an integer is that integer."""
+        exact = Fraction(value)
+        if exact.denominator > _EXACT_DENOMINATOR and abs(exact - round(exact)) < _ROUNDING:
+            exact = Fraction(round(exact))
+        return self._intern("constant", (), exact)
+
+    def input(self, signal: str, index: int) -> Node:
+        """Element ``index`` (row-major) of an input signal."""
+        return self._intern("input", (), (signal, index))
+
+    def node(self, operand: Operand) -> Node:
+        return operand if isinstance(operand, Node) else self.constant(operand)
+
+    # -- operations -----------------------------------------------------------------------------------------------
+
+    def negate(self, a: Node) -> Node:
+        if a.operation == "neg":
+            return a.arguments[0]
+        if a.number is not None:
+            return self.constant(-a.number)
+        return self._intern("neg", (a,))
+
+    def add(self, a: Node, b: Node) -> Node:
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number + b.number)
+        if a is self.zero:
+            return b
+        if b is self.zero:
+            return a
+        negative_a, size_a = self._sign_and_size(a)
+        negative_b, size_b = self._sign_and_size(b)
+        if size_a is size_b:
+            return self.zero if negative_a != negative_b else self.multiply(self.constant(2), a)
+        if size_a.index > size_b.index:
+            negative_a, negative_b, size_a, size_b = negative_b, negative_a, size_b, size_a
+        if negative_a and negative_b:
+            return self.negate(self._intern("add", (size_a, size_b)))
+        if negative_a != negative_b:
+            difference = self._intern("sub", (size_a, size_b))
+            return self.negate(difference) if negative_a else difference
+        return self._intern("add", (size_a, size_b))
+
+    def multiply(self, a: Node, b: Node) -> Node:
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number * b.number)
+        if a is self.zero or b is self.zero:
+            return self.zero
+        negative_a, size_a = self._sign_and_size(a)
+        negative_b, size_b = self._sign_and_size(b)
+        if negative_a != negative_b:
+            return self.negate(self.multiply(size_a, size_b))
+        if size_a is self.one:
+            return size_b
+        if size_b is self.one:
+            return size_a
+        if size_b.number is not None or (size_a.number is None and size_a.index > size_b.index):
+            size_a, size_b = size_b, size_a
+        if size_a.number is not None and size_b.operation == "mul" and size_b.arguments[0].number is not None:
+            return self.multiply(self.constant(size_a.number * size_b.arguments[0].number), size_b.arguments[1])
+        return self._intern("mul", (size_a, size_b))
+
+    def divide(self, a: Node, b: Node) -> Node:
+        if b is self.zero:
+            raise ZeroDivisionError("a program divides by the constant 0")
+        if b.number is not None:
+            return self.multiply(a, self.constant(1 / b.number))
+        if a is self.zero:
+            return self.zero
+        negative_a, size_a = self._sign_and_size(a)
+        negative_b, size_b = self._sign_and_size(b)
+        if negative_a != negative_b:
+            return self.negate(self.divide(size_a, size_b))
+        if size_a is size_b:
+            return self.one
+        return self._intern("div", (size_a, size_b))
+
+    def power(self, base: Node, exponent: Fraction) -> Node:
+        """``base`` to an exact power; small integer powers become products, one half a square root."""
+        if exponent == 0:
+            return self.one
+        if exponent < 0:
+            return self.divide(self.one, self.power(base, -exponent))
+        if exponent == Fraction(1, 2):
+            return self.function("sqrt", base)
+        if exponent.denominator == 1 and exponent <= 8:
+            half = self.power(base, Fraction(int(exponent) // 2))
+            square = self.multiply(half, half)
+            return self.multiply(square, base) if int(exponent) % 2 else square
+        return self._intern("pow", (base, self.constant(exponent)))
+
+    def function(self, name: str, a: Node) -> Node:
+        """``sin``, ``cos``, ``sqrt``, ``log``, ``abs`` or ``sign`` of a node (sign(0) = 0)."""
+        if name not in FUNCTIONS:
+            raise ValueError(f"unknown function {name!r}")
+        if a.number is not None:
+            folded = _fold(name, a.number)
+            if folded is not None:
+                return self.constant(folded)
+        negative, size = self._sign_and_size(a)
+        if negative and name in ("sin", "sign"):
+            return self.negate(self.function(name, size))
+        if negative and name in ("cos", "abs"):
+            return self.function(name, size)
+        return self._intern(name, (a,))
+
+    # -- reading --------------------------------------------------------------------------------------------------
+
+    def reachable(self, outputs: Iterable[Node], known: Iterable[Node] = ()) -> list[Node]:
+        """The nodes that ``outputs`` need, arguments before their users; ``known`` nodes are not entered.
+
+        The order is depth first with the deeper argument first, which keeps few intermediate results alive.
+        """
+        done = set(known)
+        ordered: list[Node] = []
+        for output in outputs:
+            stack: list[tuple[Node, Iterator[Node]]] = []
+            if output not in done:
+                stack.append((output, iter(_deep_first(output))))
+                done.add(output)
+            while stack:
+                node, pending = stack[-1]
+                for argument in pending:
+                    if argument not in done:
+                        done.add(argument)
+                        stack.append((argument, iter(_deep_first(argument))))
+                        break
+                else:
+                    ordered.append(node)
+                    stack.pop()
+        return ordered
+
+    def count(self, nodes: Iterable[Node]) -> Count:
+        """Operation count of a list of nodes; a unary minus is free."""
+        tally = {"mul": 0, "add": 0, "div": 0, "trig": 0, "other": 0}
+        kind = {"mul": "mul", "add": "add", "sub": "add", "div": "div", "sin": "trig", "cos": "trig"}
+        for node in nodes:
+            if node.operation not in ("constant", "input", "neg"):
+                tally[kind.get(node.operation, "other")] += 1
+        return Count(**tally)
+
+    # -- making ---------------------------------------------------------------------------------------------------
+
+    def _sign_and_size(self, a: Node) -> tuple[bool, Node]:
+        if a.operation == "neg":
+            return True, a.arguments[0]
+        if a.number is not None and a.number < 0:
+            return True, self.constant(-a.number)
+        return False, a
+
+    def _intern(self, operation: str, arguments: tuple[Node, ...], value: object = None) -> Node:
+        key = (operation, value, *(argument.index for argument in arguments))
+        node = self._nodes.get(key)
+        if node is None:
+            if operation == "input":
+                parameter_only = value[0] in self._parameter_signals  # type: ignore[index]
+            else:
+                parameter_only = all(argument.parameter_only for argument in arguments)
+            node = Node(self, len(self._nodes), operation, arguments, value, parameter_only)
+            self._nodes[key] = node
+        return node
+
+
+def _deep_first(node: Node) -> list[Node]:
+    return sorted(node.arguments, key=lambda argument: -argument.index)
+
+
+def _fold(name: str, a: Fraction) -> Fraction | None:
+    if name == "abs":
+        return abs(a)
+    if name == "sign":
+        return Fraction((a > 0) - (a < 0))
+    if a == 0 and name in ("sin", "sqrt"):
+        return Fraction(0)
+    if (a == 0 and name == "cos") or (a == 1 and name == "sqrt"):
+        return Fraction(1)
+    if a == 1 and name == "log":
+        return Fraction(0)
+    return None
