@@ -97,21 +97,29 @@ def build_chain(robot: Robot, program: Program, values: Mapping[sympy.Symbol, No
 
 def _transform(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> tuple[Array, Array]:
     """Rotation and origin of frame j in frame a(j): Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) ..."""
-    ct, st = _cosine_sine(joint.theta, program, values)
-    ca, sa = _cosine_sine(joint.alpha, program, values)
-    cg, sg = _cosine_sine(joint.gamma, program, values)
+    ct, st = cosine_sine(joint.theta, program, values)
+    entry = entry_rotation(joint, program, values)
     d, r, b = (lower(program, length, values) for length in (joint.d, joint.r, joint.b))
-    about_x = array(program, [[ct, -st, 0], [ca * st, ca * ct, -sa], [sa * st, sa * ct, ca]])
-    along = array(program, [d, -(sa * r), b + ca * r])
+    spin = array(program, [[ct, -st, 0], [st, ct, 0], [0, 0, 1]])
+    z = array(program, [0, 0, b])
+    return entry @ spin, z + d * entry[:, 0] + r * entry[:, 2]
+
+
+def entry_rotation(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> Array:
+    """Rot(z, gamma) Rot(x, alpha) (3 x 3): the part of frame j's rotation that comes before the joint's angle."""
+    ca, sa = cosine_sine(joint.alpha, program, values)
+    about_x = array(program, [[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
     if joint.gamma == 0:
-        return about_x, along
-    about_z = array(program, [[cg, -sg, 0], [sg, cg, 0], [0, 0, 1]])
-    return about_z @ about_x, about_z @ along
+        return about_x
+    cg, sg = cosine_sine(joint.gamma, program, values)
+    return array(program, [[cg, -sg, 0], [sg, cg, 0], [0, 0, 1]]) @ about_x
 
 
-def _cosine_sine(angle: sympy.Expr, program: Program, values: Mapping[sympy.Symbol, Node]) -> tuple[Node, Node]:
+def cosine_sine(angle: sympy.Expr, program: Program, values: Mapping[sympy.Symbol, Node]) -> tuple[Node, Node]:
     """Cosine and sine of an exact angle; quarter turns are taken out exactly, so that no 6e-17 is ever printed."""
-    constant, variable = angle.as_independent(*angle.free_symbols, as_Add=True) if angle.free_symbols else (angle, 0)
+    variable, constant = sympy.Integer(0), angle
+    if angle.free_symbols:
+        constant, variable = angle.as_independent(*angle.free_symbols, as_Add=True)
     quarters = 2 * constant / sympy.pi
     if variable == 0 or not quarters.is_Integer:
         return lower(program, sympy.cos(angle), values), lower(program, sympy.sin(angle), values)

@@ -192,6 +192,9 @@ class Program:
             size_a, size_b = size_b, size_a
         if size_a.number is not None and size_b.operation == "mul" and size_b.arguments[0].number is not None:
             return self.multiply(self.constant(size_a.number * size_b.arguments[0].number), size_b.arguments[1])
+        gathered = self._gathered_product(size_a, size_b) or self._gathered_product(size_b, size_a)
+        if gathered is not None:
+            return gathered
         return self._intern("mul", (size_a, size_b))
 
     def divide(self, a: Node, b: Node) -> Node:
@@ -274,6 +277,28 @@ class Program:
         return Count(**tally)
 
     # -- making ---------------------------------------------------------------------------------------------------
+
+    def _gathered_sum(self, a: Node, size: Node, negative: bool) -> Node | None:
+        """a +- (p +- x) as (a +- p) +- x where a and p are parameter-only: never longer at each call."""
+        if not a.parameter_only or size.parameter_only or size.operation not in ("add", "sub"):
+            return None
+        first, second = size.arguments
+        if size.operation == "sub":
+            second = self.negate(second)
+        if negative:
+            first, second = self.negate(first), self.negate(second)
+        if first.parameter_only:
+            return self.add(self.add(a, first), second)
+        return self.add(self.add(a, second), first) if second.parameter_only else None
+
+    def _gathered_product(self, a: Node, b: Node) -> Node | None:
+        """a (p x) as (a p) x where a and p are parameter-only."""
+        if not a.parameter_only or b.parameter_only or b.operation != "mul":
+            return None
+        first, second = b.arguments
+        if first.parameter_only:
+            return self.multiply(self.multiply(a, first), second)
+        return self.multiply(self.multiply(a, second), first) if second.parameter_only else None
 
     def _sign_and_size(self, a: Node) -> tuple[bool, Node]:
         if a.operation == "neg":

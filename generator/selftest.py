@@ -1,0 +1,87 @@
+"""Cases that a generated self-test checks: random physical parameters and states, with outputs that the independent
+numerical implementation computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.reference.joint_effects import LAWS
+from generator.reference.quantities import NAMES, reference
+from generator.reference.sample import payload, physical_parameters, positions, signal
+from generator.robot.description import ParameterValue
+from generator.symbolic.function import Function, Signal
+from generator.symbolic.model import STANDARD, Model
+from generator.symbolic.parameter_sets import parameter_vector
+
+#: States per function.
+_STATES = 3
+#: Relative to an output's largest entry; a direct model loses what its inertia matrix's condition costs.
+_TOLERANCE, _DIRECT_TOLERANCE = 1e-11, 1e-8
+_PACKED = "_packed"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One function at one state: flat row-major inputs and outputs by signal name, in SI units.
+
+    ``tolerance`` is relative to the largest entry of each output, in double precision.
+    """
+
+    function: str
+    parameters: tuple[float, ...]
+    inputs: Mapping[str, tuple[float, ...]]
+    outputs: Mapping[str, tuple[float, ...]]
+    tolerance: float
+
+
+def cases(model: Model) -> tuple[Case, ...]:
+    """Cases for every function that the independent implementation knows.
+
+    It knows none of a robot with an effect that has no law there.
+    """
+    if any(use.effect not in LAWS for use in model.robot.effects):
+        return ()
+    values = physical_parameters(model.robot, 1)
+    given = {name: ParameterValue(value, "") for name, value in values.items()}
+    parameters = tuple(float(value) for value in parameter_vector(model, given))
+    standard = tuple(values[parameter.name] for parameter in model.standard_parameters)
+    result = []
+    for function in model.functions.values():
+        if function.name.removesuffix(_PACKED) not in NAMES:
+            continue
+        for state in range(_STATES):
+            inputs = {s.name: _input(model, s, state, standard) for s in function.inputs}
+            tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
+            outputs = _outputs(model, function, values, inputs)
+            result.append(Case(function.name, parameters, inputs, outputs, tolerance))
+    return tuple(result)
+
+
+def _input(model: Model, wanted: Signal, state: int, standard: tuple[float, ...]) -> tuple[float, ...]:
+    """A signal of one state: positions within the limits, a physical payload, else numbers of mixed signs."""
+    if wanted.name == STANDARD:
+        return standard
+    if wanted.name == "q":
+        elongations = signal(len(model.elastic), state, 0.01)
+        return (*positions(model.robot, state), *elongations)[: wanted.size]
+    if wanted.name == "payload":
+        return tuple(payload(state))
+    # Each signal draws its own numbers: qd and qdd must not be equal.
+    return tuple(signal(wanted.size, state + 10 * len(wanted.name), 2.0))
+
+
+def _outputs(
+    model: Model, function: Function, values: Mapping[str, float], inputs: Mapping[str, Sequence[float]]
+) -> dict[str, tuple[float, ...]]:
+    heads = [base.head for base in model.grouping.base]
+    columns = [parameter.name for parameter in model.standard_parameters]
+    if "standard" not in function.name:
+        columns = heads + [parameter.name for parameter in model.motor_parameters] * ("flexible" in function.name)
+    computed = reference(model.robot, function.name.removesuffix(_PACKED), values, inputs, columns)
+    if function.sparsity is not None:
+        places = (list(function.sparsity.rows), list(function.sparsity.columns))
+        computed = {name: matrix[places] for name, matrix in computed.items()}
+    return {name: tuple(float(entry) for entry in np.ravel(value)) for name, value in computed.items()}

@@ -1,0 +1,185 @@
+"""Inertia matrix with few operations: composite bodies in pseudo-inertia form, and screws that meet their wrenches.
+
+A composite body is summed in own axes, turned once into the unspun axes of its segment, and handed on there. The wrench
+of each unit acceleration travels towards the base as far as the frame ``meeting``; there the screws of the joints before it
+are known, and one product gives each entry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from generator.symbolic.bodies import Body
+from generator.symbolic.frames import Chain, Frame
+from generator.symbolic.gauge import Gauge, Regauged, regauge
+from generator.symbolic.kinematics import Screw
+from generator.symbolic.lean_screws import own_screws
+from generator.symbolic.matter import Matter, inertia, moved, unspun
+from generator.symbolic.newton_euler import Wrench
+from generator.symbolic.segments import Spun, segments
+from generator.symbolic.statements import Node
+from generator.symbolic.vectors import Array, array, cross, identity, zeros
+
+
+def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge, meeting: int = 0) -> Array:
+    """M(q) (n x n, symmetric) of the bodies, as ``inertia.inertia_matrix`` gives it.
+
+    ``meeting`` is the number of the frame where screws take over, 0 for none.
+    """
+    spun = segments(chain)
+    chosen = regauge(chain, bodies, gauge)
+    met = {frame.number for frame in chain.frames[meeting - 1].path()} if meeting else set()
+    points = _meeting_points(chain, chosen, meeting)
+    own, in_unspun, about_z = _composites(chain, spun, chosen, met, points)
+    screws = own_screws(chain, spun, chosen.positions) if meeting else {}
+    result = zeros(chain.program, chain.dof, chain.dof)
+    for frame in chain.frames:
+        if frame.number in met:
+            if frame.number in own:
+                point = points.get(frame.number, zeros(chain.program, 3))
+                _add_body(result, own[frame.number], {c: at(s, point) for c, s in screws[frame.number].items()})
+        elif frame.coordinate is not None and frame.number in in_unspun:
+            wrench = _unit_acceleration(frame, in_unspun[frame.number], about_z[frame.number])
+            _project(result, frame, spun, chosen, wrench, meeting, screws)
+    return result
+
+
+def _composites(
+    chain: Chain, spun: Mapping[int, Spun], chosen: Regauged, met: set[int], points: Mapping[int, Array]
+) -> tuple[dict[int, Matter], dict[int, Matter], dict[int, Node]]:
+    """For each frame, all matter it carries: in own axes, in unspun axes, and its moment of inertia about z.
+
+    Frames in ``met`` hand nothing on.
+    """
+    program = chain.program
+    own: dict[int, Matter] = dict(chosen.parts)
+    for j, point in points.items():
+        own[j] = moved(own[j], identity(program, 3), -point)
+    in_unspun: dict[int, Matter] = {}
+    about_z: dict[int, Node] = {}
+    for frame in reversed(chain.frames):
+        j, link = frame.number, spun[frame.number]
+        if j in met:
+            continue
+        if j in in_unspun:
+            about_z[j] = _about_z(in_unspun[j])
+        if j in own:
+            about_z[j] = about_z.get(j, program.zero) + _about_z(own[j])
+            _add(in_unspun, j, unspun(own[j], link))
+        if j not in in_unspun or frame.parent is None:
+            continue
+        k, position = frame.parent.number, chosen.positions[j]
+        if link.continues and k not in met:
+            _add(in_unspun, k, moved(in_unspun[j], identity(program, 3), spun[k].to_unspun(position)))
+        elif link.continues:
+            _add(own, k, moved(own[j], spun[k].relative(link), position))
+        else:
+            _add(own, k, moved(in_unspun[j], link.entry, position - points.get(k, zeros(program, 3))))
+    return own, in_unspun, about_z
+
+
+def _about_z(part: Matter) -> Node:
+    total: Node = part.sigma[0, 0] + part.sigma[1, 1]
+    return total
+
+
+def _add(matter: dict[int, Matter], j: int, more: Matter) -> None:
+    matter[j] = matter[j] + more if j in matter else more
+
+
+def _unit_acceleration(frame: Frame, composite: Matter, about_z: Node) -> Wrench:
+    """The wrench, in unspun axes, that gives a composite body a unit acceleration of the joint that carries it.
+
+    ``about_z`` is its moment of inertia about z, which turning the body about z leaves alone.
+    """
+    program = composite.mass.program
+    mx, my, _ = composite.moment
+    across = array(program, [-my, mx, 0])
+    if frame.prismatic:
+        return Wrench(array(program, [0, 0, composite.mass]), -across)
+    s = composite.sigma
+    return Wrench(across, array(program, [-s[0, 2], -s[1, 2], about_z]))
+
+
+def _add_body(result: Array, part: Matter, carried_by: Mapping[int, Screw]) -> None:
+    """What one body adds to the entries of all joints that carry it: s_i . (I s_k)."""
+    tensor = inertia(part)
+    for k, screw in carried_by.items():
+        f = part.mass * screw.v + cross(screw.w, part.moment)
+        n = tensor @ screw.w + cross(part.moment, screw.v)
+        for i, other in carried_by.items():
+            if i < k:
+                _put(result, i, k, result[i, k] + power(other, Wrench(f, n)))
+        _put(result, k, k, result[k, k] + _twice_energy(part, screw))
+
+
+def _twice_energy(part: Matter, screw: Screw) -> Node:
+    """s . (I s) of one screw: w.Jw + 2 v.(w x MS) + M v.v, with w.w = 1 taken out of the first term."""
+    w, s = screw.w, part.sigma
+    program = part.mass.program
+    turning = [i for i in range(3) if w[i] is not program.zero]
+    total = part.mass * (screw.v @ screw.v) + 2 * (screw.v @ cross(w, part.moment))
+    if turning:
+        last = turning[-1]
+        total = total + s[(last + 1) % 3, (last + 1) % 3] + s[(last + 2) % 3, (last + 2) % 3]
+        for place, i in enumerate(turning[:-1]):
+            row = w[i] * (s[last, last] - s[i, i])
+            for k in turning[place + 1 :]:
+                row = row - w[k] * (2 * s[i, k])
+            total = total + w[i] * row
+    return total
+
+
+def _project(
+    result: Array,
+    frame: Frame,
+    spun: Mapping[int, Spun],
+    chosen: Regauged,
+    wrench: Wrench,
+    meeting: int,
+    screws: Mapping[int, Mapping[int, Screw]],
+) -> None:
+    """Fills the entries of a joint with itself and with every joint that carries it."""
+    column = frame.coordinate
+    assert column is not None
+    for carrier in frame.path():
+        row = carrier.coordinate
+        if row is not None:
+            _put(result, row, column, wrench.n[2] if carrier.revolute else wrench.f[2])
+        if carrier.parent is None:
+            return
+        link, below = spun[carrier.number], spun[carrier.parent.number]
+        position = chosen.positions[carrier.number]
+        if link.continues:
+            arm = below.to_unspun(position)
+            wrench = Wrench(wrench.f, wrench.n + cross(arm, wrench.f))
+            continue
+        f, n = link.entry @ wrench.f, link.entry @ wrench.n
+        if carrier.parent.number == meeting:
+            for i, screw in screws[meeting].items():
+                there = at(screw, position)
+                _put(result, i, column, power(there, Wrench(f, n)))
+            return
+        n = n + cross(position, f)
+        wrench = Wrench(below.to_unspun(f), below.to_unspun(n))
+
+
+def _meeting_points(chain: Chain, chosen: Regauged, meeting: int) -> dict[int, Array]:
+    """Where the meeting frame's own body is reckoned: at the origin of the one frame that it carries, if it is one."""
+    carried = [frame for frame in chain.frames if frame.parent is not None and frame.parent.number == meeting]
+    return {meeting: chosen.positions[carried[0].number]} if len(carried) == 1 else {}
+
+
+def at(screw: Screw, point: Array) -> Screw:
+    """The same motion at another point of the frame."""
+    return Screw(screw.w, screw.v + cross(screw.w, point))
+
+
+def power(screw: Screw, wrench: Wrench) -> Node:
+    """Power of a wrench along a screw, both in the same axes at the same point."""
+    total: Node = screw.w @ wrench.n + screw.v @ wrench.f
+    return total
+
+
+def _put(result: Array, i: int, k: int, entry: Node) -> None:
+    result[i, k] = result[k, i] = entry

@@ -1,0 +1,102 @@
+"""From named parameter values, base or standard, to the vectors that the functions read."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from generator.robot.description import ParameterValue
+from generator.robot.parameter_file import UNSTATED
+from generator.robot.parameters import Parameter
+from generator.symbolic.model import Model
+
+Vector = NDArray[np.float64]
+Values = Mapping[str, ParameterValue]
+
+
+def parameter_vector(model: Model, values: Values) -> Vector:
+    """The vector ``parameters`` [SI], in the order of ``model.parameters``.
+
+    Standard parameters become base parameters through the groupings. A base or standard parameter that ``values``
+    lacks is zero (not essential); a length or a torque constant that it lacks is the robot's own.
+
+    Raises InputError for an unknown name, a wrong unit, and base beside standard parameters.
+    """
+    _, standard = _kinds(model, values)
+    vector = model.default_parameters()
+    for index, parameter in enumerate(model.parameters):
+        if parameter.name in values:
+            vector[index] = values[parameter.name].value
+    if standard:
+        vector[: len(model.base_parameters)] = _grouped(model, values)
+    return vector
+
+
+def standard_vector(model: Model, values: Values) -> Vector:
+    """The vector ``standard_parameters`` [SI], in the order of ``model.standard_parameters``; zero where not given.
+
+    Raises InputError as ``parameter_vector`` does, and for a base parameter that was grouped: it has no one standard
+    value.
+    """
+    base, _ = _kinds(model, values)
+    if base:
+        raise InputError(values[base[0]].place, f"{base[0]} is a base parameter", "standard parameters alone")
+    return np.array([_number(values, parameter.name) for parameter in model.standard_parameters])
+
+
+def resolved_sets(model: Model) -> dict[str, dict[str, float]]:
+    """The robot's parameter sets by name, each as values of all of ``model.parameters``."""
+    names = [parameter.name for parameter in model.parameters]
+    return {
+        name: dict(zip(names, parameter_vector(model, one.values).tolist(), strict=True))
+        for name, one in model.robot.parameter_sets.items()
+    }
+
+
+def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
+    """The names of ``values`` that only base and that only standard parameters have, one of the two empty."""
+    base = {parameter.name: parameter for parameter in model.parameters}
+    standard = {parameter.name: parameter for parameter in model.standard_parameters}
+    for name, value in values.items():
+        _check(name, value, standard | base)
+    base_only = [name for name in values if name not in standard and name in model.grouping.numbers]
+    standard_only = [name for name in values if name not in base]
+    if base_only and standard_only:
+        raise InputError(
+            values[standard_only[0]].place,
+            f"the standard parameter {standard_only[0]} beside the base parameter {base_only[0]}",
+            "parameters of one kind",
+        )
+    return base_only, standard_only
+
+
+def _check(name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> None:
+    if name not in known:
+        near = difflib.get_close_matches(name, known, n=1)
+        expected = f"{near[0]!r} perhaps" if near else f"one of {', '.join(known)}"
+        raise InputError(value.place, f"the robot has no parameter {name!r}", expected)
+    if value.unit not in (UNSTATED, known[name].unit):
+        raise InputError(value.place, f"{name} is given in {value.unit}", known[name].unit)
+
+
+def _grouped(model: Model, values: Values) -> list[float]:
+    """Base parameters [SI] as sums of standard ones, at the lengths of ``values`` where it has them."""
+    lengths = {
+        sympy.Symbol(length.name, real=True): (
+            sympy.Rational(values[length.name].value) if length.symbolic and length.name in values else length.value
+        )
+        for length in model.robot.lengths
+    }
+    return [
+        sum(float(coefficient.subs(lengths)) * _number(values, name) for coefficient, name in base.terms)
+        for base in model.grouping.base
+    ]
+
+
+def _number(values: Values, name: str) -> float:
+    return values[name].value if name in values else 0.0

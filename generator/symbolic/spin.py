@@ -1,0 +1,106 @@
+"""Rotation of the bodies with few operations: angular velocity, its products, and U = skew(wd) + skew(w)^2.
+
+U of a body, written in its own or in its unspun axes, has as third column U z, and that column is the antecedent's:
+the axis z_j is fixed in the antecedent, so U_j z_j = U_a(j) z_j. It gives the angular acceleration across z without
+turning one, and its last entry gives the sum of two squares.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.symbolic.segments import Spun
+from generator.symbolic.statements import Node, Program
+from generator.symbolic.vectors import Array, skew, zeros
+
+
+@dataclass(frozen=True)
+class Spin:
+    """Rotation of a body in some axes: ``w`` (3), products ``ww`` = w w^T (3 x 3), ``wd`` (3), ``u`` (3 x 3)."""
+
+    w: Array
+    ww: Array
+    wd: Array
+    u: Array
+
+    def turned(self, entry: Array) -> Spin:
+        """The same rotation in the axes that are the columns of ``entry``, a matrix of zeros and signs."""
+        back = entry.T
+        return Spin(back @ self.w, back @ self.ww @ entry, back @ self.wd, back @ self.u @ entry)
+
+
+def standing(program: Program) -> Spin:
+    """The base."""
+    return Spin(zeros(program, 3), zeros(program, 3, 3), zeros(program, 3), zeros(program, 3, 3))
+
+
+def spin_from_rates(w: Array, wd: Array) -> Spin:
+    """The rotation with everything computed from w and wd: where no product is known."""
+    ww = np.empty((3, 3), dtype=object)
+    for i in range(3):
+        for k in range(i, 3):
+            ww[i, k] = ww[k, i] = w[i] * w[k]
+    u = skew(wd) + ww
+    for i in range(3):
+        u[i, i] = -(ww[(i + 1) % 3, (i + 1) % 3] + ww[(i + 2) % 3, (i + 2) % 3])
+    return Spin(w, ww, wd, u)
+
+
+def entered(spun: Spun, before: Spin) -> Spin:
+    """The antecedent's rotation in the unspun axes of a frame."""
+    if spun.continues:
+        return before
+    if spun.quarter:
+        return before.turned(spun.entry)
+    back = spun.entry.T
+    return spin_from_rates(back @ before.w, back @ before.wd)
+
+
+def with_rate(carried: Spin, rate: Node, acceleration: Node) -> Spin:
+    """The rotation of a body that turns about z at ``rate`` on what carries it, in unspun axes."""
+    w = np.array([carried.w[0], carried.w[1], carried.w[2] + rate], dtype=object)
+    return _completed(w, carried.ww[:2, :2], carried.u[:, 2], carried.wd[2] + acceleration)
+
+
+def in_own_axes(unspun: Spin, spun: Spun) -> Spin:
+    """The same rotation in the frame's own axes."""
+    w, column = spun.to_own(unspun.w), spun.to_own(unspun.u[:, 2])
+    first = w[0] * w[0]
+    mixed = w[0] * w[1]
+    across = np.array([[first, mixed], [mixed, -(column[2] + first)]], dtype=object)
+    return _completed(w, across, column, unspun.wd[2])
+
+
+def _completed(w: Array, across: Array, column: Array, spin_up: Node) -> Spin:
+    """U and the products from w, the products of w1 and w2, the third column of U and wd3."""
+    p13, p23, p33 = w[0] * w[2], w[1] * w[2], w[2] * w[2]
+    (p11, p12), (_, p22) = across
+    ww = np.array([[p11, p12, p13], [p12, p22, p23], [p13, p23, p33]], dtype=object)
+    wd = np.array([p23 - column[1], column[0] - p13, spin_up], dtype=object)
+    u = np.array(
+        [
+            [-(p22 + p33), p12 - spin_up, column[0]],
+            [p12 + spin_up, -(p11 + p33), column[1]],
+            [p13 - wd[1], p23 + wd[0], column[2]],
+        ],
+        dtype=object,
+    )
+    return Spin(w, ww, wd, u)
+
+
+def moment(spin: Spin, sigma: Array) -> Array:
+    """The moment that turns a body about its origin: vee(U S - (U S)^T) with S = (tr J / 2) I - J its pseudo-inertia.
+
+    Equal to J wd + w x J w; written by differences of products of w, which are shared over the body's six terms.
+    """
+    u, ww, s = spin.u, spin.ww, sigma
+    return np.array(
+        [
+            u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + (ww[2, 2] - ww[1, 1]) * s[1, 2] + u[2, 0] * s[0, 1] - u[1, 0] * s[0, 2],
+            u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + (ww[0, 0] - ww[2, 2]) * s[0, 2] + u[0, 1] * s[1, 2] - u[2, 1] * s[0, 1],
+            u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1] + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
+        ],
+        dtype=object,
+    )
