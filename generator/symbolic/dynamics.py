@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from generator.effects.library import Instance
-from generator.symbolic import effect_torques, newton_euler
+from generator.symbolic import effect_torques, lean_newton_euler, newton_euler, strategy
 from generator.symbolic.bodies import Body, bodies
 from generator.symbolic.direct import solve
 from generator.symbolic.effect_torques import JointMotion
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.inertia import inertia_matrix
-from generator.symbolic.kinematics import velocities
+from generator.symbolic.kinematics import Screw, screws, velocities
+from generator.symbolic.lean_screws import own_screws
 from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.regressor import column
-from generator.symbolic.kinematics import screws
 from generator.symbolic.statements import Node
+from generator.symbolic.strategy import TEXTBOOK, Strategies
 from generator.symbolic.vectors import Array, cross, zeros
 
 
@@ -26,7 +26,7 @@ class Dynamics:
     """A chain with its effects, at joint speeds ``qd`` and accelerations ``qdd`` (n each).
 
     ``parameters`` maps the standard names of the parameters that are kept to their nodes; what is absent is zero.
-    ``payload`` is an additional body in the tool frame (report eq. 50).
+    ``strategies`` says how the equations are written. ``payload`` is an additional body in the tool frame (report eq. 50).
     """
 
     chain: Chain
@@ -35,6 +35,7 @@ class Dynamics:
     qd: Sequence[Node]
     qdd: Sequence[Node]
     payload: Body | None = None
+    strategies: Strategies = TEXTBOOK
 
     @cached_property
     def matter(self) -> dict[int, Body]:
@@ -67,15 +68,14 @@ class Dynamics:
     @cached_property
     def gravity(self) -> Array:
         """Torque of the bodies' weight alone; balancers and offsets are effects and are not in it."""
-        motion = newton_euler.motions(self.chain, self.still, self.still)
-        return newton_euler.inverse_dynamics(self.chain, motion, self.matter)
+        return strategy.torques(self.chain, self.matter, self.still, self.still, self.strategies.gravity)
 
     @cached_property
     def inertia_matrix(self) -> Array:
         """M(q) with the rotors' inertias (report eq. 2, 5)."""
         motion = self.joint_motion(self.qd, self.still)
         rotors = effect_torques.inertia(self.chain, self.effects, motion, self.parameters)
-        return inertia_matrix(self.chain, self.matter) + rotors
+        return strategy.inertia_matrix(self.chain, self.matter, self.strategies.inertia) + rotors
 
     def direct_dynamics(self, tau: Sequence[Node], wrench: Wrench | None = None) -> Array:
         """qdd from tau (report eq. 6)."""
@@ -109,9 +109,8 @@ class Dynamics:
 
     def regressor_columns(self, names: Iterable[str]) -> dict[str, dict[int, Node]]:
         """Columns of the regressor (report eq. 3) by standard parameter, each {coordinate: entry}."""
-        motion = newton_euler.motions(self.chain, self.qd, self.qdd)
+        motion, carried_by = self._motion_and_screws()
         of_effects = effect_torques.columns(self.chain, self.effects, self.joint_motion(self.qd, self.qdd))
-        carried_by = screws(self.chain)
         frames = {str(frame.number): frame for frame in self.chain.frames}
         result = {}
         for name in names:
@@ -123,9 +122,18 @@ class Dynamics:
                 result[name] = column(self.chain, frame, stem, motion[frame.number], carried_by[frame.number])
         return result
 
+    def _motion_and_screws(self) -> tuple[Mapping[int, Motion], Mapping[int, Mapping[int, Screw]]]:
+        """Motion and screws of every frame in its own axes at its origin."""
+        if self.strategies.torque is None:
+            return newton_euler.motions(self.chain, self.qd, self.qdd), screws(self.chain)
+        return lean_newton_euler.own_motions(self.chain, self.qd, self.qdd), own_screws(self.chain)
+
     def _torques(self, qd: Sequence[Node], qdd: Sequence[Node], wrench: Wrench | None) -> Array:
-        motion: dict[int, Motion] = newton_euler.motions(self.chain, qd, qdd)
-        of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
+        if wrench is None:
+            of_bodies = strategy.torques(self.chain, self.matter, qd, qdd, self.strategies.torque)
+        else:
+            motion = newton_euler.motions(self.chain, qd, qdd)
+            of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
         return of_bodies + effect_torques.torques(
             self.chain, self.effects, self.joint_motion(qd, qdd), self.parameters
         )

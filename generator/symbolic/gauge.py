@@ -28,6 +28,10 @@ class Gauge:
     slide: bool = True
     balance: tuple[int, ...] = ()
 
+    def __str__(self) -> str:
+        joints = ", ".join(map(str, self.balance))
+        return f", a mass kept at O{joints} against a first moment" if self.balance else ""
+
 
 @dataclass(frozen=True)
 class Regauged:
@@ -89,6 +93,7 @@ def _slid(frame: Frame, part: Matter) -> tuple[Matter, Array]:
 
 def _balancing_mass(below: Matter, position: Array) -> Node:
     """The mass to keep at ``position`` so that the antecedent's moment along y, else along x, becomes zero."""
-    component = 1 if position[1] is not below.mass.program.zero else 0
-    return below.moment[component] / position[component]
+    zero = below.mass.program.zero
+    component = next((k for k in (1, 0) if position[k] is not zero), None)
+    return zero if component is None else below.moment[component] / position[component]
 

@@ -8,6 +8,7 @@ are known, and one product gives each entry.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
@@ -21,13 +22,23 @@ from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, array, cross, identity, zeros
 
 
-def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge, meeting: int = 0) -> Array:
-    """M(q) (n x n, symmetric) of the bodies, as ``inertia.inertia_matrix`` gives it.
+@dataclass(frozen=True)
+class InertiaStrategy:
+    """How the matrix is written: the frame ``meeting`` where screws take over (0 for none), the choice of parameters."""
 
-    ``meeting`` is the number of the frame where screws take over, 0 for none.
-    """
+    meeting: int = 0
+    gauge: Gauge = field(default_factory=Gauge)
+
+    def __str__(self) -> str:
+        met = f", wrenches meet screws at frame {self.meeting}" if self.meeting else ""
+        return f"composite bodies on segments{met}{self.gauge}"
+
+
+def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], strategy: InertiaStrategy) -> Array:
+    """M(q) (n x n, symmetric) of the bodies, as ``inertia.inertia_matrix`` gives it."""
+    meeting = strategy.meeting
     spun = segments(chain)
-    chosen = regauge(chain, bodies, gauge)
+    chosen = regauge(chain, bodies, strategy.gauge)
     met = {frame.number for frame in chain.frames[meeting - 1].path()} if meeting else set()
     points = _meeting_points(chain, chosen, meeting)
     own, in_unspun, about_z = _composites(chain, spun, chosen, met, points)

@@ -15,7 +15,7 @@ from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.matter import Matter, unspun
-from generator.symbolic.newton_euler import Wrench
+from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.spin import Spin, entered, in_own_axes, moment, standing, with_rate
 from generator.symbolic.statements import Node
@@ -28,6 +28,10 @@ class Strategy:
 
     unspun: frozenset[int] = frozenset()
     gauge: Gauge = field(default_factory=Gauge)
+
+    def __str__(self) -> str:
+        still = f", bodies {', '.join(map(str, sorted(self.unspun)))} in axes that do not spin" if self.unspun else ""
+        return f"segments of parallel axes, pseudo-inertias{still}{self.gauge}"
 
 
 @dataclass(frozen=True)
@@ -46,18 +50,25 @@ def inverse_dynamics(
     """Joint torques of the bodies alone, as ``newton_euler.inverse_dynamics`` gives them."""
     spun = segments(chain)
     chosen = regauge(chain, bodies, strategy.gauge)
-    motion = _motions(chain, spun, chosen, qd, qdd)
+    motion = _motions(chain, spun, chosen.positions, qd, qdd)
     return _torques(chain, spun, chosen, motion, strategy)
 
 
+def own_motions(chain: Chain, qd: Sequence[Node], qdd: Sequence[Node]) -> dict[int, Motion]:
+    """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it."""
+    positions = {frame.number: frame.position for frame in chain.frames}
+    motion = _motions(chain, segments(chain), positions, qd, qdd)
+    return {j: Motion(own.own.w, own.own.wd, own.own.u, own.a_own) for j, own in motion.items()}
+
+
 def _motions(
-    chain: Chain, spun: Mapping[int, Spun], chosen: Regauged, qd: Sequence[Node], qdd: Sequence[Node]
+    chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array], qd: Sequence[Node], qdd: Sequence[Node]
 ) -> dict[int, LeanMotion]:
     program = chain.program
     result: dict[int, LeanMotion] = {}
     for frame in chain.frames:
         j, link = frame.number, spun[frame.number]
-        carried, a = _carried(chain, frame, link, chosen.positions[j], spun, result)
+        carried, a = _carried(chain, frame, link, positions[j], spun, result)
         if frame.coordinate is None:
             rotation = carried
         elif frame.revolute:

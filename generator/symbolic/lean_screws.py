@@ -6,14 +6,19 @@ from collections.abc import Mapping
 
 from generator.symbolic.frames import Chain
 from generator.symbolic.kinematics import Screw
-from generator.symbolic.segments import Spun
+from generator.symbolic.segments import Spun, segments
 from generator.symbolic.vectors import Array, array, cross, zeros
 
 
 def own_screws(
-    chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array]
+    chain: Chain, spun: Mapping[int, Spun] | None = None, positions: Mapping[int, Array] | None = None
 ) -> dict[int, dict[int, Screw]]:
-    """For each frame, by coordinate, the screws of the joints that carry it, in its own axes at its origin."""
+    """For each frame, by coordinate, the screws of the joints that carry it, in its own axes at its origin.
+
+    ``positions`` are the origins to take where they are not the chain's own.
+    """
+    spun = spun or segments(chain)
+    positions = positions or {frame.number: frame.position for frame in chain.frames}
     program = chain.program
     z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
     in_unspun: dict[int, dict[int, Screw]] = {}

@@ -7,10 +7,8 @@ from fractions import Fraction
 
 import sympy
 
+from generator.constants import exact_constant
 from generator.symbolic.statements import Node, Program
-
-#: Digits kept of an irrational constant; far beyond double precision, so that folding stays exact in print.
-_DIGITS = 60
 
 _FUNCTIONS = {sympy.sin: "sin", sympy.cos: "cos", sympy.log: "log", sympy.Abs: "abs", sympy.sign: "sign"}
 
@@ -53,19 +51,3 @@ def _quotient(program: Program, product: sympy.Mul, values: Mapping[sympy.Symbol
         else:
             above = above * lower(program, factor, values)
     return above / below
-
-
-def exact_constant(expression: sympy.Expr) -> Fraction:
-    """The fraction of a constant expression: exact if rational, else its value to sixty digits.
-
-    The value does not pass through the machine's floating point, so that it is the same everywhere.
-    """
-    if expression.is_Rational:
-        return Fraction(int(expression.p), int(expression.q))
-    simplified = sympy.nsimplify(expression, rational=True) if expression.is_Float else expression
-    if simplified.is_Rational:
-        return Fraction(int(simplified.p), int(simplified.q))
-    value = sympy.N(simplified, _DIGITS)
-    if not value.is_real or not value.is_finite:
-        raise ValueError(f"{expression} is not a finite real number")
-    return Fraction(str(value))

@@ -19,6 +19,7 @@ from generator.symbolic.frames import Chain, build_chain
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.lowering import lower
 from generator.symbolic.statements import Node, Program
+from generator.symbolic.strategy import TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
 
 #: Input signal of the standard parameters; unlike ``parameters`` it may change at every call.
@@ -28,11 +29,14 @@ STANDARD = "standard_parameters"
 class Model:
     """The symbolic model of ``robot``; ``functions`` is filled by the quantities.
 
+    A ``plain`` model writes the textbook recursion throughout, with SYMORO's names, to be read beside a paper.
+
     Raises InputError where the robot's effects are not those of the library.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, plain: bool = False) -> None:
         self.robot = robot
+        self.plain = plain
         self.program = Program((PARAMETERS,))
         self.effects = effects_of(robot)
         self.motor_effects = motor_side(robot)
@@ -181,7 +185,15 @@ class Model:
     @cached_property
     def base(self) -> Dynamics:
         """The dynamic model in base parameters."""
-        return Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd)
+        return Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd, strategies=self.strategies)
+
+    @cached_property
+    def strategies(self) -> Strategies:
+        """How the equations in base parameters are written; the textbook recursion if the model is ``plain``."""
+        if self.plain:
+            return TEXTBOOK
+        matter = Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd).matter
+        return choose(self.chain, matter, self.qd, self.qdd)
 
     @cached_property
     def standard(self) -> Dynamics:
@@ -204,7 +216,8 @@ class Model:
             for k, joint in enumerate(self.elastic):
                 link[joint] = stacked[joint] + stacked[n + k]
             at_links.append(link)
-        link = Dynamics(self.chain_at(at_links[0]), self.effects, self.kept, at_links[1], at_links[2])
+        chain = self.chain_at(at_links[0])
+        link = Dynamics(chain, self.effects, self.kept, at_links[1], at_links[2], strategies=self.strategies)
         return FlexibleDynamics(link, self.motor_effects, self.parameter_nodes, self.elastic, q, qd, qdd)
 
     def _payload(self) -> Body:
