@@ -20,14 +20,14 @@ def quantities() -> dict[str, Quantity]:
     return {quantity.name: quantity for quantity in found}
 
 
-def derive(robot: Robot, names: Collection[str] | None = None, check: bool = True) -> Model:
+def derive(robot: Robot, names: Collection[str] | None = None, check: bool = True, plain: bool = False) -> Model:
     """The model of ``robot`` with the functions ``names`` (all that apply, if None).
 
-    With ``check`` the groupings are compared with the numerical rank of the regressor.
+    A ``plain`` model writes the textbook recursion. With ``check`` the groupings are compared with the numerical rank of the regressor.
 
     Raises InputError for effects that do not fit the robot and GroupingMismatch if the check fails.
     """
-    model = Model(robot)
+    model = Model(robot, plain)
     for name, quantity in quantities().items():
         if (names is None or name in names) and quantity.applies(model):
             model.functions[name] = quantity.function(model)

@@ -14,7 +14,7 @@ from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.kinematics import Screw
-from generator.symbolic.lean_screws import own_screws
+from generator.symbolic.lean_screws import Screws, screws
 from generator.symbolic.matter import Matter, inertia, moved, unspun
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun, segments
@@ -24,14 +24,19 @@ from generator.symbolic.vectors import Array, array, cross, identity, zeros
 
 @dataclass(frozen=True)
 class InertiaStrategy:
-    """How the matrix is written: the frame ``meeting`` where screws take over (0 for none), the choice of parameters."""
+    """How the matrix is written: the frame ``meeting`` where screws take over (0 for none), the choice of parameters.
+
+    ``block_unspun`` reckons the entries of the joints before the meeting among themselves in unspun axes.
+    """
 
     meeting: int = 0
+    block_unspun: bool = False
     gauge: Gauge = field(default_factory=Gauge)
 
     def __str__(self) -> str:
         met = f", wrenches meet screws at frame {self.meeting}" if self.meeting else ""
-        return f"composite bodies on segments{met}{self.gauge}"
+        axes = ", the joints before it in axes that do not spin" if self.block_unspun else ""
+        return f"composite bodies on segments{met}{axes}{self.gauge}"
 
 
 def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], strategy: InertiaStrategy) -> Array:
@@ -40,18 +45,24 @@ def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], strategy: InertiaSt
     spun = segments(chain)
     chosen = regauge(chain, bodies, strategy.gauge)
     met = {frame.number for frame in chain.frames[meeting - 1].path()} if meeting else set()
-    points = _meeting_points(chain, chosen, meeting)
+    points = {} if strategy.block_unspun else _meeting_points(chain, chosen, meeting)
     own, in_unspun, about_z = _composites(chain, spun, chosen, met, points)
-    screws = own_screws(chain, spun, chosen.positions) if meeting else {}
+    own_screws, unspun_screws = screws(chain, spun, chosen.positions) if meeting else ({}, {})
     result = zeros(chain.program, chain.dof, chain.dof)
     for frame in chain.frames:
         if frame.number in met:
-            if frame.number in own:
+            if frame.number not in own:
+                continue
+            if strategy.block_unspun:
+                turned = unspun(own[frame.number], spun[frame.number])
+                _add_body(result, turned, unspun_screws[frame.number], _about_z(own[frame.number]))
+            else:
                 point = points.get(frame.number, zeros(chain.program, 3))
-                _add_body(result, own[frame.number], {c: at(s, point) for c, s in screws[frame.number].items()})
+                moving = {c: at(s, point) for c, s in own_screws[frame.number].items()}
+                _add_body(result, own[frame.number], moving, _about_z(own[frame.number]))
         elif frame.coordinate is not None and frame.number in in_unspun:
             wrench = _unit_acceleration(frame, in_unspun[frame.number], about_z[frame.number])
-            _project(result, frame, spun, chosen, wrench, meeting, screws)
+            _project(result, frame, spun, chosen, wrench, meeting, own_screws)
     return result
 
 
@@ -112,19 +123,21 @@ def _unit_acceleration(frame: Frame, composite: Matter, about_z: Node) -> Wrench
     return Wrench(across, array(program, [-s[0, 2], -s[1, 2], about_z]))
 
 
-def _add_body(result: Array, part: Matter, carried_by: Mapping[int, Screw]) -> None:
+def _add_body(result: Array, part: Matter, carried_by: Mapping[int, Screw], about_z: Node) -> None:
     """What one body adds to the entries of all joints that carry it: s_i . (I s_k)."""
     tensor = inertia(part)
+    tensor[2, 2] = about_z
     for k, screw in carried_by.items():
+        before = {i: other for i, other in carried_by.items() if i < k}
         f = part.mass * screw.v + cross(screw.w, part.moment)
         n = tensor @ screw.w + cross(part.moment, screw.v)
-        for i, other in carried_by.items():
-            if i < k:
-                _put(result, i, k, result[i, k] + power(other, Wrench(f, n)))
-        _put(result, k, k, result[k, k] + _twice_energy(part, screw))
+        for i, other in before.items():
+            _put(result, i, k, result[i, k] + power(other, Wrench(f, n)))
+        own = power(screw, Wrench(f, n)) if before else _twice_energy(part, screw, about_z)
+        _put(result, k, k, result[k, k] + own)
 
 
-def _twice_energy(part: Matter, screw: Screw) -> Node:
+def _twice_energy(part: Matter, screw: Screw, about_z: Node) -> Node:
     """s . (I s) of one screw: w.Jw + 2 v.(w x MS) + M v.v, with w.w = 1 taken out of the first term."""
     w, s = screw.w, part.sigma
     program = part.mass.program
@@ -132,7 +145,8 @@ def _twice_energy(part: Matter, screw: Screw) -> Node:
     total = part.mass * (screw.v @ screw.v) + 2 * (screw.v @ cross(w, part.moment))
     if turning:
         last = turning[-1]
-        total = total + s[(last + 1) % 3, (last + 1) % 3] + s[(last + 2) % 3, (last + 2) % 3]
+        about_last = s[(last + 1) % 3, (last + 1) % 3] + s[(last + 2) % 3, (last + 2) % 3]
+        total = total + (about_z if last == 2 else about_last)
         for place, i in enumerate(turning[:-1]):
             row = w[i] * (s[last, last] - s[i, i])
             for k in turning[place + 1 :]:
@@ -148,7 +162,7 @@ def _project(
     chosen: Regauged,
     wrench: Wrench,
     meeting: int,
-    screws: Mapping[int, Mapping[int, Screw]],
+    met_screws: Screws,
 ) -> None:
     """Fills the entries of a joint with itself and with every joint that carries it."""
     column = frame.coordinate
@@ -167,7 +181,7 @@ def _project(
             continue
         f, n = link.entry @ wrench.f, link.entry @ wrench.n
         if carrier.parent.number == meeting:
-            for i, screw in screws[meeting].items():
+            for i, screw in met_screws[meeting].items():
                 there = at(screw, position)
                 _put(result, i, column, power(there, Wrench(f, n)))
             return

@@ -10,15 +10,17 @@ from generator.symbolic.segments import Spun, segments
 from generator.symbolic.vectors import Array, array, cross, zeros
 
 
-def own_screws(
-    chain: Chain, spun: Mapping[int, Spun] | None = None, positions: Mapping[int, Array] | None = None
-) -> dict[int, dict[int, Screw]]:
-    """For each frame, by coordinate, the screws of the joints that carry it, in its own axes at its origin.
+#: Screws by frame number and coordinate.
+Screws = Mapping[int, Mapping[int, Screw]]
 
-    ``positions`` are the origins to take where they are not the chain's own.
-    """
-    spun = spun or segments(chain)
-    positions = positions or {frame.number: frame.position for frame in chain.frames}
+
+def own_screws(chain: Chain) -> Screws:
+    """For each frame, by coordinate, the screws of the joints that carry it, in its own axes at its origin."""
+    return screws(chain, segments(chain), {frame.number: frame.position for frame in chain.frames})[0]
+
+
+def screws(chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array]) -> tuple[Screws, Screws]:
+    """The screws in own and in unspun axes, for origins at ``positions`` in their antecedents."""
     program = chain.program
     z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
     in_unspun: dict[int, dict[int, Screw]] = {}
@@ -36,4 +38,4 @@ def own_screws(
             mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
         in_unspun[j] = mine
         own[j] = {c: Screw(link.to_own(screw.w), link.to_own(screw.v)) for c, screw in mine.items()}
-    return own
+    return own, in_unspun

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.description import ParameterValue
+from generator.robot.fields import nearest
 from generator.robot.parameter_file import UNSTATED
 from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
@@ -77,9 +77,7 @@ def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
 
 def _check(name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> None:
     if name not in known:
-        near = difflib.get_close_matches(name, known, n=1)
-        expected = f"{near[0]!r} perhaps" if near else f"one of {', '.join(known)}"
-        raise InputError(value.place, f"the robot has no parameter {name!r}", expected)
+        raise InputError(value.place, f"the robot has no parameter {name!r}", nearest(name, known))
     if value.unit not in (UNSTATED, known[name].unit):
         raise InputError(value.place, f"{name} is given in {value.unit}", known[name].unit)
 

@@ -66,7 +66,8 @@ def choose(chain: Chain, matter: Mapping[int, Body], qd: Sequence[Node], qdd: Se
     still = [chain.program.zero] * chain.dof
     torque, torque_choice = _shortest_torque(chain, lambda way: torques(chain, matter, qd, qdd, way))
     gravity, gravity_choice = _shortest_torque(chain, lambda way: torques(chain, matter, still, still, way))
-    meeting = [InertiaStrategy(meeting=j) for j in [0, *_meetings(chain)]]
+    meeting = [InertiaStrategy()]
+    meeting += [InertiaStrategy(j, block_unspun) for j in _meetings(chain) for block_unspun in (False, True)]
     matrix, matrix_choice = _shortest(chain, lambda way: inertia_matrix(chain, matter, way), meeting)
     choices = {"torques": torque_choice, "gravity": gravity_choice, "inertia matrix": matrix_choice}
     return Strategies(torque, gravity, matrix, choices)
