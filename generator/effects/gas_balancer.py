@@ -1,4 +1,4 @@
-"""Gravity balancer with a gas cylinder, as on the KR500-2MT's kind of arm."""
+"""Gravity balancer with a gas cylinder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gravity balancer with a linear spring, as on the KR270-2F's kind of arm."""
+"""Gravity balancer with a linear spring."""
 
 from __future__ import annotations
 

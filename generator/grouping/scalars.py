@@ -15,7 +15,7 @@ from sympy.polys.domains import QQ
 from sympy.polys.fields import field
 
 from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
-from generator.symbolic.lowering import exact_constant
+from generator.constants import exact_constant
 
 #: Irrational constants are carried to sixty digits; what is smaller than this is zero.
 _NOTHING = Fraction(1, 10**40)

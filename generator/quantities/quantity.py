@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from generator.symbolic.factoring import factored
 from generator.symbolic.function import Function, Output, Signal, Sparsity
 from generator.symbolic.model import Model
 
@@ -37,13 +38,20 @@ class Quantity:
 
     def function(self, model: Model) -> Function:
         """The quantity of one robot. Raises ValueError if an array does not have the shape of its signal."""
-        outputs = []
+        outputs: list[Output] = []
         for signal, values in zip(self.outputs(model), self.build(model), strict=True):
             nodes = np.asarray(values, dtype=object)
             if nodes.shape != signal.shape:
                 raise ValueError(f"{self.name}: {signal.name} is {nodes.shape}, its signal {signal.shape}")
             outputs.append(Output(signal, tuple(nodes.ravel())))
+        if not model.plain:
+            outputs = _factored(model, outputs)
         sparsity = self.sparsity(model) if self.sparsity else None
         return Function(
             self.name, self.summary, self.details, tuple(self.inputs(model)), tuple(outputs), model.program, sparsity
         )
+
+
+def _factored(model: Model, outputs: Sequence[Output]) -> list[Output]:
+    nodes = iter(factored(model.program, [node for output in outputs for node in output.nodes]))
+    return [Output(output.signal, tuple(next(nodes) for _ in output.nodes)) for output in outputs]

@@ -14,8 +14,11 @@ from fractions import Fraction
 import sympy
 
 from generator.errors import Place
+from generator.units import Quantity
 
 REVOLUTE, PRISMATIC, FIXED = 0, 1, 2
+
+_NOWHERE = Place("")
 
 
 @dataclass(frozen=True)
@@ -49,8 +52,8 @@ class Joint:
     d: sympy.Expr
     theta: sympy.Expr
     r: sympy.Expr
-    gamma: sympy.Expr = sympy.Integer(0)
-    b: sympy.Expr = sympy.Integer(0)
+    gamma: sympy.Expr = sympy.S.Zero
+    b: sympy.Expr = sympy.S.Zero
     lower: sympy.Expr | None = None
     upper: sympy.Expr | None = None
     tool: bool = False
@@ -64,12 +67,16 @@ class Joint:
 
 @dataclass(frozen=True)
 class EffectUse:
-    """An effect of the library applied to joints; ``values`` are its fixed shape values by name, exact, in SI units."""
+    """An effect of the library applied to joints; ``values`` are its fixed shape values by name, exact, in SI units.
+
+    Whether the library has the effect and its values is for the library to say: ``place`` and each value's place tell
+    where the file asks for them.
+    """
 
     effect: str
     joints: tuple[int, ...]
-    values: Mapping[str, sympy.Expr] = field(default_factory=dict)
-    place: Place = Place("")
+    values: Mapping[str, Quantity] = field(default_factory=dict)
+    place: Place = _NOWHERE
 
 
 @dataclass(frozen=True)
@@ -88,22 +95,30 @@ class Drives:
 
 @dataclass(frozen=True)
 class ParameterValue:
-    """A value of a parameter [``unit``], its relative standard deviation [%] if known, and where it comes from."""
+    """A value of a parameter [``unit``, SI], its relative standard deviation [%] if known, and where it comes from."""
 
     value: float
     unit: str
     relative_std: float | None = None
     source: str = ""
+    note: str = ""
+    place: Place = _NOWHERE
 
 
 @dataclass(frozen=True)
 class ParameterSet:
-    """A named set of parameter values; names as in the generated parameter order, base or standard."""
+    """A named set of parameter values; names as in the generated parameter order, base or standard.
+
+    ``other_values`` are what the same source gives beside parameters of the model: drive gains, a payload, a sensor's
+    offset. Their names are free.
+    """
 
     name: str
     description: str
     source: str
     values: Mapping[str, ParameterValue]
+    other_values: Mapping[str, ParameterValue] = field(default_factory=dict)
+    place: Place = _NOWHERE
 
 
 @dataclass(frozen=True)

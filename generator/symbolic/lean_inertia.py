@@ -16,6 +16,7 @@ from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Screws, screws
 from generator.symbolic.matter import Matter, inertia, moved, unspun
+from generator.symbolic.matter import about_z as moment_about_z
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.statements import Node
@@ -55,11 +56,11 @@ def inertia_matrix(chain: Chain, bodies: Mapping[int, Body], strategy: InertiaSt
                 continue
             if strategy.block_unspun:
                 turned = unspun(own[frame.number], spun[frame.number])
-                _add_body(result, turned, unspun_screws[frame.number], _about_z(own[frame.number]))
+                _add_body(result, turned, unspun_screws[frame.number], moment_about_z(own[frame.number]))
             else:
                 point = points.get(frame.number, zeros(chain.program, 3))
                 moving = {c: at(s, point) for c, s in own_screws[frame.number].items()}
-                _add_body(result, own[frame.number], moving, _about_z(own[frame.number]))
+                _add_body(result, own[frame.number], moving, moment_about_z(own[frame.number]))
         elif frame.coordinate is not None and frame.number in in_unspun:
             wrench = _unit_acceleration(frame, in_unspun[frame.number], about_z[frame.number])
             _project(result, frame, spun, chosen, wrench, meeting, own_screws)
@@ -84,9 +85,9 @@ def _composites(
         if j in met:
             continue
         if j in in_unspun:
-            about_z[j] = _about_z(in_unspun[j])
+            about_z[j] = moment_about_z(in_unspun[j])
         if j in own:
-            about_z[j] = about_z.get(j, program.zero) + _about_z(own[j])
+            about_z[j] = about_z.get(j, program.zero) + moment_about_z(own[j])
             _add(in_unspun, j, unspun(own[j], link))
         if j not in in_unspun or frame.parent is None:
             continue
@@ -98,11 +99,6 @@ def _composites(
         else:
             _add(own, k, moved(in_unspun[j], link.entry, position - points.get(k, zeros(program, 3))))
     return own, in_unspun, about_z
-
-
-def _about_z(part: Matter) -> Node:
-    total: Node = part.sigma[0, 0] + part.sigma[1, 1]
-    return total
 
 
 def _add(matter: dict[int, Matter], j: int, more: Matter) -> None:

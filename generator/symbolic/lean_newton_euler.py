@@ -14,7 +14,7 @@ import numpy as np
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
-from generator.symbolic.matter import Matter, unspun
+from generator.symbolic.matter import Matter, about_z, unspun
 from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.spin import Spin, entered, in_own_axes, moment, standing, with_rate
@@ -124,9 +124,9 @@ def _torques(
         part = chosen.parts.get(j)
         if part is not None:
             if j in strategy.unspun:
-                _add(summed, j, _wrench(motion[j].unspun, motion[j].a_unspun, unspun(part, link)))
+                _add(summed, j, _wrench(motion[j].unspun, motion[j].a_unspun, unspun(part, link), about_z(part)))
             else:
-                _add(own, j, _wrench(motion[j].own, motion[j].a_own, part))
+                _add(own, j, _wrench(motion[j].own, motion[j].a_own, part, about_z(part)))
         if j in own:
             _add(summed, j, Wrench(link.to_unspun(own[j].f), link.to_unspun(own[j].n)))
         if j not in summed:
@@ -152,7 +152,7 @@ def _add(wrenches: dict[int, Wrench], j: int, wrench: Wrench) -> None:
     wrenches[j] = wrenches[j] + wrench if j in wrenches else wrench
 
 
-def _wrench(spin: Spin, a: Array, part: Matter) -> Wrench:
+def _wrench(spin: Spin, a: Array, part: Matter, inertia_about_z: Node) -> Wrench:
     """F = M a + U MS and N = vee(U S - (U S)^T) + MS x a."""
     force = part.mass * a + spin.u @ part.moment
-    return Wrench(force, moment(spin, part.sigma) + cross(part.moment, a))
+    return Wrench(force, moment(spin, part.sigma, inertia_about_z) + cross(part.moment, a))

@@ -34,6 +34,12 @@ def matter(body: Body) -> Matter:
     return Matter(sigma, body.moment, body.mass)
 
 
+def about_z(part: Matter) -> Node:
+    """Moment of inertia about z: S11 + S22, the same in own and in unspun axes."""
+    total: Node = part.sigma[0, 0] + part.sigma[1, 1]
+    return total
+
+
 def inertia(part: Matter) -> Array:
     """The inertia tensor J = tr(S) I - S."""
     s = part.sigma

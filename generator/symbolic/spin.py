@@ -90,17 +90,23 @@ def _completed(w: Array, across: Array, column: Array, spin_up: Node) -> Spin:
     return Spin(w, ww, wd, u)
 
 
-def moment(spin: Spin, sigma: Array) -> Array:
+def moment(spin: Spin, sigma: Array, about_z: Node) -> Array:
     """The moment that turns a body about its origin: vee(U S - (U S)^T) with S = (tr J / 2) I - J its pseudo-inertia.
 
     Equal to J wd + w x J w; written by differences of products of w, which are shared over the body's six terms.
+    ``about_z`` is S11 + S22, which may be known where S11 and S22 change.
     """
     u, ww, s = spin.u, spin.ww, sigma
+    zero = about_z.program.zero
+    if ww[0, 1] is zero:
+        turning = spin.wd[2] * about_z
+    else:
+        turning = u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1]
     return np.array(
         [
             u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + (ww[2, 2] - ww[1, 1]) * s[1, 2] + u[2, 0] * s[0, 1] - u[1, 0] * s[0, 2],
             u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + (ww[0, 0] - ww[2, 2]) * s[0, 2] + u[0, 1] * s[1, 2] - u[2, 1] * s[0, 1],
-            u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1] + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
+            turning + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
         ],
         dtype=object,
     )

@@ -1,0 +1,82 @@
+# Counterpoise: every task by one name. `make help` lists them.
+#
+# Needs Python 3.11 or newer, a C compiler and make; all else comes from the lock files into .venv.
+
+SHELL := /bin/sh
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+CC ?= cc
+VENV := .venv
+IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH" CC="$(CC)"
+COUNTERPOISE := $(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m generator
+PYTEST := $(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m pytest
+UV := uv==0.13.8
+
+# A stamp carries a checksum of what the environment was made from, and of the folder that its scripts point to:
+# touched files cost nothing, a changed lock or a moved checkout makes the environment anew.
+stamp = $(VENV)/.$(1)-$(shell { cat $(2) pyproject.toml; pwd; } | cksum | tr -cd '0-9')
+RUNTIME = $(call stamp,runtime,requirements.lock)
+TESTING = $(call stamp,testing,requirements.lock requirements-test.lock)
+
+export robot
+out ?= generated
+# Where make was called from, so that `make -C checkout robot=mine.yaml` finds a file beside the caller.
+export CALLER := $(PWD)
+
+.DEFAULT_GOAL := $(if $(robot),generate,help)
+.NOTPARALLEL:
+.PHONY: help generate all-robots list test test-extra lock clean distclean
+
+help: ## this list
+	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
+	@echo 'make robot=PATH.yaml        the same for a robot file of your own; out=DIR writes elsewhere than generated/'
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | while IFS='|' read -r name text; \
+	    do printf '%-27s %s\n' "make $$name" "$$text"; done
+
+generate: $(RUNTIME)
+	@file="$$robot"; \
+	if [ -z "$$file" ]; then echo 'error: Makefile:1:1: no robot, expected make robot=NAME or robot=PATH.yaml' >&2; exit 2; fi; \
+	if [ ! -e "$$file" ] && [ -n "$$CALLER" ] && [ -e "$$CALLER/$$file" ]; then file="$$CALLER/$$file"; fi; \
+	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test
+
+all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
+	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test || exit $$?; done
+
+list: $(RUNTIME) ## the robots of robots/ and their parameter sets
+	@$(COUNTERPOISE) list
+
+test: $(TESTING) ## every test that needs Python and a C compiler alone
+	@$(PYTEST) -n 2 --ignore=tests/extra tests
+
+test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
+	@$(PYTEST) tests/extra
+
+lock: ## resolve the lock files anew (asks the package registry)
+	$(PYTHON) -m venv --clear build/lock
+	build/lock/bin/python -m pip install --quiet $(UV)
+	build/lock/bin/uv pip compile --quiet pyproject.toml --group build $(LOCKING) --output-file requirements.lock
+	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test \
+	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
+LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-find-links \
+    --no-emit-index-url --custom-compile-command 'make lock'
+
+clean: ## remove caches and build folders; keeps .venv and generated/
+	rm -rf build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache
+	find . -name __pycache__ -type d -not -path './$(VENV)/*' -prune -exec rm -rf {} +
+
+distclean: clean ## clean, and remove .venv
+	rm -rf $(VENV)
+
+# The whole environment is made anew when the runtime lock changes, so that it never holds a stale package.
+$(RUNTIME):
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	    { echo 'error: Makefile:1:1: no Python 3.11, expected python3.11 on the PATH or make PYTHON=...' >&2; exit 2; }
+	@echo 'setting up $(VENV) from requirements.lock'
+	@"$(PYTHON)" -m venv --clear $(VENV)
+	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(TESTING): $(RUNTIME)
+	@echo 'adding the test tools from requirements-test.lock'
+	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-test.lock
+	@touch $@

@@ -1,0 +1,118 @@
+"""Quantities as C functions: one calling convention for all of them.
+
+``void <robot>_<quantity>(const <robot>_prepared *prepared, <inputs>, <outputs>)``: every signal is an array of fixed
+size, row-major, a number an array of one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from generator.backends.printing.identifiers import C_RESERVED, Identifiers
+from generator.backends.printing.language import LINE, Language
+from generator.backends.printing.prepared import Prepared, index, is_parameter, signal_of
+from generator.backends.printing.signals import described, listed, paragraph
+from generator.backends.printing.straight_line import Block, straight_line
+from generator.symbolic.function import Function, Signal
+
+#: The operations that <math.h> computes: its function for double; the one for float has an f behind.
+MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": "fabs", "pow": "pow"}
+
+
+@dataclass(frozen=True)
+class Argument:
+    """A signal as an array argument; ``read`` tells whether the body reads an input at all."""
+
+    signal: Signal
+    name: str
+    read: bool = True
+
+    @property
+    def size(self) -> int:
+        return self.signal.size
+
+
+@dataclass(frozen=True)
+class CFunction:
+    """``source`` in C; ``code`` holds the statements and the value of each output entry."""
+
+    source: Function
+    prototype: str
+    documentation: tuple[str, ...]
+    reads_prepared: bool
+    inputs: tuple[Argument, ...]
+    outputs: tuple[Argument, ...]
+    code: Block
+
+    @property
+    def name(self) -> str:
+        return self.source.name
+
+    @property
+    def results(self) -> list[tuple[str, str]]:
+        """Each output entry with its value."""
+        places = [f"{output.name}[{place}]" for output in self.outputs for place in range(output.size)]
+        return list(zip(places, self.code.results, strict=True))
+
+
+def c_language(prefix: str) -> Language:
+    """C as the generated source writes it: constants through R(), mathematics through the robot's own macros."""
+    calls = {operation: f"{prefix}_{operation}" for operation in (*MATHEMATICS, "sign")}
+    return Language(calls, f"const {prefix}_real {{name}} = {{value}};", "R({value})", C_RESERVED | {"R"})
+
+
+def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction:
+    """One quantity; what depends on parameters alone is read from ``prepared``."""
+    language = c_language(prefix)
+    names = Identifiers(language.reserved | {"prepared"})
+    nodes = prepared.moving[function.name]
+    fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
+    read = {node.value[0] for node in nodes if node.operation == "input"}  # type: ignore[index]
+    inputs = tuple(Argument(s, names.claim(s.name), s.name in read) for s in function.inputs)
+    outputs = tuple(Argument(output.signal, names.claim(output.signal.name)) for output in function.outputs)
+    given = {argument.signal.name: argument.name for argument in inputs}
+    leaves = fields | {
+        node: f"{given[signal_of(node)]}[{index(node)}]"
+        for node in nodes
+        if node.operation == "input" and not is_parameter(node)
+    }
+    reads_prepared = any(node in fields for user in nodes for node in (user, *user.arguments))
+    reads_prepared = reads_prepared or any(root in fields for root in function.roots)
+    return CFunction(
+        function,
+        _prototype(function.name, prefix, inputs, outputs),
+        _documentation(function, prefix, reads_prepared, inputs, outputs),
+        reads_prepared,
+        inputs,
+        outputs,
+        straight_line(nodes, function.roots, leaves, language, names),
+    )
+
+
+def _prototype(name: str, prefix: str, inputs: Sequence[Argument], outputs: Sequence[Argument]) -> str:
+    arguments = [
+        f"const {prefix}_prepared *prepared",
+        *(f"const {prefix}_real {argument.name}[{argument.size}]" for argument in inputs),
+        *(f"{prefix}_real {argument.name}[{argument.size}]" for argument in outputs),
+    ]
+    head = f"void {prefix}_{name}("
+    line = f"{head}{', '.join(arguments)})"
+    if len(line) < LINE:
+        return line
+    return head + "\n    " + "\n    ".join(listed(arguments, LINE - 4))[:-1] + ")"
+
+
+def _documentation(
+    function: Function, prefix: str, reads_prepared: bool, inputs: Sequence[Argument], outputs: Sequence[Argument]
+) -> tuple[str, ...]:
+    width = LINE - 3
+    unread = "not read here, may be NULL"
+    entries = [("[in] ", "prepared", f"from {prefix}_prepare()" if reads_prepared else unread)]
+    entries += [("[in] ", argument.name, described(argument.signal)) for argument in inputs]
+    entries += [("[out]", argument.name, described(argument.signal)) for argument in outputs]
+    lines = [*paragraph(function.summary, width), "", *paragraph(function.details, width)]
+    lines += [""] if function.details else []
+    for direction, name, text in entries:
+        lines += paragraph(f"@param{direction} {name}  {text}", width, hanging=4)
+    return tuple(lines)

@@ -1,0 +1,66 @@
+"""Compiling the generated C, in both precisions, and running its self-test."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from generator.errors import InputError, Place
+
+#: The generated C is clean under all of these.
+WARNINGS = ("-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wdouble-promotion", "-pedantic", "-Werror")
+_FLAGS = ("-std=c99", "-O1", *WARNINGS)
+
+_TALLY = re.compile(r"(\d+) passed, (\d+) failed\s*\Z")
+
+
+class SelfTestFailure(Exception):
+    """The generated C does not compile or does not compute what it should: a defect of the generator."""
+
+
+@dataclass(frozen=True)
+class Precision:
+    """A floating-point type of the generated C, and the macro's ending that selects it ("" is the default)."""
+
+    name: str
+    macro: str = ""
+
+
+PRECISIONS = (Precision("double"), Precision("float", "USE_FLOAT"))
+
+
+def run_self_test(folder: Path, name: str, precision: Precision) -> int:
+    """Compiles ``<name>.c`` and its self-test in ``folder`` and runs it; returns the number of comparisons that passed.
+
+    Raises SelfTestFailure with the compiler's or the test's own words, and InputError where there is no compiler.
+    """
+    define = [f"-D{name.upper()}_{precision.macro}"] if precision.macro else []
+    sources = [str(folder / f"{name}.c"), str(folder / f"{name}_selftest.c")]
+    with tempfile.TemporaryDirectory() as build:
+        program = str(Path(build, "selftest"))
+        _run([*_compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"], f"compiling {name} in {precision.name}")
+        output = _run([program], f"the self-test of {name} in {precision.name}")
+    tally = _TALLY.search(output)
+    if tally is None or int(tally[1]) == 0 or int(tally[2]) != 0:
+        raise SelfTestFailure(f"the self-test of {name} in {precision.name} says:\n{output}")
+    return int(tally[1])
+
+
+def _compiler() -> list[str]:
+    """The C compiler's command: the environment variable CC, or ``cc``."""
+    return shlex.split(os.environ.get("CC", "")) or ["cc"]
+
+
+def _run(command: list[str], what: str) -> str:
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    except FileNotFoundError:
+        raise InputError(Place(command[0]), "there is no such program", "a C compiler; set CC") from None
+    if done.returncode != 0:
+        raise SelfTestFailure(f"{what} failed with status {done.returncode}:\n{done.stdout}")
+    return done.stdout

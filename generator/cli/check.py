@@ -1,0 +1,31 @@
+"""Check a robot file: its form, its effects, its parameter sets, and its groupings against the regressor's rank."""
+
+from __future__ import annotations
+
+import argparse
+
+from generator.cli.progress import stage
+from generator.resources import find_robot
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Prints one line if the file is good; raises InputError if not."""
+    from generator.derivation import derive
+    from generator.robot.readers import read
+    from generator.symbolic.parameter_sets import parameter_vector
+
+    path = find_robot(arguments.robot)
+    with stage("reading and deriving"):
+        robot = read(path)
+        model = derive(robot, names=())
+        for parameter_set in robot.parameter_sets.values():
+            parameter_vector(model, parameter_set.values)
+    print(
+        f"{path}: {robot.name} is good: {len(robot.moving)} moving joints, "
+        f"{len(model.base_parameters)} base parameters, {len(robot.parameter_sets)} parameter sets"
+    )

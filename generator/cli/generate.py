@@ -1,0 +1,72 @@
+"""Generate everything from a robot file: C, CasADi, NumPy, the review pages and manifest.json.
+
+The files go to OUT/<robot's name>/. They replace an older generation all at once; on bad input nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from generator.cli.progress import stage
+from generator.resources import find_robot
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, --out and --self-test."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("generated"), help="default: generated")
+    parser.add_argument(
+        "--self-test",
+        action="store_true",
+        help="compile the C in double and float (compiler: CC or cc) and run its test",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Generates, tests if asked to, prints a summary."""
+    from generator.c_selftest import PRECISIONS, run_self_test
+    from generator.generation import generate
+
+    folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage)
+    passed: dict[str, int] = {}
+    if arguments.self_test:
+        for precision in PRECISIONS:
+            with stage(f"compiling the C in {precision.name} and running its self-test"):
+                passed[precision.name] = run_self_test(folder / "c", folder.name, precision)
+    print(_summary(folder, manifest, passed))
+
+
+def _summary(folder: Path, manifest: dict[str, Any], passed: dict[str, int]) -> str:
+    robot, base = manifest["robot"], manifest["base_parameters"]
+    lines = [f"{robot['name']}: {robot['description']}", f"base parameters  {len(base)}"]
+    lines += [f"effect           {_effect(effect)}" for effect in manifest["effects"]]
+    if manifest["flexible"]:
+        lines.append(f"elastic joints   {', '.join(map(str, manifest['flexible']))}")
+    lines += _operations(manifest["functions"])
+    lines += [f"self-test        {count} comparisons passed in {name}" for name, count in passed.items()]
+    lines.append(
+        f"files            {len(manifest['files']) + 1} in {folder}/: {_files(manifest['files'])}, manifest.json"
+    )
+    return "\n".join(lines)
+
+
+def _effect(effect: dict[str, Any]) -> str:
+    return f"{effect['title']} on {', '.join(map(str, effect['joints']))}: {' '.join(effect['parameters'])}"
+
+
+def _operations(functions: dict[str, Any]) -> list[str]:
+    columns = ("mul", "add", "div", "trig", "other")
+    width = max(map(len, functions))
+    lines = [" ".join(["operations".ljust(width), *(column.rjust(6) for column in columns)])]
+    for name, function in functions.items():
+        counts = (str(function["operations"][column]).rjust(6) for column in columns)
+        lines.append(" ".join([name.ljust(width), *counts]))
+    return lines
+
+
+def _files(paths: list[str]) -> str:
+    """``c (4), casadi (2)``: the number of files in each backend's folder."""
+    folders = [path.partition("/")[0] for path in paths]
+    return ", ".join(f"{name} ({folders.count(name)})" for name in dict.fromkeys(folders))

@@ -1,0 +1,87 @@
+"""The command ``counterpoise``: finds the commands, runs one, turns what the user can mend into one line.
+
+Exit status 0 is done; 2 is bad input, with ``error: FILE:LINE:COL: what is wrong, expected ...`` on standard error;
+1 is a defect of this program, with its traceback.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from importlib import metadata
+from typing import NoReturn, Protocol, cast
+
+from generator.cli.place import command_line
+from generator.errors import InputError
+from generator.version import VERSION
+
+GROUP = "counterpoise.commands"
+
+#: The generator's own commands, for a checkout that is not installed and has no entry points.
+_OWN = ("check", "evaluate", "generate", "list", "review")
+
+DONE, BAD_INPUT, INTERRUPTED = 0, 2, 130
+
+
+class Command(Protocol):
+    """What a module in the entry-point group ``counterpoise.commands`` offers; its docstring is the help text."""
+
+    __doc__: str | None
+
+    def configure(self, parser: argparse.ArgumentParser) -> None:
+        """Adds the command's arguments."""
+
+    def run(self, arguments: argparse.Namespace) -> None:
+        """Does the work; raises InputError for bad input."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reports a mistake on the command line as bad input, in the same form as a mistake in a file."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(command_line(self.prog), message, f"what {self.prog} --help tells")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command that ``argv`` names (the process's own arguments, if None); returns the exit status."""
+    try:
+        arguments = _parser(commands()).parse_args(argv)
+        arguments.command.run(arguments)
+        sys.stdout.flush()
+    except InputError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return BAD_INPUT
+    except BrokenPipeError:
+        # The reader has seen enough; nothing more can be written, not even when Python closes standard output.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    return DONE
+
+
+def commands() -> dict[str, Command]:
+    """The commands by name, sorted: every installed distribution can register its own in the entry-point group."""
+    registered = {entry.name: entry.load() for entry in metadata.entry_points(group=GROUP)}
+    found = registered or {name: importlib.import_module(f"generator.cli.{name}") for name in _OWN}
+    return {name: cast(Command, found[name]) for name in sorted(found)}
+
+
+def _parser(known: dict[str, Command]) -> argparse.ArgumentParser:
+    parser = _Parser(prog="counterpoise", description="Dynamic models of robots, from one file to reviewed code.")
+    parser.add_argument("--version", action="version", version=f"counterpoise {VERSION}")
+    choices = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
+    for name, command in known.items():
+        text = (command.__doc__ or "").strip()
+        chosen = choices.add_parser(
+            name,
+            help=text.partition("\n")[0],
+            description=text,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        chosen.set_defaults(command=command)
+        command.configure(chosen)
+    return parser

@@ -1,0 +1,25 @@
+"""Print a robot's groupings, geometry and parameters: the text of review/groupings.md."""
+
+from __future__ import annotations
+
+import argparse
+
+from generator.cli.progress import stage
+from generator.resources import find_robot
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Prints the groupings in Markdown, on a terminal with its headings and lists set out."""
+    from generator.backends import review
+    from generator.derivation import derive
+    from generator.robot.readers import read
+
+    path = find_robot(arguments.robot)
+    with stage("deriving the groupings"):
+        text = review.emit(derive(read(path)))["groupings.md"]
+    print(text, end="")

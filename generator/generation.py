@@ -1,0 +1,55 @@
+"""From a robot file to the folder of everything that is generated from it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
+from typing import Any
+
+import generator.backends
+from generator.derivation import derive
+from generator.discovery import modules
+from generator.manifest import manifest
+from generator.robot.readers import read
+from generator.symbolic.model import Model
+from generator.writing import replace
+
+#: A context that announces a stage of the work while it lasts.
+Stage = Callable[[str], AbstractContextManager[None]]
+
+MANIFEST = "manifest.json"
+
+
+def silent(text: str) -> AbstractContextManager[None]:
+    """A stage that announces nothing."""
+    return nullcontext()
+
+
+def generate(robot_file: Path, out: Path, stage: Stage = silent) -> tuple[Path, dict[str, Any]]:
+    """Generates every backend's files for a robot file into ``out/<robot's name>``; returns that folder, the manifest.
+
+    Nothing is written before everything has been derived. Raises InputError for a bad robot file or a folder that
+    cannot be written.
+    """
+    with stage(f"reading {robot_file}"):
+        robot = read(robot_file)
+    with stage(f"deriving the model of {robot.name}"):
+        model = derive(robot)
+    with stage("emitting the files"):
+        files = emitted(model)
+    contents = manifest(model, sorted(files))
+    files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
+    folder = out / robot.name
+    replace(folder, files)
+    return folder, contents
+
+
+def emitted(model: Model) -> dict[str, bytes]:
+    """The files of every backend, relative path -> content."""
+    files: dict[str, bytes] = {}
+    for backend in modules(generator.backends):
+        for name, content in backend.emit(model).items():
+            files[f"{backend.NAME}/{name}"] = content.encode() if isinstance(content, str) else content
+    return files

@@ -1,0 +1,97 @@
+"""Elastic drive trains (report section 2.2, eq. 7-13): q = [q_m; q_e], q_e for the elastic joints only.
+
+The link side is the rigid robot at q_a = q_m + q_e; an elastic joint's motor has Iam, Fvm, Fcm, Offm and a spring k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+
+import numpy as np
+
+from generator.reference.arithmetic import Array, sign, solve, zeros
+from generator.reference.rigid import Rigid
+from generator.robot.description import Robot
+
+#: Parameters of a motor and its spring, in the order of report eq. 12.
+MOTOR_SIDE = ("Iam", "Fvm", "Fcm", "Offm", "k")
+
+
+@dataclass(frozen=True)
+class Flexible:
+    """``link`` is the robot behind the springs; ``elastic`` maps each elastic joint's coordinate to its number."""
+
+    link: Rigid
+    elastic: dict[int, int]
+
+    @property
+    def dof(self) -> int:
+        return self.link.chain.dof
+
+    def at_links(self, stacked: Array) -> Array:
+        """q_a (n) of [q_m; q_e], and likewise for speeds and accelerations."""
+        result = stacked[: self.dof].copy()
+        result[list(self.elastic)] += stacked[self.dof :]
+        return result
+
+    def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> tuple[Array, Array]:
+        """tau_mdi (n) and tau_e = M(q_a) qdd_a + H(q_a, qd_a) on the elastic joints (eq. 8, 10)."""
+        of_links = self.link.inverse_dynamics(self.at_links(q), self.at_links(qd), self.at_links(qdd))
+        tau = of_links.copy()
+        for e, (i, number) in enumerate(self.elastic.items()):
+            columns = _columns(q[self.dof + e], qd[i], qdd[i])
+            tau[i] = sum((self.value(stem, number) * column for stem, column in columns.items()), Decimal(0))
+        return tau, of_links[list(self.elastic)]
+
+    def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
+        """[qdd_m; qdd_e] (eq. 11), solved as one system of all n + e coordinates."""
+        n, size = self.dof, self.dof + len(self.elastic)
+        M = self.link.inertia_matrix(self.at_links(q))
+        at_rest, of_links = self.inverse_dynamics(q, qd, zeros(size))
+        left, right = zeros(size, size), zeros(size)
+        left[:n, :n] = M
+        left[:n, n:] = M[:, list(self.elastic)]
+        right[:n] = tau - at_rest
+        for e, (i, number) in enumerate(self.elastic.items()):
+            left[n + e] = left[i]
+            right[n + e] = -self.value("k", number) * q[n + e] - of_links[e]
+            left[i] = zeros(size)
+            left[i, i] = self.value("Iam", number)
+        return solve(left, right)
+
+    def regressor(self, columns: Sequence[str], q: Array, qd: Array, qdd: Array) -> Array:
+        """Rows [tau_mdi (n); tau_e + k q_e] per unit of the named parameters; the last rows vanish on a real motion.
+
+        Names of the motor side (``Iam1``, ``k1``) and of the link side's standard parameters may mix.
+        """
+        n = self.dof
+        known: dict[str, Array] = {}
+        for e, (i, number) in enumerate(self.elastic.items()):
+            for stem, torque in _columns(q[n + e], qd[i], qdd[i]).items():
+                column = known[f"{stem}{number}"] = zeros(n + len(self.elastic))
+                column[i] = torque
+                if stem == "k":
+                    column[n + e] = -torque
+        of_links = [name for name in columns if name not in known]
+        at_links = (self.at_links(q), self.at_links(qd), self.at_links(qdd))
+        for name, torques in self.link.columns(of_links, *at_links).items():
+            column = known[name] = np.concatenate([torques, torques[list(self.elastic)]])
+            column[list(self.elastic)] = Decimal(0)
+        return np.stack([known[name] for name in columns], axis=1)
+
+    def value(self, stem: str, number: int) -> Decimal:
+        """A motor-side parameter; zero if it was not given."""
+        return self.link.values.get(f"{stem}{number}", Decimal(0))
+
+
+def _columns(qe: Decimal, qmd: Decimal, qmdd: Decimal) -> dict[str, Decimal]:
+    """Motor torque per unit of each parameter of eq. 12 (eq. 8, 9)."""
+    return dict(zip(MOTOR_SIDE, (qmdd, qmd, sign(qmd), Decimal(1), -qe), strict=True))
+
+
+def flexible(robot: Robot, link: Rigid) -> Flexible:
+    """``robot`` with springs on its elastic joints; ``link`` is the same robot, rigid."""
+    elastic = {i: joint.number for i, joint in enumerate(robot.moving) if joint.number in robot.flexible}
+    return Flexible(link, elastic)

@@ -1,0 +1,121 @@
+"""The rigid robot: bodies, payload, wrench and effects together (report section 2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+
+import numpy as np
+
+from generator.reference import balancers, lagrange
+from generator.reference.arithmetic import Array, decimals, solve, zeros
+from generator.reference.chain import Chain, build
+from generator.reference.joint_effects import Acting, acting
+from generator.reference.matter import INERTIAL, of_body, pseudo_inertia
+from generator.reference.motion import jacobian, poses
+from generator.robot.description import Robot
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """A robot with ``values`` of its standard parameters by name; ``matter`` is its pseudo-inertias by frame number."""
+
+    chain: Chain
+    matter: Mapping[int, Array]
+    effects: tuple[Acting, ...]
+    values: Mapping[str, Decimal]
+
+    def loaded(self, payload: Array) -> Rigid:
+        """The same robot with a payload, ten inertial parameters in the tool frame (report eq. 50)."""
+        tool, load = self.chain.tool, pseudo_inertia(dict(zip(INERTIAL, payload, strict=True)))
+        return replace(self, matter={**self.matter, tool: self.matter.get(tool, zeros(4, 4)) + load})
+
+    def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
+        """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
+        tau = lagrange.torque(self.chain, self.matter, q, qd, qdd)
+        for effect in self.effects:
+            k = effect.coordinate
+            tau[k] += self._weighted(effect.torques(q[k], qd[k], qdd[k]))
+        return tau
+
+    def bias(self, q: Array, qd: Array) -> Array:
+        """H(q, qd) (n): everything but the accelerations."""
+        return self.inverse_dynamics(q, qd, zeros(self.chain.dof))
+
+    def gravity(self, q: Array) -> Array:
+        """Torque that holds the bodies' weight (n), without balancers and offsets."""
+        return lagrange.gravity(self.chain, self.matter, q)
+
+    def inertia_matrix(self, q: Array) -> Array:
+        """M(q) (n x n), the rotors' inertias on its diagonal."""
+        M = lagrange.inertia_matrix(self.chain, self.matter, q)
+        for effect in self.effects:
+            k = effect.coordinate
+            M[k, k] += 2 * self._weighted(effect.kinetic(Decimal(1)))
+        return M
+
+    def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
+        """Qdd (n) of M qdd = tau - H (report eq. 6)."""
+        return solve(self.inertia_matrix(q), tau - self.bias(q, qd))
+
+    def wrench_torque(self, q: Array, wrench: Array) -> Array:
+        """J^T w (n): holds the wrench (force, moment) of the tool on its environment, in the tool frame (eq. 73)."""
+        pose = poses(self.chain, q)
+        rotation = pose[self.chain.tool][:3, :3]
+        in_world = np.concatenate([rotation @ wrench[:3], rotation @ wrench[3:]])
+        torques: Array = jacobian(self.chain, pose, self.chain.tool).T @ in_world
+        return torques
+
+    def kinetic_energy(self, q: Array, qd: Array) -> Decimal:
+        """Of bodies and rotors [J]."""
+        of_rotors = (self._weighted(effect.kinetic(qd[effect.coordinate])) for effect in self.effects)
+        return sum(of_rotors, lagrange.kinetic_energy(self.chain, self.matter, q, qd))
+
+    def potential_energy(self, q: Array) -> Decimal:
+        """Of weight and balancers [J]; zero at q = 0."""
+        start = lagrange.potential_energy(self.chain, self.matter, zeros(self.chain.dof))
+        of_effects = (self._weighted(effect.potential(q[effect.coordinate])) for effect in self.effects)
+        return sum(of_effects, lagrange.potential_energy(self.chain, self.matter, q) - start)
+
+    def balancers(self, q: Array) -> dict[int, tuple[Decimal, Decimal, Decimal]]:
+        """By joint number: distance r24 of its balancer's pivots [m], force F1 [N] and torque [N m]."""
+        result = {}
+        for effect in self.effects:
+            x = q[effect.coordinate]
+            if pulls := effect.pulls(x):
+                force, arm = self._weighted(pulls), balancers.lever_arm(effect.shape, x)
+                result[effect.number] = balancers.length(effect.shape, x), force, force * arm
+        return result
+
+    def regressor(self, columns: Sequence[str], q: Array, qd: Array, qdd: Array) -> Array:
+        """Torques per unit of the named standard parameters (n x number of names) (report eq. 3)."""
+        found = self.columns(columns, q, qd, qdd)
+        return np.stack([found[name] for name in columns], axis=1)
+
+    def columns(self, names: Sequence[str], q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
+        """Torques (n) per unit of each named standard parameter; raises KeyError for one that there is not."""
+        known: dict[str, Array] = {}
+        for j in self.matter:
+            known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
+        for effect in self.effects:
+            k = effect.coordinate
+            for name, torque in effect.torques(q[k], qd[k], qdd[k]).items():
+                known[name] = zeros(self.chain.dof)
+                known[name][k] = torque
+        return {name: known[name] for name in names}
+
+    def body_columns(self, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
+        """Torques (n) per unit of the inertial parameters of a body in frame ``number``, by their stems."""
+        return lagrange.columns(self.chain, number, q, qd, qdd)
+
+    def _weighted(self, columns: Mapping[str, Decimal]) -> Decimal:
+        """The sum of the parameters times their columns; absent parameters are zero."""
+        return sum((self.values[name] * column for name, column in columns.items() if name in self.values), Decimal(0))
+
+
+def rigid(robot: Robot, values: Mapping[str, float]) -> Rigid:
+    """``robot`` with standard parameters and lengths by name; absent parameters are zero, absent lengths nominal."""
+    given = dict(zip(values, decimals(list(values.values())), strict=True))
+    matter = {body.number: of_body(body.number, given) for body in robot.bodies}
+    return Rigid(build(robot, given), matter, tuple(acting(robot)), given)

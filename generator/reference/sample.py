@@ -1,0 +1,98 @@
+"""Physically consistent parameters and states, the same ones on every machine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+
+import numpy as np
+
+from generator.reference.joint_effects import LAWS
+from generator.reference.matter import INERTIAL
+from generator.robot.description import PRISMATIC, Robot
+
+#: Ranges of the effects' parameters by stem [SI], those of a mid-sized arm.
+_RANGES = {
+    "Ia": (0.5, 3.0),
+    "Fv": (1.0, 9.0),
+    "Fc": (2.0, 15.0),
+    "Off": (-4.0, 4.0),
+    "Kr": (500.0, 900.0),
+    "K0": (-80.0, 80.0),
+    "F0": (300.0, 700.0),
+    "Iam": (0.5, 3.0),
+    "Fvm": (1.0, 9.0),
+    "Fcm": (2.0, 15.0),
+    "Offm": (-4.0, 4.0),
+    "k": (2e3, 9e3),
+}
+
+
+def physical_parameters(robot: Robot, seed: int) -> dict[str, float]:
+    """Standard parameters of ``robot`` by name, and those of its elastic joints, of at most five decimals.
+
+    Each body is a cloud of point masses that fill a volume, so that its pseudo-inertia is positive definite; what is
+    a loss, a stiffness or a rotor's inertia is positive.
+    """
+    draw = Random(seed)
+    values: dict[str, float] = {}
+    for body in robot.bodies:
+        values |= {f"{stem}{body.number}": value for stem, value in _cloud(draw).items()}
+    for use in robot.effects:
+        for number in use.joints:
+            values |= {f"{stem}{number}": _between(draw, stem) for stem in LAWS[use.effect].stems}
+    for number in robot.flexible:
+        values |= {f"{stem}{number}": _between(draw, stem) for stem in ("Iam", "Fvm", "Fcm", "Offm", "k")}
+    return values
+
+
+def payload(seed: int) -> list[float]:
+    """Ten inertial parameters of a physical body in the tool frame, in their order."""
+    cloud = _cloud(Random(seed))
+    return [cloud[stem] for stem in INERTIAL]
+
+
+def positions(robot: Robot, seed: int) -> list[float]:
+    """Joint positions (n) inside the limits, a turn or a metre either way where there are none, of three decimals."""
+    draw, result = Random(seed), []
+    for joint in robot.moving:
+        reach = 1.0 if joint.sigma == PRISMATIC else 3.1
+        lower = -reach if joint.lower is None else float(joint.lower)
+        upper = reach if joint.upper is None else float(joint.upper)
+        result.append(round(lower + (upper - lower) * draw.uniform(0.02, 0.98), 3))
+    return result
+
+
+def signal(size: int, seed: int, scale: float = 1.0) -> list[float]:
+    """Numbers within ``scale`` either way, none of them near zero, of three decimals."""
+    draw = Random(seed)
+    return [round(scale * draw.choice((-1, 1)) * draw.uniform(0.1, 1.0), 3) for _ in range(size)]
+
+
+def _cloud(draw: Random) -> dict[str, float]:
+    """Inertial parameters of eight points of two to five kilograms around a random centre.
+
+    Coordinates are whole centimetres and masses tenths of a kilogram, so that five decimals hold every parameter.
+    """
+    centre = [draw.randint(-20, 20) for _ in range(3)]
+    points = [_add(centre, [side * draw.randint(4, 25) for side in corner]) for corner in _CORNERS]
+    masses = [draw.randint(20, 50) for _ in points]
+    at, weight = np.array(points), np.array(masses)
+    first, second = weight @ at, (weight[:, None] * at).T @ at
+    tensor = np.trace(second) * np.eye(3, dtype=int) - second
+    xx, xy, xz, yy, yz, zz = (int(tensor[i, k]) / 1e5 for i in range(3) for k in range(i, 3))
+    mx, my, mz = (int(moment) / 1e3 for moment in first)
+    return dict(zip(INERTIAL, (xx, xy, xz, yy, yz, zz, mx, my, mz, sum(masses) / 10), strict=True))
+
+
+#: Signs of the eight octants.
+_CORNERS = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+
+def _add(a: Sequence[int], b: Sequence[int]) -> list[int]:
+    return [x + y for x, y in zip(a, b, strict=True)]
+
+
+def _between(draw: Random, stem: str) -> float:
+    lower, upper = _RANGES[stem]
+    return round(draw.uniform(lower, upper), 2)

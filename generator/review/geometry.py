@@ -1,0 +1,54 @@
+"""The rows of the Denavit-Hartenberg table and the lengths in them, ready for any notation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import sympy
+
+from generator.review.decimals import constant, decimal
+from generator.review.formula import Formula, formula
+from generator.robot.description import PRISMATIC, Joint, Length, Robot
+
+
+@dataclass(frozen=True)
+class Row:
+    """One joint of the table: its label, kind, antecedent and six parameters."""
+
+    joint: Joint
+    label: str
+    cells: tuple[tuple[str, Formula], ...]
+
+
+def rows(robot: Robot) -> list[Row]:
+    """The table of modified Denavit-Hartenberg parameters; gamma and b appear only where a robot needs them."""
+    branched = any(joint.gamma != 0 or joint.b != 0 for joint in robot.joints)
+    columns = ("gamma", "b", "alpha", "d", "theta", "r") if branched else ("alpha", "d", "theta", "r")
+    return [
+        Row(
+            joint,
+            f"{joint.number} ({joint.label})" if joint.label else str(joint.number),
+            tuple((name, formula(getattr(joint, name))) for name in columns),
+        )
+        for joint in robot.joints
+    ]
+
+
+def limits(joint: Joint) -> str:
+    """The range of a joint in degrees or metres, "none" where the file gives none."""
+    if joint.lower is None and joint.upper is None:
+        return "none"
+    lower = "-inf" if joint.lower is None else _end(joint.lower, joint)
+    upper = "inf" if joint.upper is None else _end(joint.upper, joint)
+    return f"{lower} to {upper} {'m' if joint.sigma == PRISMATIC else 'deg'}"
+
+
+def length_value(length: Length) -> str:
+    """The value of a length with its unit."""
+    return f"{decimal(constant(length.value))} {length.unit}"
+
+
+def _end(value: sympy.Expr, joint: Joint) -> str:
+    exact: Fraction = constant(value if joint.sigma == PRISMATIC else value * 180 / sympy.pi)
+    return decimal(exact, 5)

@@ -1,0 +1,72 @@
+"""The law of an effect as equations, its fixed values written by name and its observables by theirs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+
+from generator.effects.effect import Site
+from generator.effects.library import Instance
+from generator.review.formula import Equation, Name, formula
+
+
+def torque(instance: Instance, index: str) -> list[Equation]:
+    """The torque on each joint that the effect acts on; ``index`` is the joint's number or a letter that stands for it.
+
+    An effect on the motor side of an elastic joint (parameters suffixed m) reads the motor's coordinate q_m, the
+    elasticity itself the elongation q_e.
+    """
+    site = _by_name(instance)
+    totals: dict[int, sympy.Expr] = {}
+    for parameter, column in zip(instance.effect.parameters, instance.effect.columns(site), strict=True):
+        symbol = sympy.Symbol(_indexed(f"{parameter.stem}{instance.suffix}", index), real=True)
+        for number, per_unit in column.items():
+            totals[number] = totals.get(number, sympy.Integer(0)) + symbol * per_unit
+    motor = instance.suffix == "m" or "qe" in instance.effect.needs
+    here, side = instance.joint.number, f"m,{index}" if motor else index
+    renamed = {
+        site.q: _indexed("q", side),
+        site.qd: _indexed("qd", side),
+        site.qdd: _indexed("qdd", side),
+        site.elongation: f"q_e,{index}",
+    }
+    symbols = {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
+    return [
+        Equation(Name(_indexed("tau", side) if number == here else f"tau{number}"), formula(total.subs(symbols)))
+        for number, total in totals.items()
+    ]
+
+
+def observables(instance: Instance) -> list[Equation]:
+    """What else the effect tells, each with those before it: length, force of the length, torque of the force."""
+    if instance.effect.observables is None:
+        return []
+    site = _by_name(instance)
+    number = str(instance.joint.number)
+    known: dict[sympy.Expr, sympy.Expr] = {
+        sympy.Symbol(p.stem, real=True): sympy.Symbol(_indexed(p.stem, number), real=True)
+        for p in instance.effect.parameters
+    }
+    equations = []
+    for name, (expression, _, _) in instance.effect.observables(site).items():
+        equations.append(Equation(Name(name), formula(expression.subs(known, simultaneous=True))))
+        known = {
+            expression: sympy.Symbol(name, real=True),
+            expression.subs(site.q, 0): sympy.Function(name)(sympy.Integer(0)),
+        } | known
+    return equations
+
+
+def _by_name(instance: Instance) -> Site:
+    """The effect's site with its values as symbols; pure numbers such as an exponent stay numbers."""
+    kept = {shape.name for shape in instance.effect.shapes if shape.unit == "1"}
+    values = {
+        name: value if name in kept else sympy.Symbol(name, real=True) for name, value in instance.site.values.items()
+    }
+    return replace(instance.site, values=values)
+
+
+def _indexed(stem: str, index: str) -> str:
+    """A name with a subscript, also where the stem ends in a digit or the subscript is a letter."""
+    return f"{stem}{index}" if index.isdigit() else f"{stem}_{index}"

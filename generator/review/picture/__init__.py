@@ -1,0 +1,1 @@
+"""The arm drawn from its geometry."""

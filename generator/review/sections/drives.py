@@ -1,0 +1,78 @@
+"""Gear ratios, torque constants and the coupling of the drives."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from generator.review.decimals import decimal, rounded
+from generator.review.formula import Call, Equation, Formula, Name, Negative, Number, Power, Product, Quotient
+from generator.review.markup import Content, Markup, element, join, table
+from generator.review.mathml import math, mathml, matrix
+from generator.review.words import minus
+from generator.robot.description import Drives
+from generator.symbolic.model import Model
+
+TITLE = "Drives"
+ORDER = 100
+
+
+def render(model: Model) -> Markup | None:
+    drives = model.robot.drives
+    if drives is None:
+        return None
+    transposed = Power(Name("N"), Name("T"))
+    laws = [
+        Equation(Name("qd_r"), Product((Name("N"), Name("qd")))),
+        Equation(Name("tau"), Product((transposed, Name("tau_r")))),
+    ]
+    if drives.torque_constants:
+        laws.append(Equation(Name("tau"), Product((transposed, Call("diag", Name("kt")), Name("I")))))
+    return join(
+        element("p", "Motor speeds, torques and currents; index r is the rotor's side."),
+        element("p", [[math(law), " "] for law in laws], class_="laws"),
+        _table(model, drives),
+        element("h3", "Coupling matrix"),
+        _coupling("=", [[exact(entry) for entry in row] for row in drives.coupling]),
+        _coupling("≈", [[_rounded(entry) for entry in row] for row in drives.coupling]),
+    )
+
+
+def _coupling(relation: str, entries: list[list[Formula]]) -> Markup:
+    inside = element("mrow", mathml(Name("N")), element("mo", relation), matrix(entries))
+    return element("div", element("math", inside), class_="wide law")
+
+
+def _table(model: Model, drives: Drives) -> Markup:
+    heads: list[Content] = ["joint", "gear ratio", "≈"]
+    for name in drives.torque_constants:
+        used = ", in use" if name == drives.torque_constant else ""
+        heads.append(join("torque constant, ", name, used, " [N m/A]"))
+    if drives.torque_constants:
+        heads.append("drive gain [N m/A]")
+    rows: list[list[Content]] = []
+    for k, joint in enumerate(model.robot.moving):
+        ratio = drives.ratios[k]
+        row: list[Content] = [str(joint.number), math(exact(ratio)), _shown(ratio, 6)]
+        row += [_shown(constants[k], 6) for constants in drives.torque_constants.values()]
+        if drives.torque_constants:
+            row.append(_shown(ratio * drives.torque_constants[drives.torque_constant][k], 6))
+        rows.append(row)
+    return table(heads, rows, class_="numbers")
+
+
+def exact(value: Fraction) -> Formula:
+    """A rational number as a fraction."""
+    size = abs(value)
+    body: Formula = Number(size)
+    if size.denominator != 1:
+        body = Quotient(Number(Fraction(size.numerator)), Number(Fraction(size.denominator)))
+    return Negative(body) if value < 0 else body
+
+
+def _rounded(value: Fraction) -> Formula:
+    size = Number(Fraction(rounded(abs(value), 6)))
+    return Negative(size) if value < 0 else size
+
+
+def _shown(value: Fraction, digits: int) -> str:
+    return minus(rounded(value, digits) if value.denominator != 1 else decimal(value))

@@ -1,0 +1,40 @@
+"""What each generated function costs."""
+
+from __future__ import annotations
+
+from generator.review.markup import Markup, element, join, table
+from generator.symbolic.function import Function
+from generator.symbolic.model import Model
+
+TITLE = "Operation counts"
+ORDER = 130
+
+
+def render(model: Model) -> Markup | None:
+    if not model.functions:
+        return None
+    largest = max(function.count.total for function in model.functions.values()) or 1
+    rows = [_row(function, largest) for function in model.functions.values()]
+    heads = ("function", "mul", "add", "div", "trig", "other", "mul + add + div", "prepare", "inputs")
+    return join(
+        element(
+            "p",
+            "Per call, after dead code is removed; a unary minus is free, a square root or a power counts as other. "
+            "Work that depends on parameters alone is done once, in prepare.",
+        ),
+        table(heads, rows, class_="numbers"),
+    )
+
+
+def _row(function: Function, largest: int) -> list[Markup | str]:
+    count = function.count
+    prepare = function.program.count(node for node in function.nodes if node.parameter_only)
+    total = join(
+        element("span", style=f"width:{100 * count.total / largest:.1f}%", class_="bar"),
+        element("b", str(count.total)),
+    )
+    inputs = ", ".join(signal.name for signal in function.inputs)
+    name = element("code", function.name, title=function.summary)
+    numbers = [str(n) if n else "·" for n in (count.mul, count.add, count.div, count.trig, count.other)]
+    work = prepare.total + prepare.trig + prepare.other
+    return [name, *numbers, element("div", total, class_="barred"), str(work) if work else "·", inputs]

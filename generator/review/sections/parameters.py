@@ -1,0 +1,49 @@
+"""The parameter vector of the generated functions, and the standard parameters behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from generator.review.formula import Name
+from generator.review.groupings import meaning
+from generator.review.markup import Markup, element, join, table
+from generator.review.mathml import math
+from generator.review.words import unit
+from generator.robot.parameters import Parameter
+from generator.symbolic.model import Model
+
+TITLE = "Parameters"
+ORDER = 125
+
+
+def render(model: Model) -> Markup:
+    vector = _table(model.parameters, model)
+    standard = _table(model.standard_parameters, model)
+    return join(
+        element(
+            "p",
+            f"Order of the parameter vector of the generated functions: {len(model.base_parameters)} base parameters, "
+            "then motor side, torque constants and symbolic lengths, as far as the robot has them.",
+        ),
+        element(
+            "details", element("summary", f"Parameter vector, {len(model.parameters)} entries"), vector, open="open"
+        ),
+        element(
+            "details", element("summary", f"Standard parameters, {len(model.standard_parameters)} entries"), standard
+        ),
+    )
+
+
+def _table(parameters: Iterable[Parameter], model: Model) -> Markup:
+    rows = (
+        (
+            str(index),
+            math(Name(parameter.name)),
+            element("code", parameter.name),
+            unit(parameter.unit),
+            meaning(parameter, model.grouping),
+            "" if parameter.lower is None else f"≥\u00a0{parameter.lower:g}",
+        )
+        for index, parameter in enumerate(parameters)
+    )
+    return table(("index", "symbol", "name", "unit", "meaning", "bound"), rows, class_="index")

@@ -1,0 +1,93 @@
+"""Structure of the base regressor: which parameter loads which joint."""
+
+from __future__ import annotations
+
+from generator.review.formula import Name
+from generator.review.markup import Markup, element, join
+from generator.review.svg import pixel, subscripted, svg, text
+from generator.review.words import unit
+from generator.robot.parameters import Parameter
+from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.model import Model
+
+TITLE = "Structure of the regressor"
+ORDER = 60
+
+_WIDTH = 1070.0
+_SMALLEST, _LARGEST = 13.0, 22.0
+_LEFT, _TOP = 34.0, 62.0
+_KINDS = dict.fromkeys(INERTIAL[:6], "tensor") | dict.fromkeys(INERTIAL[6:9], "moment") | {INERTIAL[9]: "mass"}
+_NAMES = {"tensor": "inertia tensor", "moment": "first moments", "mass": "mass", "effect": "effects"}
+
+
+def render(model: Model) -> Markup | None:
+    function = model.functions.get("regressor")
+    if function is None or not model.base_parameters:
+        return None
+    (output,) = function.outputs
+    rows, columns = output.signal.shape
+    filled = [
+        (i, k) for i in range(rows) for k in range(columns) if output.nodes[i * columns + k] is not model.program.zero
+    ]
+    present = {_kind(parameter) for parameter in model.base_parameters}
+    kinds = [kind for kind in _NAMES if kind in present]
+    share = f"{len(filled)} of {rows * columns} entries ({100 * len(filled) / (rows * columns):.0f} %)"
+    return join(
+        element("p", f"τ = W(q, q̇, q̈) χ. {share} are not zero by structure; the packed regressor holds these alone."),
+        element("div", _grid(model, rows, columns, filled), class_="wide"),
+        element("p", [[element("i", class_=f"key {kind}"), f" {_NAMES[kind]} "] for kind in kinds], class_="legend"),
+    )
+
+
+def _grid(model: Model, rows: int, columns: int, filled: list[tuple[int, int]]) -> Markup:
+    parameters, joints = model.base_parameters, model.robot.moving
+    cell = float(min(max(_WIDTH // columns, _SMALLEST), _LARGEST))
+    width, height = _LEFT + columns * cell + 2, _TOP + rows * cell + 2
+    drawn = [
+        element(
+            "rect",
+            class_="paper",
+            x=pixel(_LEFT),
+            y=pixel(_TOP),
+            width=pixel(columns * cell),
+            height=pixel(rows * cell),
+        )
+    ]
+    for k, parameter in enumerate(parameters):
+        x = _LEFT + (k + 0.5) * cell + 4
+        label = subscripted([Name(parameter.name)])
+        drawn.append(
+            text(
+                x, _TOP - 5, label, kind="column", anchor="start", transform=f"rotate(-90 {pixel(x)} {pixel(_TOP - 5)})"
+            )
+        )
+        if k and parameters[k - 1].joint != parameter.joint:
+            at = pixel(_LEFT + k * cell)
+            drawn.append(element("path", class_="divider", d=f"M {at} {pixel(_TOP - 52)} V {pixel(height - 2)}"))
+    for i, joint in enumerate(joints):
+        drawn.append(
+            text(
+                _LEFT - 6, _TOP + (i + 0.72) * cell, subscripted([Name(f"tau{joint.number}")]), kind="row", anchor="end"
+            )
+        )
+    for i, k in filled:
+        title = f"τ{joints[i].number}, {parameters[k].name} [{unit(parameters[k].unit)}]"
+        drawn.append(
+            element(
+                "rect",
+                element("title", title),
+                class_=f"cell {_kind(parameters[k])}",
+                x=pixel(_LEFT + k * cell + 1),
+                y=pixel(_TOP + i * cell + 1),
+                width=pixel(cell - 2),
+                height=pixel(cell - 2),
+            )
+        )
+    description = (
+        f"{rows} joint torques by {columns} base parameters; a filled cell is an entry that is not always zero."
+    )
+    return svg(width, height, "Structure of the base regressor", description, join(*drawn, by="\n"), kind="regressor")
+
+
+def _kind(parameter: Parameter) -> str:
+    return _KINDS.get(Name(parameter.name).parts[0], "effect")

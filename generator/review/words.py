@@ -1,0 +1,41 @@
+"""Lists and numbers in running text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+
+def listed(words: Iterable[str]) -> str:
+    """``a, b and c``."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def plural(count: int, noun: str) -> str:
+    """``1 joint``, ``6 joints``."""
+    return f"{count} {noun if count == 1 else noun + 's'}"
+
+
+def unit(symbol: str) -> str:
+    """A unit with its powers raised and no break inside: ``kg m²``."""
+    return re.sub(r"(?<=[A-Za-z])[23]\b", lambda power: "²³"[int(power.group()) - 2], symbol).replace(" ", "\u00a0")
+
+
+def minus(text: str) -> str:
+    """Text with typographic minus signs."""
+    return text.replace("-", "−")
+
+
+def ranges(numbers: Iterable[int]) -> str:
+    """Ascending numbers with runs shortened: ``1 to 4, 6``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    pieces = []
+    for run in runs:
+        pieces += [f"{run[0]} to {run[-1]}"] if len(run) > 2 else [str(number) for number in run]
+    return ", ".join(pieces)

@@ -1,0 +1,56 @@
+"""Names that can stand in generated C, C++ and Python as they are."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+from generator.errors import InputError
+from generator.robot.document import Text
+
+_MAX_LENGTH = 31  # significant characters of an external identifier in C99
+
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z", re.ASCII)
+
+_C = """auto break case char const continue default do double else enum extern float for goto if inline int long
+register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+alignas alignof bool constexpr false nullptr static_assert thread_local true typeof typeof_unqual asm fortran"""
+
+_CPP = """and and_eq bitand bitor catch char16_t char32_t char8_t class compl concept const_cast consteval
+constinit co_await co_return co_yield decltype delete dynamic_cast explicit export friend mutable namespace new
+noexcept not not_eq operator or or_eq private protected public reinterpret_cast requires static_cast template
+this throw try typeid typename using virtual wchar_t xor xor_eq"""
+
+#: Functions and macros of the C headers that generated code includes, and headers a robot's own must not hide.
+_C_LIBRARY = """abs acos acosh asin asinh assert atan atan2 atanh cbrt ceil copysign cos cosh erf erfc errno exp
+exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp hypot ilogb ldexp lgamma log log10 log1p log2 logb lrint
+lround main math memcpy memset modf nan nearbyint nextafter pow printf remainder remquo rint round scalbn
+signbit sin sinh size_t sqrt stdio stdint stdbool stddef stdlib string strlen tan tanh tgamma trunc float32_t
+float64_t NULL NAN INFINITY EOF EXIT_SUCCESS EXIT_FAILURE HUGE_VAL j0 j1 jn y0 y1 yn"""
+
+_PYTHON = """casadi numpy np math sympy"""
+
+_RESERVED = {
+    **dict.fromkeys(_PYTHON.split(), "a module of the generated Python"),
+    **dict.fromkeys(_C_LIBRARY.split(), "a name of the C library"),
+    **dict.fromkeys([*keyword.kwlist, *keyword.softkwlist], "a Python keyword"),
+    **dict.fromkeys(_CPP.split(), "a C++ keyword"),
+    **dict.fromkeys(_C.split(), "a C keyword"),
+}
+
+
+def identifier(text: Text, what: str) -> str:
+    """The name that ``text`` gives to ``what``.
+
+    Raises InputError unless it is an identifier that no language of the generated code keeps for itself.
+    """
+    name = text.content
+    if not _IDENTIFIER.match(name):
+        raise InputError(text.place, f"{what} {name!r} is not an identifier", "letters, digits and _, a letter first")
+    if len(name) > _MAX_LENGTH:
+        raise InputError(text.place, f"{what} {name!r} is {len(name)} characters long", f"at most {_MAX_LENGTH}")
+    if "__" in name:
+        raise InputError(text.place, f"{what} {name!r} is reserved in C++", "a name without two _ in a row")
+    if name in _RESERVED:
+        raise InputError(text.place, f"{what} {name!r} is {_RESERVED[name]}", "another name")
+    return name

@@ -1,0 +1,40 @@
+"""Files with nothing but parameter values, in JSON or YAML.
+
+A value is a number in the parameter's SI unit or a table with its unit:
+``{"ZZ1R": 5.2e3, "Fv1": {"value": 8.76, "unit": "kN m s/rad"}}``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from generator.robot import fields
+from generator.robot.description import ParameterValue
+from generator.robot.document import Entry, Table
+from generator.robot.readers import text_of, yaml
+from generator.units import parse_unit
+
+#: Unit of a value that the file gives as a number alone: the parameter's own, in SI.
+UNSTATED = ""
+
+
+def read(path: Path) -> dict[str, ParameterValue]:
+    """The values by parameter name, in SI; JSON is read as the YAML that it is.
+
+    Raises InputError, with line and column, for what is not a table of finite numbers.
+    """
+    root = yaml.read(text_of(path, str(path), "a file of parameter values"), str(path))
+    return {name: _value(name, entry) for name, entry in fields.named(root, "the parameter file").items()}
+
+
+def _value(name: str, entry: Entry) -> ParameterValue:
+    what = f"value of {name}"
+    if not isinstance(entry.value, Table):
+        return ParameterValue(float(fields.number(entry.value, what)), UNSTATED, place=entry.key)
+    keys = fields.table(entry.value, what, ("value",), ("unit", "relative_std", "source", "note"))
+    value = fields.number(keys["value"].value, what)
+    if "unit" not in keys:
+        return ParameterValue(float(value), UNSTATED, place=entry.key)
+    text = fields.text(keys["unit"].value, f"unit of {name}", "a unit")
+    unit = parse_unit(text.content, text.place)
+    return ParameterValue(float(value * unit.factor), unit.si, place=entry.key)

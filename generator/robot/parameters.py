@@ -1,0 +1,45 @@
+"""What a parameter is, and the ten inertial parameters of a body in their standard order (report eq. 4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from generator.robot.description import Joint
+
+#: Stem, unit and meaning, in the standard order; tensor and first moments about the frame's origin, in its axes.
+INERTIAL = (
+    ("XX", "kg m2", "moment of inertia about x, about the frame's origin"),
+    ("XY", "kg m2", "element xy of the inertia tensor (minus the integral of x y dm)"),
+    ("XZ", "kg m2", "element xz of the inertia tensor (minus the integral of x z dm)"),
+    ("YY", "kg m2", "moment of inertia about y, about the frame's origin"),
+    ("YZ", "kg m2", "element yz of the inertia tensor (minus the integral of y z dm)"),
+    ("ZZ", "kg m2", "moment of inertia about z, about the frame's origin"),
+    ("MX", "kg m", "first moment along x: mass times x of the centre of mass"),
+    ("MY", "kg m", "first moment along y: mass times y of the centre of mass"),
+    ("MZ", "kg m", "first moment along z: mass times z of the centre of mass"),
+    ("M", "kg", "mass"),
+)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of the model.
+
+    ``name`` is the field's symbol and the joint's number ("ZZ1R", "Fv1", "k1"), or a length's name. ``joint`` is 0
+    where it belongs to none. ``lower`` is a physical bound on its value (a friction coefficient is not negative), None
+    where it has none.
+    """
+
+    name: str
+    unit: str
+    joint: int
+    meaning: str
+    lower: float | None = None
+
+
+def inertial_parameters(joint: Joint) -> tuple[Parameter, ...]:
+    """The ten inertial parameters of the body that frame ``joint`` carries, XX XY XZ YY YZ ZZ MX MY MZ M."""
+    return tuple(
+        Parameter(f"{stem}{joint.number}", unit, joint.number, meaning, 0.0 if stem == "M" else None)
+        for stem, unit, meaning in INERTIAL
+    )

@@ -1,0 +1,52 @@
+"""Robot files in their formats: one module each, found by the ending of the file's name."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from generator.discovery import modules
+from generator.errors import InputError, Place
+from generator.robot.content import robot_from
+from generator.robot.description import Robot
+
+#: Bytes that no honest robot file reaches.
+_MAX_BYTES = 4_000_000
+
+
+def read(path: Path | str) -> Robot:
+    """The robot that a file describes.
+
+    Raises InputError, with the line and column, for a file that cannot be read and for everything in it that is not as
+    ``docs/robot_file.md`` says.
+    """
+    path = Path(path)
+    file = str(path)
+    readers = {ending: module for module in modules(sys.modules[__name__]) for ending in module.EXTENSIONS}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(readers))
+    return robot_from(reader.read(text_of(path, file), file))
+
+
+def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
+    """The text of a file in UTF-8, its line ends made single; ``file`` is its name in messages.
+
+    Raises InputError, saying what was ``expected``, for what cannot be read as such a text.
+    """
+    if path.is_dir():
+        raise InputError(Place(file), "this is a folder", expected)
+    if path.exists() and not path.is_file():
+        raise InputError(Place(file), "this is not a regular file", expected)
+    try:
+        if (size := path.stat().st_size) > _MAX_BYTES:
+            raise InputError(Place(file), f"the file has {size} bytes", f"at most {_MAX_BYTES}")
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(Place(file), f"cannot read the file ({error.strerror})", expected) from None
+    try:
+        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeDecodeError as error:
+        before = content[: error.start]
+        place = Place(file, before.count(b"\n") + 1, error.start - before.rfind(b"\n"))
+        raise InputError(place, f"byte 0x{content[error.start]:02x} is not UTF-8", "a text file in UTF-8") from None

@@ -1,0 +1,130 @@
+"""Section ``drives``: gear ratios, wrist coupling and torque constants (report eq. 14-18, Tables 1-3)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+
+import sympy
+
+from generator.errors import InputError
+from generator.robot import fields
+from generator.robot.description import FIXED, Drives, Joint
+from generator.robot.document import Entry, Node, Text
+from generator.robot.names import identifier
+from generator.units import parse_unit
+
+Matrix = tuple[tuple[Fraction, ...], ...]
+
+_ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
+_CONVENTIONS = ("row", "as_printed", "direct")
+
+
+def drives(entry: Entry | None, joints: Sequence[Joint]) -> Drives | None:
+    """The drive train, exact; None where the file has none.
+
+    Raises InputError for a ratio that is zero or not rational, a list that does not have one value per moving joint, a
+    coupling element that is not below the diagonal, a torque constant that is not positive.
+    """
+    if entry is None:
+        return None
+    keys = fields.table(entry.value, "drives", ("gear_ratios",), ("coupling", "torque_constants"))
+    moving = [joint.number for joint in joints if joint.sigma != FIXED]
+    ratios = _ratios(keys["gear_ratios"].value, moving)
+    coupling = _coupling(keys.get("coupling"), ratios, moving)
+    constants, in_use = _torque_constants(keys.get("torque_constants"), moving)
+    return Drives(ratios, coupling, constants, in_use)
+
+
+def _ratios(node: Node, moving: Sequence[int]) -> tuple[Fraction, ...]:
+    ratios = []
+    for number, item in zip(moving, fields.items(node, "gear_ratios", len(moving), "gear ratios"), strict=True):
+        ratio = _fraction(item, f"gear ratio of joint {number}")
+        if ratio == 0:
+            raise InputError(item.place, f"gear ratio of joint {number} is zero", "a ratio other than zero")
+        ratios.append(ratio)
+    return tuple(ratios)
+
+
+def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[int]) -> Matrix:
+    """The matrix N: motor speed = N joint speed.
+
+    ``row``: N = diag(ratios) (I + L)^-1, L the given coefficients: the row's ratio multiplies, as gear teeth do.
+    ``as_printed``: N = (I + L)^-1 diag(ratios), the formulas printed under the report's Table 2.
+    ``direct``: the given coefficients are the elements of N themselves.
+    """
+    n = len(ratios)
+    lower = [[Fraction(0)] * n for _ in range(n)]
+    convention = "row"
+    for key, one in fields.named(entry.value, "coupling").items() if entry else ():
+        if key == "convention":
+            convention = fields.word(one.value, "convention of coupling", _CONVENTIONS)
+            continue
+        row, column = _element(Text(key, one.key), moving)
+        if lower[row][column]:
+            raise InputError(one.key, f"coupling coefficient {key} is given twice", "it once")
+        lower[row][column] = _fraction(one.value, key)
+    if convention == "direct":
+        return tuple(tuple(ratios[i] if i == k else lower[i][k] for k in range(n)) for i in range(n))
+    inverse = _inverse_of_unit_lower(lower)
+    if convention == "row":
+        return tuple(tuple(ratios[i] * inverse[i][k] for k in range(n)) for i in range(n))
+    return tuple(tuple(inverse[i][k] * ratios[k] for k in range(n)) for i in range(n))
+
+
+def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
+    match = _ELEMENT.match(key.content)
+    if match is None:
+        raise InputError(key.place, f"unknown key {key.content!r} in coupling", "convention or an element such as N54")
+    row, column = (int(one or other) for one, other in ((match[1], match[3]), (match[2], match[4])))
+    for number in (row, column):
+        if number not in moving:
+            raise InputError(key.place, f"{key.content}: joint {number} does not move or exist", "moving joints")
+    if column >= row:
+        raise InputError(key.place, f"{key.content} is not below the diagonal", "a row greater than the column")
+    return moving.index(row), moving.index(column)
+
+
+def _inverse_of_unit_lower(lower: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
+    """(I + L)^-1 by forward substitution, L strictly lower triangular."""
+    n = len(lower)
+    inverse: list[list[Fraction]] = []
+    for i in range(n):
+        unit = [Fraction(i == k) for k in range(n)]
+        inverse.append([unit[k] - sum((lower[i][m] * inverse[m][k] for m in range(i)), Fraction(0)) for k in range(n)])
+    return inverse
+
+
+def _torque_constants(entry: Entry | None, moving: Sequence[int]) -> tuple[dict[str, tuple[Fraction, ...]], str]:
+    if entry is None:
+        return {}, ""
+    keys = fields.named(entry.value, "torque_constants")
+    for key in ("unit", "use"):
+        if key not in keys:
+            raise InputError(entry.value.place, f"torque_constants has no key {key!r}", "the keys unit and use")
+    unit = fields.text(keys.pop("unit").value, "unit of torque_constants", "N m/A")
+    factor = parse_unit(unit.content, unit.place, "N m/A").factor
+    use = keys.pop("use")
+    found = {
+        identifier(Text(key, one.key), "torque constants"): _constants(one.value, key, factor, moving)
+        for key, one in keys.items()
+    }
+    return found, fields.word(use.value, "use of torque_constants", tuple(found))
+
+
+def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) -> tuple[Fraction, ...]:
+    constants = []
+    for number, item in zip(moving, fields.items(node, f"torque constants {key}", len(moving), "values"), strict=True):
+        value = _fraction(item, f"torque constant of joint {number}") * Fraction(int(factor.p), int(factor.q))
+        if value <= 0:
+            raise InputError(item.place, f"torque constant of joint {number} is not positive", "a positive number")
+        constants.append(value)
+    return tuple(constants)
+
+
+def _fraction(node: Node, what: str) -> Fraction:
+    value = fields.number(node, what)
+    if not value.is_Rational:
+        raise InputError(node.place, f"{what} is not a fraction", "a fraction such as -5473/21")
+    return Fraction(int(value.p), int(value.q))

@@ -1,0 +1,70 @@
+"""Section ``parameters``: named sets of parameter values, each value with its unit and source."""
+
+from __future__ import annotations
+
+from generator.errors import InputError
+from generator.expressions import is_finite
+from generator.robot import fields
+from generator.robot.description import ParameterSet, ParameterValue
+from generator.robot.document import Entry, Table, Text
+from generator.robot.names import identifier
+from generator.units import parse_unit
+
+
+def parameter_sets(entry: Entry | None) -> dict[str, ParameterSet]:
+    """The sets by name.
+
+    Raises InputError for a value that is not a finite number with a known unit; whether the model has the parameters
+    is checked against the model, not here.
+    """
+    given = fields.named(entry.value, "parameters") if entry else {}
+    return {key: _set(identifier(Text(key, one.key), "parameter set"), one) for key, one in given.items()}
+
+
+def _set(name: str, entry: Entry) -> ParameterSet:
+    keys = fields.table(entry.value, f"parameter set {name}", ("values",), ("description", "source", "other_values"))
+    source = fields.prose(keys.get("source"), f"source of {name}")
+    return ParameterSet(
+        name=name,
+        description=fields.prose(keys.get("description"), f"description of {name}"),
+        source=source,
+        values=_values(keys["values"], source),
+        other_values=_values(keys["other_values"], source) if "other_values" in keys else {},
+        place=entry.key,
+    )
+
+
+def _values(entry: Entry, source: str) -> dict[str, ParameterValue]:
+    return {key: _value(key, one, source) for key, one in fields.named(entry.value, "values").items()}
+
+
+def _value(name: str, entry: Entry, source: str) -> ParameterValue:
+    node = entry.value
+    if not isinstance(node, Table):
+        short = fields.quantity(node, f"value of {name}", None)
+        if short.unit == "1":
+            raise InputError(short.place, f"value of {name} has no unit", "a unit, or {value: .., unit: 1}")
+        return ParameterValue(float(short.value), short.unit, source=source, place=entry.key)
+    keys = fields.table(node, f"value of {name}", ("value", "unit"), ("relative_std", "source", "note"))
+    unit_text = fields.text(keys["unit"].value, f"unit of {name}", "a unit")
+    unit = parse_unit(unit_text.content, unit_text.place)
+    value = fields.number(keys["value"].value, f"value of {name}") * unit.factor
+    if not is_finite(value):
+        raise InputError(keys["value"].value.place, f"value of {name} is too large", "a finite number")
+    return ParameterValue(
+        value=float(value),
+        unit=unit.si,
+        relative_std=_relative_std(keys.get("relative_std"), name),
+        source=fields.prose(keys.get("source"), f"source of {name}") or source,
+        note=fields.prose(keys.get("note"), f"note on {name}"),
+        place=entry.key,
+    )
+
+
+def _relative_std(entry: Entry | None, name: str) -> float | None:
+    if entry is None:
+        return None
+    value = fields.number(entry.value, f"relative_std of {name}")
+    if value < 0:
+        raise InputError(entry.value.place, f"relative_std of {name} is negative", "a percentage from 0")
+    return float(value)

@@ -1,0 +1,47 @@
+"""Robots for the tests: every file in robots/ (a new one is tested by being there) and random chains."""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+from random import Random
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+from generator.resources import robots
+from generator.robot.readers import read
+from tests.chains import random_robot
+from tests.subject import Subject, subject
+
+FILES = {path.stem: path for path in robots()}
+CHAINS = {f"chain{seed}": seed for seed in range(12)}
+
+# The suite must say the same twice; HYPOTHESIS_PROFILE=explore looks for new chains.
+_COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "print_blob": True}
+settings.register_profile("steady", derandomize=True, max_examples=20, **_COMMON)
+settings.register_profile("explore", max_examples=300, **_COMMON)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
+
+
+@cache
+def _file(name: str) -> Subject:
+    return subject(read(FILES[name]))
+
+
+@cache
+def _chain(name: str) -> Subject:
+    return subject(random_robot(Random(CHAINS[name])))
+
+
+@pytest.fixture(scope="session", params=[*FILES, *CHAINS])
+def arm(request: pytest.FixtureRequest) -> Subject:
+    """Each robot file and each random chain, derived."""
+    name = request.param
+    return _file(name) if name in FILES else _chain(name)
+
+
+@pytest.fixture(scope="session", params=[*FILES])
+def robot_arm(request: pytest.FixtureRequest) -> Subject:
+    """Each robot file, derived."""
+    return _file(request.param)

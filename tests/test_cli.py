@@ -1,0 +1,268 @@
+"""The command line: its commands, its exit statuses, its one-line errors, what it leaves on disk."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import pty
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from generator.cli import main as cli
+from generator.discovery import modules
+from generator.resources import robots
+from generator.version import VERSION
+from tests.commands import PENDULUM, ROOT, Done, command, process, tree
+
+
+@pytest.fixture
+def pendulum(tmp_path: Path) -> Path:
+    path = tmp_path / "my robots" / "pendulum.yaml"
+    path.parent.mkdir()
+    path.write_text(PENDULUM)
+    return path
+
+
+def refused(done: Done) -> str:
+    """The message of a command that refused its input in the agreed way."""
+    assert done.status == 2, done
+    assert done.out == ""
+    (line,) = (line for line in done.err.splitlines() if line.startswith("error: "))
+    assert done.err.endswith(line + "\n")
+    assert "Traceback" not in done.err
+    return line
+
+
+# -- finding commands ---------------------------------------------------------------------------------------------
+
+
+def test_every_command_module_is_an_entry_point() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    registered = project["entry-points"][cli.GROUP]
+    own = {
+        module.__name__.rpartition(".")[2]: module.__name__
+        for module in modules(importlib.import_module("generator.cli"))
+        if hasattr(module, "run")
+    }
+    assert {name: place for name, place in registered.items() if place.startswith("generator.")} == own
+    assert project["scripts"]["counterpoise"] == "generator.cli.main:main"
+
+
+def test_commands_are_found_without_an_installation(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("generator.cli.main.metadata.entry_points", lambda group: [])
+    assert list(cli.commands()) == ["check", "evaluate", "generate", "list", "review"]
+
+
+def test_help_names_every_command_and_what_it_does(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        cli.main(["--help"])
+    text = " ".join(capsys.readouterr().out.split())
+    for name, module in cli.commands().items():
+        assert f"{name} {' '.join((module.__doc__ or '').partition(chr(10))[0].split())}" in text
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        cli.main(["--version"])
+    assert capsys.readouterr().out == f"counterpoise {VERSION}\n"
+
+
+def test_asking_for_help_imports_no_algebra() -> None:
+    script = (
+        "import sys\nfrom generator.cli.main import main\n"
+        "try: main(['--help'])\nexcept SystemExit: pass\n"
+        "print(sorted({'sympy', 'casadi', 'numpy', 'rich', 'jinja2'} & set(sys.modules)), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stderr == "[]\n"
+
+
+# -- exit statuses ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "error: counterpoise:1:1: the following arguments are required: COMMAND, expected what counterpoise --help"),
+        (["derive"], "error: counterpoise:1:1: argument COMMAND: invalid choice: 'derive'"),
+        (["check"], "error: counterpoise check:1:1: the following arguments are required: ROBOT, expected what"),
+        (["check", "kr501"], "error: kr501:1:1: there is no robot 'kr501', expected perhaps kr500"),
+        (["check", "no/such.yaml"], "error: no/such.yaml:1:1: there is no such file, expected the path of a robot file"),
+        (["generate", "kr500", "--uot", "x"], "error: counterpoise:1:1: unrecognized arguments: --uot x, expected"),
+    ],
+)
+def test_mistakes_on_the_command_line(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert refused(command(*arguments, capsys=capsys)).startswith(message)
+
+
+def test_a_defect_shows_its_traceback_and_exits_with_1() -> None:
+    script = (
+        "from generator.cli import list, main\n"
+        "def run(arguments): raise RuntimeError('a defect')\n"
+        "list.run = run\nraise SystemExit(main.main(['list']))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "Traceback" in done.stderr
+    assert done.stderr.endswith("RuntimeError: a defect\n")
+
+
+def test_a_reader_that_stops_early_is_no_error() -> None:
+    line = f'"{sys.executable}" -m generator review kr500 | head -n 1; exit ${{PIPESTATUS[0]}}'
+    done = subprocess.run(["bash", "-c", line], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, "# Groupings of kr500\n")
+    assert "Error" not in done.stderr
+
+
+# -- list, check, review --------------------------------------------------------------------------------------------
+
+
+def test_list_shows_every_robot_with_its_sets(capsys: pytest.CaptureFixture[str]) -> None:
+    head, *lines = command("list", capsys=capsys).out.splitlines()
+    assert head.split() == ["robot", "joints", "parameter", "sets", "description"]
+    assert [line.split()[0] for line in lines] == [path.stem for path in robots()]
+    (kr500,) = (line for line in lines if line.split()[0] == "kr500")
+    assert kr500.split()[1] == "6"
+    assert "report_table_11, report_table_13" in kr500
+    assert kr500.endswith("KUKA KR500-2MT, six axes, gas balancer on axis 2")
+
+
+def test_check_says_that_a_file_is_good(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = command("check", pendulum, capsys=capsys)
+    assert done.out == f"{pendulum}: pendulum is good: 1 moving joints, 5 base parameters, 1 parameter sets\n"
+    assert done.status == 0
+
+
+def test_check_refuses_a_set_with_a_parameter_the_robot_lacks(
+    pendulum: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pendulum.write_text(PENDULUM.replace("ZZ1:", "ZZ2:"))
+    assert refused(command("check", pendulum, capsys=capsys)) == (
+        f"error: {pendulum}:13:7: the robot has no parameter 'ZZ2', expected perhaps 'ZZ1'"
+    )
+
+
+def test_review_prints_the_groupings_of_the_review_folder(
+    pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command("generate", pendulum, "--out", tmp_path, capsys=capsys).status == 0
+    text = command("review", pendulum, capsys=capsys).out
+    assert text == (tmp_path / "pendulum" / "review" / "groupings.md").read_text()
+    assert text.startswith("# Groupings of pendulum\n")
+
+
+# -- generate -------------------------------------------------------------------------------------------------------
+
+
+def test_generate_tests_the_code_and_sums_up(pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = command("generate", pendulum, "--out", tmp_path / "out", "--self-test", capsys=capsys)
+    assert done.status == 0
+    lines = done.out.splitlines()
+    assert lines[:4] == [
+        "pendulum: one link on a horizontal axis",
+        "base parameters  5",
+        "effect           viscous friction on 1: Fv1",
+        "effect           Coulomb friction on 1: Fc1",
+    ]
+    (gravity,) = (line.split() for line in lines if line.startswith("gravity "))
+    assert gravity == ["gravity", "2", "1", "0", "2", "0"]  # g MX1 and g MY1 are prepared
+    tallies = [line.split() for line in lines if line.startswith("self-test")]
+    assert [(words[-1], int(words[1]) > 20) for words in tallies] == [("double", True), ("float", True)]
+    folder = tmp_path / "out" / "pendulum"
+    assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: c (4), casadi (")
+    assert lines[-1].endswith("manifest.json")
+
+
+def test_stages_are_plain_lines_where_there_is_no_terminal(
+    pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    done = command("generate", pendulum, "--out", tmp_path / "out", capsys=capsys)
+    assert done.err == f"reading {pendulum}\nderiving the model of pendulum\nemitting the files\n"
+
+
+def test_stages_are_shown_on_a_terminal(pendulum: Path) -> None:
+    terminal, end = pty.openpty()
+    with os.fdopen(terminal, "rb", buffering=0) as screen:
+        done = subprocess.run(
+            [sys.executable, "-m", "generator", "check", str(pendulum)],
+            cwd=ROOT,
+            env={**os.environ, "TERM": "xterm-256color"},
+            stdout=subprocess.PIPE,
+            stderr=end,
+            check=True,
+        )
+        os.close(end)
+        shown = screen.read(100_000).decode()
+    assert b"is good" in done.stdout
+    assert "reading and deriving" in shown
+    assert "\x1b[" in shown
+
+
+def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(
+    pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "out" / "pendulum"
+    command("generate", pendulum, "--out", folder.parent, capsys=capsys)
+    first = tree(folder)
+    (folder / "c" / "stale.c").write_text("int stale;\n")
+    (folder / "c" / "pendulum.h").write_text("edited\n")
+    (folder / "notes.txt").write_text("mine\n")
+    command("generate", pendulum, "--out", folder.parent, capsys=capsys)
+    assert tree(folder) == first | {"notes.txt": b"mine\n"}
+    assert [path.name for path in folder.parent.iterdir()] == ["pendulum"]
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "message"),
+    [
+        ("alpha: pi/2", "alpha: pi/2 m", ":5:"),
+        ("viscous_friction", "viscous_fiction", ":7:14: unknown effect 'viscous_fiction'"),
+        ("MX1: 3 kg m", "MX1: 3 kg", ":14:7: MX1 is given in kg, expected kg m"),
+        ("MX1: 3 kg m", "MX3: 3 kg m", ":14:7: the robot has no parameter 'MX3', expected perhaps 'MX1'"),
+    ],
+)
+def test_bad_input_leaves_nothing_behind(
+    pendulum: Path, tmp_path: Path, good: str, bad: str, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert good in PENDULUM
+    pendulum.write_text(PENDULUM.replace(good, bad))
+    out = tmp_path / "out"
+    assert refused(command("generate", pendulum, "--out", out, capsys=capsys)).startswith(f"error: {pendulum}{message}")
+    assert not out.exists()
+
+
+def test_bad_input_leaves_an_older_generation_as_it_was(
+    pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command("generate", pendulum, "--out", tmp_path / "out", capsys=capsys)
+    before = tree(tmp_path / "out")
+    pendulum.write_text(PENDULUM.replace("viscous_friction", "stribeck"))
+    refused(command("generate", pendulum, "--out", tmp_path / "out", capsys=capsys))
+    assert tree(tmp_path / "out") == before
+
+
+def test_a_folder_that_cannot_be_made_is_bad_input(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = command("generate", pendulum, "--out", pendulum, capsys=capsys)
+    assert refused(done) == (
+        f"error: {pendulum}/pendulum:1:1: it cannot be written (File exists), expected a folder that can be made and written"
+    )
+
+
+def test_a_missing_compiler_is_named(
+    pendulum: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("CC", "no-such-compiler")
+    done = command("generate", pendulum, "--out", tmp_path, "--self-test", capsys=capsys)
+    assert refused(done) == "error: no-such-compiler:1:1: there is no such program, expected a C compiler; set CC"
+
+
+def test_generate_works_from_any_folder_and_with_a_relative_path(pendulum: Path) -> None:
+    done = process("generate", "pendulum.yaml", "--out", "here", cwd=pendulum.parent)
+    assert done.status == 0
+    assert (pendulum.parent / "here" / "pendulum" / "manifest.json").is_file()
