@@ -79,4 +79,6 @@ $(RUNTIME):
 $(TESTING): $(RUNTIME)
 	@echo 'adding the test tools from requirements-test.lock'
 	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-test.lock
+	@$(VENV)/bin/python -m pip download --quiet --disable-pip-version-check --only-binary :all: --dest $(VENV)/wheels \
+	    --require-hashes -r requirements.lock
 	@touch $@

@@ -13,7 +13,6 @@ import numpy as np
 from hypothesis import strategies as st
 
 from generator.robot.description import ParameterSet, ParameterValue
-from generator.errors import Place
 from generator.robot.parameters import Parameter
 from generator.symbolic.function import PARAMETERS, Function, Output, Signal, Sparsity
 from generator.symbolic.statements import Node, Program
@@ -31,7 +30,7 @@ class Toy:
 
     @property
     def robot(self) -> Any:
-        given = {"ZZ1R": ParameterValue(-2.5, "kg m2", None, "", Place("toy.yaml"))}
+        given = {"ZZ1R": ParameterValue(-2.5, "kg m2")}
         return SimpleNamespace(
             name="toy",
             description='ends a comment */ and a """docstring""" \\',

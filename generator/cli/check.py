@@ -17,14 +17,13 @@ def run(arguments: argparse.Namespace) -> None:
     """Prints one line if the file is good; raises InputError if not."""
     from generator.derivation import derive
     from generator.robot.readers import read
-    from generator.symbolic.parameter_sets import parameter_vector
+    from generator.symbolic.parameter_sets import resolved_sets
 
     path = find_robot(arguments.robot)
     with stage("reading and deriving"):
         robot = read(path)
         model = derive(robot, names=())
-        for parameter_set in robot.parameter_sets.values():
-            parameter_vector(model, parameter_set.values)
+        resolved_sets(model)
     print(
         f"{path}: {robot.name} is good: {len(robot.moving)} moving joints, "
         f"{len(model.base_parameters)} base parameters, {len(robot.parameter_sets)} parameter sets"

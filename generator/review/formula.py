@@ -14,6 +14,8 @@ from typing import TypeAlias
 
 import sympy
 
+from generator.review.trigonometry import without_half_angles
+
 #: Stems that are printed as letters of another alphabet, in every notation that has them.
 GREEK = {
     "alpha": "α",
@@ -145,7 +147,7 @@ def formula(expression: sympy.Expr) -> Formula:
 
 def polynomial(expression: sympy.Expr) -> Formula:
     """The formula of an expression multiplied out: ``d2^2 + d3^2``, ``2 rl4``, never nested."""
-    return formula(sympy.expand(expression))
+    return formula(sympy.expand(without_half_angles(expression)))
 
 
 def total(terms: Iterable[Formula]) -> Formula:

@@ -51,7 +51,7 @@ def regauge(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge) -> Regauged:
         if j not in parts:
             continue
         part = parts[j]
-        if gauge.slide and frame.revolute and _is_last(chain, frame):
+        if gauge.slide and frame.revolute and is_last(chain, frame):
             part, positions[j] = _slid(frame, part)
         below = nothing(program)
         if frame.parent is not None:
@@ -78,17 +78,29 @@ def _leaving(frame: Frame, part: Matter) -> Matter:
     return part
 
 
-def _is_last(chain: Chain, frame: Frame) -> bool:
+def is_last(chain: Chain, frame: Frame) -> bool:
+    """Whether no body is carried by this frame."""
     return all(other.parent is not frame or not other.has_body() for other in chain.frames)
 
 
 def _slid(frame: Frame, part: Matter) -> tuple[Matter, Array]:
     """The body about the point of its axis next to the antecedent's origin, and that point."""
     program = part.mass.program
-    z = frame.rotation[:, 2]
-    r = z @ frame.position
+    r = offset_along_axis(frame)
     shift = array(program, [0, 0, r])
-    return moved(part, identity(program, 3), shift), frame.position - r * z
+    return moved(part, identity(program, 3), shift), slid_origin(frame)
+
+
+def offset_along_axis(frame: Frame) -> Node:
+    """How far the frame's origin stands along its own axis from the point next to its antecedent's origin."""
+    offset: Node = frame.rotation[:, 2] @ frame.position
+    return offset
+
+
+def slid_origin(frame: Frame) -> Array:
+    """That point, in the antecedent's frame."""
+    origin: Array = frame.position - offset_along_axis(frame) * frame.rotation[:, 2]
+    return origin
 
 
 def _balancing_mass(below: Matter, position: Array) -> Node:

@@ -54,9 +54,10 @@ def inverse_dynamics(
     return _torques(chain, spun, chosen, motion, strategy)
 
 
-def own_motions(chain: Chain, qd: Sequence[Node], qdd: Sequence[Node]) -> dict[int, Motion]:
-    """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it."""
-    positions = {frame.number: frame.position for frame in chain.frames}
+def own_motions(
+    chain: Chain, positions: Mapping[int, Array], qd: Sequence[Node], qdd: Sequence[Node]
+) -> dict[int, Motion]:
+    """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it, for origins at ``positions``."""
     motion = _motions(chain, segments(chain), positions, qd, qdd)
     return {j: Motion(own.own.w, own.own.wd, own.own.u, own.a_own) for j, own in motion.items()}
 

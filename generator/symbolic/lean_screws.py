@@ -14,9 +14,9 @@ from generator.symbolic.vectors import Array, array, cross, zeros
 Screws = Mapping[int, Mapping[int, Screw]]
 
 
-def own_screws(chain: Chain) -> Screws:
-    """For each frame, by coordinate, the screws of the joints that carry it, in its own axes at its origin."""
-    return screws(chain, segments(chain), {frame.number: frame.position for frame in chain.frames})[0]
+def own_screws(chain: Chain, positions: Mapping[int, Array]) -> Screws:
+    """For each frame, by coordinate, the screws of the joints that carry it, in own axes, for origins at ``positions``."""
+    return screws(chain, segments(chain), positions)[0]
 
 
 def screws(chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array]) -> tuple[Screws, Screws]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.newton_euler import Motion
@@ -61,6 +60,30 @@ def column(
     return entries
 
 
-def inertial_names(j: int) -> list[str]:
-    """Names of the ten inertial parameters of body j, in order."""
-    return [f"{name}{j}" for name in INERTIAL]
+#: A column of a frame's origin in terms of columns of a point r before it on the axis: factor, power of r, parameter.
+_SHIFTED = {
+    "MX": ((-1, 1, "XZ"),),
+    "MY": ((-1, 1, "YZ"),),
+    "MZ": ((2, 1, "XX"), (2, 1, "YY")),
+    "M": ((1, 1, "MZ"), (1, 2, "XX"), (1, 2, "YY")),
+}
+
+
+def columns_about(
+    chain: Chain, frame: Frame, stems: Iterable[str], motion: Motion, carried_by: Mapping[int, Screw], r: Node
+) -> dict[str, dict[int, Node]]:
+    """The columns of a body's parameters ``stems``, from motion and screws of a point of its axis.
+
+    The frame's origin stands ``r`` along z from that point; what moves little there is cheaper there, and a column
+    moves back by one product per entry.
+    """
+    program = chain.program
+    result: dict[str, dict[int, Node]] = {}
+    for stem in stems:
+        entries = column(chain, frame, stem, motion, carried_by)
+        for factor, power, other in _SHIFTED.get(stem, ()) if r is not program.zero else ():
+            scale = factor * (r if power == 1 else r * r)
+            for coordinate, entry in column(chain, frame, other, motion, carried_by).items():
+                entries[coordinate] = entries[coordinate] + scale * entry
+        result[stem] = entries
+    return result

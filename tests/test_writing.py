@@ -1,0 +1,61 @@
+"""A generation on disk is the old one or the new one, never a mixture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from generator.errors import InputError
+from generator.writing import replace
+from tests.commands import tree
+
+OLD = {"c/robot.c": b"old", "c/stale.c": b"stale", "manifest.json": b"old"}
+NEW = {"c/robot.c": b"new", "review/page.html": b"new", "manifest.json": b"new"}
+
+
+def test_a_new_folder_holds_the_files(tmp_path: Path) -> None:
+    replace(tmp_path / "deep" / "robot", NEW)
+    assert tree(tmp_path) == {f"deep/robot/{name}": content for name, content in NEW.items()}
+
+
+def test_stale_files_go_and_foreign_ones_stay(tmp_path: Path) -> None:
+    replace(tmp_path / "robot", OLD)
+    (tmp_path / "robot" / "notes").mkdir()
+    (tmp_path / "robot" / "notes" / "mine.txt").write_bytes(b"mine")
+    replace(tmp_path / "robot", NEW)
+    assert tree(tmp_path / "robot") == NEW | {"notes/mine.txt": b"mine"}
+
+
+@pytest.mark.parametrize("failing", range(5))
+def test_a_failure_at_any_move_restores_the_old_generation(
+    tmp_path: Path, failing: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replace(tmp_path / "robot", OLD)
+    rename, moves = Path.rename, iter(range(100))
+
+    def breaking(source: Path, target: Path) -> Path:
+        if next(moves) == failing:
+            raise PermissionError(13, "Permission denied")
+        return rename(source, target)
+
+    monkeypatch.setattr(Path, "rename", breaking)
+    with pytest.raises(InputError, match=r"robot:1:1: it cannot be written \(Permission denied\), expected a folder"):
+        replace(tmp_path / "robot", NEW)
+    assert next(moves) > failing
+    assert tree(tmp_path) == {f"robot/{name}": content for name, content in OLD.items()}
+
+
+def test_an_interruption_restores_the_old_generation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    replace(tmp_path / "robot", OLD)
+    rename, moves = Path.rename, iter(range(100))
+
+    def interrupted(source: Path, target: Path) -> Path:
+        if next(moves) == 2:
+            raise KeyboardInterrupt
+        return rename(source, target)
+
+    monkeypatch.setattr(Path, "rename", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        replace(tmp_path / "robot", NEW)
+    assert tree(tmp_path) == {f"robot/{name}": content for name, content in OLD.items()}
