@@ -45,7 +45,7 @@ list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
-	@$(PYTEST) -n 2 --ignore=tests/extra tests
+	@$(PYTEST) -n 2 --dist loadgroup --ignore=tests/extra tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra

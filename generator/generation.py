@@ -27,16 +27,18 @@ def silent(text: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def generate(robot_file: Path, out: Path, stage: Stage = silent) -> tuple[Path, dict[str, Any]]:
+def generate(
+    robot_file: Path, out: Path, stage: Stage = silent, plain: bool = False
+) -> tuple[Path, dict[str, Any]]:
     """Generates every backend's files for a robot file into ``out/<robot's name>``; returns that folder, the manifest.
 
-    Nothing is written before everything has been derived. Raises InputError for a bad robot file or a folder that
-    cannot be written.
+    A ``plain`` generation writes the textbook recursion. Nothing is written before everything has been derived. Raises
+    InputError for a bad robot file or a folder that cannot be written.
     """
     with stage(f"reading {robot_file}"):
         robot = read(robot_file)
     with stage(f"deriving the model of {robot.name}"):
-        model = derive(robot)
+        model = derive(robot, plain=plain)
     with stage("emitting the files"):
         files = emitted(model)
     contents = manifest(model, sorted(files))

@@ -56,7 +56,9 @@ def chain_of(robot: Robot) -> ElasticChain:
 
 def chain_values(arm: Subject, chain: ElasticChain) -> dict[str, float]:
     """Standard parameters of the chain: motors without bodies, springs without inertia of their own."""
-    values = {f"{stem}{chain.link[b.number]}": arm.values[f"{stem}{b.number}"] for b in arm.robot.bodies for stem in INERTIAL}
+    values = {}
+    for number in (body.number for body in arm.robot.bodies):
+        values |= {f"{stem}{chain.link[number]}": arm.values[f"{stem}{number}"] for stem in INERTIAL}
     for number in arm.robot.flexible:
         for ours, theirs in MOTOR_SIDE.items():
             values[f"{theirs}{chain.motor[number]}"] = arm.values[f"{ours}{number}"]

@@ -17,6 +17,9 @@ from tests.commands import ROOT, process, tree
 #: Where ``make test`` keeps the locked wheels, so that this test needs no network.
 WHEELS = Path(sys.prefix, "wheels")
 
+#: One worker builds and installs for all.
+pytestmark = pytest.mark.xdist_group("wheel")
+
 
 def run(*command: str | Path, cwd: Path) -> str:
     """The output of a command that sees nothing of this checkout."""

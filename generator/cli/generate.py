@@ -14,9 +14,14 @@ from generator.resources import find_robot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """ROBOT, --out and --self-test."""
+    """ROBOT, --out, --plain and --self-test."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("generated"), help="default: generated")
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="write the textbook recursion with SYMORO's names, longer, to be read beside a paper",
+    )
     parser.add_argument(
         "--self-test",
         action="store_true",
@@ -29,7 +34,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.c_selftest import PRECISIONS, run_self_test
     from generator.generation import generate
 
-    folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage)
+    folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage, arguments.plain)
     passed: dict[str, int] = {}
     if arguments.self_test:
         for precision in PRECISIONS:

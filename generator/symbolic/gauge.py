@@ -14,7 +14,7 @@ from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.matter import Matter, matter, moved, nothing
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, array, identity, zeros
+from generator.symbolic.vectors import Array, array, identity, named, zeros
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,9 @@ def regauge(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge) -> Regauged:
         parts[j] = Matter(part.sigma - leaving.sigma, part.moment - leaving.moment, part.mass - leaving.mass)
         if frame.parent is not None:
             parts[frame.parent.number] = below + moved(leaving, frame.rotation, positions[j])
+    for j, part in parts.items():
+        named("S", j, part.sigma)
+        named("MS", j, part.moment)
     return Regauged(parts, positions)
 
 

@@ -79,9 +79,17 @@ def _motions(
             slide = array(program, [0, 0, qd[frame.coordinate]])
             a = a + 2 * cross(carried.w, slide) + array(program, [0, 0, qdd[frame.coordinate]])
         own = in_own_axes(rotation, link) if frame.revolute else _turned_by(rotation, link)
-        named("W", j, own.w)
-        result[j] = LeanMotion(rotation, own, a, named("VP", j, link.to_own(a)))
+        _named_motion(j, rotation, own)
+        result[j] = LeanMotion(rotation, own, named("VPu", j, a), named("VP", j, link.to_own(a)))
     return result
+
+
+def _named_motion(j: int, unspun_rotation: Spin, own: Spin) -> None:
+    """Names for a reviewer; a u marks unspun axes."""
+    for mark, rotation in (("", own), ("u", unspun_rotation)):
+        named(f"W{mark}", j, rotation.w)
+        named(f"WP{mark}", j, rotation.wd)
+        named(f"U{mark}", j, rotation.u)
 
 
 def _turned_by(rotation: Spin, link: Spun) -> Spin:
@@ -125,9 +133,14 @@ def _torques(
         part = chosen.parts.get(j)
         if part is not None:
             if j in strategy.unspun:
-                _add(summed, j, _wrench(motion[j].unspun, motion[j].a_unspun, unspun(part, link), about_z(part)))
+                turned = unspun(part, link)
+                named("Su", j, turned.sigma)
+                named("MSu", j, turned.moment)
+                wrench = _wrench(motion[j].unspun, motion[j].a_unspun, turned, about_z(part))
+                _add(summed, j, _named_wrench("u", j, wrench))
             else:
-                _add(own, j, _wrench(motion[j].own, motion[j].a_own, part, about_z(part)))
+                wrench = _wrench(motion[j].own, motion[j].a_own, part, about_z(part))
+                _add(own, j, _named_wrench("", j, wrench))
         if j in own:
             _add(summed, j, Wrench(link.to_unspun(own[j].f), link.to_unspun(own[j].n)))
         if j not in summed:
@@ -147,6 +160,10 @@ def _torques(
             f = link.entry @ total.f
             _add(own, frame.parent.number, Wrench(f, link.entry @ total.n + cross(position, f)))
     return torques
+
+
+def _named_wrench(mark: str, j: int, wrench: Wrench) -> Wrench:
+    return Wrench(named(f"F{mark}", j, wrench.f), named(f"N{mark}", j, wrench.n))
 
 
 def _add(wrenches: dict[int, Wrench], j: int, wrench: Wrench) -> None:

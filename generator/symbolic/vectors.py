@@ -45,19 +45,17 @@ def skew(a: Array) -> Array:
 
 
 def named(prefix: str, frame: int, values: Array) -> Array:
-    """Gives the entries of a frame's vector the name a reviewer reads, ``W3_2``: quantity, frame, component."""
-    for component, node in enumerate(values, start=1):
-        name_node(node, f"{prefix}{frame}_{component}")
+    """Gives the entries of a frame's vector or matrix the name a reviewer reads, ``W3_2``: quantity, frame, component.
+
+    A trailing n tells that the negative is what is computed.
+    """
+    for place, node in np.ndenumerate(values):
+        _name_node(node, f"{prefix}{frame}_{''.join(str(index + 1) for index in place)}")
     return values
 
 
-def name_node(node: Node, name: str) -> Node:
-    """Names a computed node; leaves and nodes that have a name keep theirs."""
-    target = node.arguments[0] if node.operation == "neg" else node
-    if target.operation not in ("constant", "input") and target.name is None and node is target:
-        target.name = name
-    return node
-
-
-def number(program: Program, value: Number) -> Node:
-    return program.constant(value)
+def _name_node(node: Node, name: str) -> None:
+    """Names a computed node; leaves, and nodes that have a name, keep theirs."""
+    target, suffix = (node.arguments[0], "n") if node.operation == "neg" else (node, "")
+    if target.arguments and target.name is None:
+        target.name = name + suffix

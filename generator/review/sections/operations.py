@@ -23,7 +23,20 @@ def render(model: Model) -> Markup | None:
             "Work that depends on parameters alone is done once, in prepare.",
         ),
         table(heads, rows, class_="numbers"),
+        *_strategies(model),
     )
+
+
+def _strategies(model: Model) -> list[Markup]:
+    """How the equations of the bodies were written, and what that saved against the textbook recursion."""
+    if not model.strategies.choices:
+        return [element("p", "The equations are those of the textbook recursion.")]
+    rows: list[list[Markup | str]] = [
+        [kind, choice.way, str(choice.operations), str(choice.textbook), f"{100 * choice.saved:.0f} %"]
+        for kind, choice in model.strategies.choices.items()
+    ]
+    heads = ("equations of the bodies", "written with", "mul + add + div", "textbook recursion", "saved")
+    return [table(heads, rows, class_="numbers")]
 
 
 def _row(function: Function, largest: int) -> list[Markup | str]:

@@ -1,0 +1,263 @@
+"""Base parameters: the report's groupings term by term, the counts, and the numerical rank of another regressor."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from decimal import Decimal
+from random import Random
+
+import numpy as np
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from generator.derivation import derive
+from generator.reference.arithmetic import decimals
+from generator.resources import find_robot
+from generator.robot.description import EffectUse, Robot
+from generator.robot.readers import read
+from generator.symbolic.model import Model
+from tests.chains import DRIVE_TRAIN, elastic_chain, on_all_joints, random_anthropomorphic, random_robot
+from tests.subject import Subject, Vector, subject
+
+#: Report section 5.1, KR270-2F, as printed.
+SECTION_5_1 = """
+ZZ1R = ZZ1 + Ia1 + YY2 + 0.12241 M2 + YY3 + 1.685 M3 + 1.6881 M4 + 1.6881 M5 + 1.6881 M6
+XX2R = XX2 - YY2 - 1.5626 M3 - 1.5626 M4 - 1.5626 M5 - 1.5626 M6
+XZ2R = XZ2 - 1.25 MZ3
+ZZ2R = ZZ2 + Ia2 + 1.5626 M3 + 1.5626 M4 + 1.5626 M5 + 1.5626 M6
+MX2R = MX2 + 1.25 M3 + 1.25 M4 + 1.25 M5 + 1.25 M6
+XX3R = XX3 - YY3 + YY4 - 2.2 MZ4 + 1.207 M4 + 1.207 M5 + 1.207 M6
+XY3R = XY3 - 0.055187 MZ4 + 0.060706 M4 + 0.060706 M5 + 0.060706 M6
+ZZ3R = ZZ3 + YY4 - 2.2 MZ4 + 1.213 M4 + 1.213 M5 + 1.213 M6
+MX3R = MX3 + 0.055187 M4 + 0.055187 M5 + 0.055187 M6
+MY3R = MY3 + MZ4 - 1.1 M4 - 1.1 M5 - 1.1 M6
+XX4R = XX4 - YY4 + YY5
+ZZ4R = ZZ4 + YY5
+MY4R = MY4 - MZ5
+XX5R = XX5 - YY5 + YY6 - 0.46 MZ6 + 0.0529 M6
+ZZ5R = ZZ5 + YY6 - 0.46 MZ6 + 0.0529 M6
+MY5R = MY5 + MZ6 - 0.23 M6
+XX6R = XX6 - YY6
+"""
+
+#: Report section 6.1, KR500-2MT; ZZ3R's one coefficient 1.05365 is printed there rounded both ways.
+SECTION_6_1 = """
+ZZ1R = ZZ1 + Ia1 + YY2 + 0.25 M2 + YY3 + 1.94 M3 + 1.943 M4 + 1.943 M5 + 1.943 M6
+XX2R = XX2 - YY2 - 1.69 M3 - 1.69 M4 - 1.69 M5 - 1.69 M6
+XZ2R = XZ2 - 1.3 MZ3
+ZZ2R = ZZ2 + Ia2 + 1.69 M3 + 1.69 M4 + 1.69 M5 + 1.69 M6
+MX2R = MX2 + 1.3 M3 + 1.3 M4 + 1.3 M5 + 1.3 M6
+XX3R = XX3 - YY3 + YY4 - 2.05 MZ4 + 1.0476 M4 + 1.0476 M5 + 1.0476 M6
+XY3R = XY3 + 0.055 MZ4 - 0.056375 M4 - 0.056375 M5 - 0.056375 M6
+ZZ3R = ZZ3 + YY4 - 2.05 MZ4 + 1.05365 M4 + 1.05365 M5 + 1.05365 M6
+MX3R = MX3 - 0.055 M4 - 0.055 M5 - 0.055 M6
+MY3R = MY3 + MZ4 - 1.025 M4 - 1.025 M5 - 1.025 M6
+XX4R = XX4 - YY4 + YY5
+ZZ4R = ZZ4 + YY5
+MY4R = MY4 - MZ5
+XX5R = XX5 - YY5 + YY6 - 0.58 MZ6 + 0.0841 M6
+ZZ5R = ZZ5 + YY6 - 0.58 MZ6 + 0.0841 M6
+MY5R = MY5 + MZ6 - 0.29 M6
+XX6R = XX6 - YY6
+"""
+
+#: The same 17 groupings in the lengths of Table 4.
+IN_SYMBOLS = {
+    "ZZ1R": {"Ia1": "1", "YY2": "1", "M2": "d2**2", "YY3": "1", "M3": "d2**2 + d3**2"}
+    | dict.fromkeys(("M4", "M5", "M6"), "d2**2 + d3**2 + d4**2"),
+    "XX2R": {"YY2": "-1"} | dict.fromkeys(("M3", "M4", "M5", "M6"), "-d3**2"),
+    "XZ2R": {"MZ3": "-d3"},
+    "ZZ2R": {"Ia2": "1"} | dict.fromkeys(("M3", "M4", "M5", "M6"), "d3**2"),
+    "MX2R": dict.fromkeys(("M3", "M4", "M5", "M6"), "d3"),
+    "XX3R": {"YY3": "-1", "YY4": "1", "MZ4": "2*rl4"} | dict.fromkeys(("M4", "M5", "M6"), "rl4**2 - d4**2"),
+    "XY3R": {"MZ4": "-d4"} | dict.fromkeys(("M4", "M5", "M6"), "-d4*rl4"),
+    "ZZ3R": {"YY4": "1", "MZ4": "2*rl4"} | dict.fromkeys(("M4", "M5", "M6"), "d4**2 + rl4**2"),
+    "MX3R": dict.fromkeys(("M4", "M5", "M6"), "d4"),
+    "MY3R": {"MZ4": "1"} | dict.fromkeys(("M4", "M5", "M6"), "rl4"),
+    "XX4R": {"YY4": "-1", "YY5": "1"},
+    "ZZ4R": {"YY5": "1"},
+    "MY4R": {"MZ5": "-1"},
+    "XX5R": {"YY5": "-1", "YY6": "1", "MZ6": "2*rl6", "M6": "rl6**2"},
+    "ZZ5R": {"YY6": "1", "MZ6": "2*rl6", "M6": "rl6**2"},
+    "MY5R": {"MZ6": "1", "M6": "rl6"},
+    "XX6R": {"YY6": "-1"},
+}
+
+_TERM = re.compile(r"([+-]) (?:(\d[\d.]*) )?([A-Za-z]+\d)")
+
+
+def printed(text: str) -> dict[str, dict[str, Decimal]]:
+    """Groupings as they are printed: {name: {standard parameter: coefficient}}."""
+    result = {}
+    for line in text.strip().splitlines():
+        name, terms = line.split(" = ")
+        result[name] = {found[2]: Decimal(found[0] + (found[1] or "1")) for found in _TERM.findall(f"+ {terms}")}
+    return result
+
+
+def grouped(model: Model) -> dict[str, dict[str, float]]:
+    """The model's groupings of more than one term."""
+    return {name: terms for name, terms in model.grouping.numeric().items() if len(terms) > 1}
+
+
+# -- the report's groupings -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "text", "digits"), [("kr270_calibrated", SECTION_5_1, 5), ("kr500", SECTION_6_1, 6)])
+def test_the_17_groupings_are_the_printed_ones(name: str, text: str, digits: int) -> None:
+    expected = printed(text)
+    assert len(expected) == 17
+    found = grouped(derive(read(find_robot(name)), ()))
+    assert found.keys() == expected.keys()
+    for base, terms in expected.items():
+        # The print keeps five digits and drops trailing zeros; 1.05365 has six.
+        kept = {term: 6 if value == Decimal("1.05365") else min(digits, 5) for term, value in terms.items()}
+        assert {t: Decimal(f"{c:.{kept[t]}g}") for t, c in found[base].items()} == terms, base
+
+
+def test_the_nominal_lengths_do_not_reproduce_the_kr270_print() -> None:
+    found = grouped(derive(read(find_robot("kr270")), ()))
+    expected = printed(SECTION_5_1)
+    assert {base: terms.keys() for base, terms in found.items()} == {b: t.keys() for b, t in expected.items()}
+    assert Decimal(f"{found['ZZ1R']['M2']:.5g}") != expected["ZZ1R"]["M2"]
+
+
+@pytest.mark.parametrize("name", ["kr270", "kr270_calibrated", "kr500"])
+def test_groupings_in_symbols(name: str) -> None:
+    model = derive(read(find_robot(name)), ())
+    found = {base.name: base.terms for base in model.grouping.base if len(base.terms) > 1}
+    assert found.keys() == IN_SYMBOLS.keys()
+    symbols = {n: sympy.Symbol(n, real=True) for n in ("d2", "d3", "d4", "rl1", "rl4", "rl6")}
+    for base, terms in found.items():
+        (one, head), *rest = terms
+        assert (one, f"{head}R") == (1, base)
+        expected = {t: sympy.sympify(e, locals=symbols) for t, e in IN_SYMBOLS[base].items()}
+        assert {term: sympy.expand(c) for c, term in rest} == expected, base
+
+
+def test_what_stands_alone_keeps_its_name() -> None:
+    model = derive(read(find_robot("kr500")), ())
+    alone = [base.name for base in model.grouping.base if len(base.terms) == 1]
+    inertial = [name for name in alone if name[0] in "XYZM"]
+    assert inertial == ["XY2", "YZ2", "MY2", "XZ3", "YZ3", "XY4", "XZ4", "YZ4", "MX4", "XY5", "XZ5", "YZ5", "MX5"] + [
+        "XY6", "XZ6", "YZ6", "ZZ6", "MX6", "MY6",
+    ]  # fmt: skip
+    assert [name for name in alone if name[0] == "I"] == ["Ia3", "Ia4", "Ia5", "Ia6"]
+
+
+def test_what_has_no_effect_is_named() -> None:
+    eliminated = derive(read(find_robot("kr500")), ()).grouping.eliminated
+    without_effect = [one.name for one in eliminated if not one.into]
+    assert without_effect == ["XX1", "XY1", "XZ1", "YY1", "YZ1", "MX1", "MY1", "MZ1", "M1", "MZ2"]
+
+
+# -- counts -----------------------------------------------------------------------------------------------------------
+
+
+def count(robot: Robot, effects: Sequence[EffectUse]) -> int:
+    """Number of base parameters with these effects alone; the derivation checks it against the numerical rank."""
+    return len(derive(replace(robot, effects=tuple(effects), flexible=()), ()).base_parameters)
+
+
+@pytest.mark.parametrize(("name", "all_effects"), [("kr270", 60), ("kr270_calibrated", 60), ("kr500", 59)])
+def test_counts_of_the_reports_robots(name: str, all_effects: int) -> None:
+    robot = read(find_robot(name))
+    assert count(robot, ()) == 36
+    assert count(robot, on_all_joints(robot.joints, "rotor_inertia")) == 40
+    assert count(robot, on_all_joints(robot.joints, *DRIVE_TRAIN)) == 58
+    assert count(robot, robot.effects) == all_effects
+
+
+@pytest.mark.parametrize("name", ["kr270", "kr500"])
+def test_counts_of_the_12_joint_chain(name: str) -> None:
+    twelve, rigid = read(find_robot(f"{name}_table5")), read(find_robot(name))
+    for robot in (twelve, elastic_chain(rigid).robot):
+        motors = tuple(range(1, 13, 2))
+        assert count(robot, ()) == 72
+        assert count(robot, [EffectUse("rotor_inertia", motors)]) == 76
+        assert count(robot, on_all_joints(robot.joints, "rotor_inertia")) == 82
+
+
+@pytest.mark.parametrize("name", ["kr270", "kr500"])
+def test_reduced_flexible_regressor_has_66_columns(name: str) -> None:
+    robot = replace(read(find_robot(name)), effects=())
+    model = derive(robot, ("flexible_regressor",))
+    (output,) = model.functions["flexible_regressor"].outputs
+    assert output.signal.shape == (12, 66)
+    arm = subject(robot, names=("flexible_regressor",))
+    W = np.concatenate([arm.output("flexible_regressor", **arm.inputs(model.functions["flexible_regressor"], s))
+                        for s in range(20)])  # fmt: skip
+    assert rank(W) == 66
+
+
+@given(st.randoms(use_true_random=False))
+def test_counts_hold_for_any_lengths_of_the_reports_structure(draw: Random) -> None:
+    robot = random_anthropomorphic(draw)
+    assert count(robot, ()) == 36
+    assert count(robot, robot.effects) == 58
+
+
+# -- rank -------------------------------------------------------------------------------------------------------------
+
+
+def rank(W: Vector) -> int:
+    """Number of independent columns, each first scaled to length one; the singular values must leave a gap."""
+    size = np.linalg.norm(W, axis=0)
+    shown = W[:, size > 1e-9 * max(size.max(initial=0.0), 1.0)]
+    if not shown.size:
+        return 0
+    values = np.linalg.svd(shown / np.linalg.norm(shown, axis=0), compute_uv=False)
+    independent = int((values > 1e-9 * values[0]).sum())
+    assert independent == len(values) or values[independent] < 1e-12 * values[0], "the rank is not clear"
+    return independent
+
+
+def states(arm: Subject, columns: int) -> Iterator[tuple[Vector, Vector, Vector]]:
+    """As many random states as show every column, and some."""
+    for seed in range(100, 110 + 2 * columns // arm.dof):
+        yield arm.state(seed)
+
+
+def observed(arm: Subject, names: Sequence[str]) -> Vector:
+    """The reference's regressor of the named standard parameters over random states."""
+    rows = [arm.rigid.regressor(names, *map(decimals, state)) for state in states(arm, len(names))]
+    return np.concatenate(rows).astype(float)
+
+
+def check_grouping(arm: Subject) -> None:
+    """Rank, columns and groupings against the reference's standard regressor."""
+    W = observed(arm, arm.standard)
+    column = dict(zip(arm.standard, W.T, strict=True))
+    base = np.stack([column[head] for head in arm.heads], axis=1)
+    assert rank(W) == rank(base) == len(arm.heads) == len(arm.model.base_parameters)
+
+    tau = W @ [arm.values[name] for name in arm.standard]
+    assert np.abs(base @ list(arm.base_values.values()) - tau).max() <= 1e-10 * np.abs(tau).max()
+
+    eliminated = {one.name: one.into for one in arm.model.grouping.eliminated}
+    assert sorted([*eliminated, *arm.heads]) == sorted(arm.standard)
+    for name, into in eliminated.items():
+        uses = tuple(one.name for one in arm.model.grouping.base if name in dict((t, c) for c, t in one.terms))
+        assert into == uses
+        assert bool(into) == (np.abs(column[name]).max() > 1e-9), name
+
+
+def test_groupings_agree_with_the_reference(arm: Subject) -> None:
+    check_grouping(arm)
+
+
+@given(st.randoms(use_true_random=False))
+def test_groupings_of_any_chain_agree_with_the_reference(draw: Random) -> None:
+    check_grouping(subject(random_robot(draw), names=()))
+
+
+def test_each_rule_is_told(arm: Subject) -> None:
+    grouping = arm.model.grouping
+    assert all(one.rule for one in grouping.eliminated)
+    for base in grouping.base:
+        assert base.terms[0] == (1, base.head)
+        assert base.name == (base.head if len(base.terms) == 1 else f"{base.head}R")
