@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED, Identifiers
 from generator.backends.printing.language import LINE, Language
+from generator.backends.printing.prepared import index, signal_of
 from generator.backends.printing.straight_line import Block, straight_line
 from generator.symbolic.statements import FUNCTIONS, Node, Program
 from tests.toy import OPERATIONS, VALUES, interpreted, programs
@@ -27,7 +28,7 @@ PLAIN = Language(
 def printed(program: Program, roots: list[Node], language: Language = PLAIN) -> Block:
     """The code of ``roots`` with input k of signal s written s[k]."""
     nodes = program.reachable(roots)
-    leaves = {node: "{}[{}]".format(*node.value) for node in nodes if node.operation == "input"}
+    leaves = {node: f"{signal_of(node)}[{index(node)}]" for node in nodes if node.operation == "input"}
     names = Identifiers(language.reserved | {"q", "wrench", "parameters"})
     return straight_line(nodes, roots, leaves, language, names)
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
+from generator.backends.printing.prepared import index, signal_of
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.parameters import Parameter
 from generator.symbolic.function import PARAMETERS, Function, Output, Signal, Sparsity
@@ -93,7 +94,7 @@ def toy(program: Program, *functions: Function) -> Any:
     return Toy(program, {one.name: one for one in functions})
 
 
-# -- random programs ----------------------------------------------------------------------------------------------------
+# -- random programs --------------------------------------------------------------------------------------------------
 
 VALUES = {"q": (0.75, -1.25, 2.0), "wrench": (-0.3125, 1.7), PARAMETERS: (1.1, -0.7, 0.3, 2.3, -1.9)}
 
@@ -152,8 +153,7 @@ def interpreted(roots: Iterable[Node], values: Mapping[str, Sequence[float]]) ->
         if node.number is not None:
             results[node] = float(node.number)
         elif node.operation == "input":
-            signal, place = node.value  # type: ignore[misc]
-            results[node] = values[signal][place]
+            results[node] = values[signal_of(node)][index(node)]
         else:
             results[node] = OPERATIONS[node.operation](*(results[argument] for argument in node.arguments))
     return results

@@ -7,7 +7,7 @@ moved outwards, so that a unary minus (which the counts take as free) is the onl
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Union
@@ -31,7 +31,7 @@ class Node:
     ``parameter_only`` tells that no input signal of the moving robot is among its ancestors.
     """
 
-    __slots__ = ("program", "index", "operation", "arguments", "value", "parameter_only", "name")
+    __slots__ = ("program", "index", "operation", "arguments", "value", "number", "parameter_only", "name")
 
     def __init__(
         self,
@@ -47,38 +47,43 @@ class Node:
         self.operation = operation
         self.arguments = arguments
         self.value = value
+        #: The exact value of a constant, None for every other node.
+        self.number: Fraction | None = value if type(value) is Fraction else None
         self.parameter_only = parameter_only
         self.name: str | None = None
 
-    @property
-    def number(self) -> Fraction | None:
-        """The exact value of a constant, None for every other node."""
-        return self.value if isinstance(self.value, Fraction) else None
-
     # An operand that is no number (an array, say) is given its own turn.
     def __add__(self, other: Operand) -> Node:
-        return self.program.add(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+        b = self.program.operand(other)
+        return NotImplemented if b is None else self.program.add(self, b)
 
     def __radd__(self, other: Operand) -> Node:
-        return self.program.add(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+        a = self.program.operand(other)
+        return NotImplemented if a is None else self.program.add(a, self)
 
     def __sub__(self, other: Operand) -> Node:
-        return self + -self.program.node(other) if isinstance(other, _OPERANDS) else NotImplemented
+        b = self.program.operand(other)
+        return NotImplemented if b is None else self.program.add(self, self.program.negate(b))
 
     def __rsub__(self, other: Operand) -> Node:
-        return -self + other if isinstance(other, _OPERANDS) else NotImplemented
+        a = self.program.operand(other)
+        return NotImplemented if a is None else self.program.add(a, self.program.negate(self))
 
     def __mul__(self, other: Operand) -> Node:
-        return self.program.multiply(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+        b = self.program.operand(other)
+        return NotImplemented if b is None else self.program.multiply(self, b)
 
     def __rmul__(self, other: Operand) -> Node:
-        return self.program.multiply(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+        a = self.program.operand(other)
+        return NotImplemented if a is None else self.program.multiply(a, self)
 
     def __truediv__(self, other: Operand) -> Node:
-        return self.program.divide(self, self.program.node(other)) if isinstance(other, _OPERANDS) else NotImplemented
+        b = self.program.operand(other)
+        return NotImplemented if b is None else self.program.divide(self, b)
 
     def __rtruediv__(self, other: Operand) -> Node:
-        return self.program.divide(self.program.node(other), self) if isinstance(other, _OPERANDS) else NotImplemented
+        a = self.program.operand(other)
+        return NotImplemented if a is None else self.program.divide(a, self)
 
     def __neg__(self) -> Node:
         return self.program.negate(self)
@@ -90,9 +95,6 @@ class Node:
             signal, index = self.value  # type: ignore[misc]
             return f"{signal}[{index}]"
         return f"{self.operation}({', '.join(map(repr, self.arguments))})"
-
-
-_OPERANDS = (Node, int, Fraction)
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,7 @@ class Program:
 
     def __init__(self, parameter_signals: Iterable[str] = ("parameters",)) -> None:
         self._nodes: dict[tuple[object, ...], Node] = {}
+        self._constants: dict[tuple[int, int], Node] = {}
         self._parameter_signals = frozenset(parameter_signals)
         self.zero = self.constant(0)
         self.one = self.constant(1)
@@ -134,17 +137,28 @@ class Program:
 
     def constant(self, value: Number) -> Node:
         """The node of an exact constant; a rounded irrational that meets an integer is that integer."""
-        exact = Fraction(value)
+        exact = value if type(value) is Fraction else Fraction(value)
+        known = self._constants.get((exact.numerator, exact.denominator))
+        if known is not None:
+            return known
         if exact.denominator > _EXACT_DENOMINATOR and abs(exact - round(exact)) < _ROUNDING:
-            exact = Fraction(round(exact))
-        return self._intern("constant", (), exact)
+            return self.constant(Fraction(round(exact)))
+        node = self._intern("constant", (), exact)
+        self._constants[exact.numerator, exact.denominator] = node
+        return node
 
     def input(self, signal: str, index: int) -> Node:
         """Element ``index`` (row-major) of an input signal."""
         return self._intern("input", (), (signal, index))
 
     def node(self, operand: Operand) -> Node:
-        return operand if isinstance(operand, Node) else self.constant(operand)
+        return operand if type(operand) is Node else self.constant(operand)  # type: ignore[arg-type]
+
+    def operand(self, operand: object) -> Node | None:
+        """The node of a node or an exact number; None for anything else (an array, say)."""
+        if type(operand) is Node:
+            return operand
+        return self.constant(operand) if isinstance(operand, (int, Fraction)) else None
 
     # -- operations -----------------------------------------------------------------------------------------------
 
@@ -251,18 +265,18 @@ class Program:
         done = set(known)
         ordered: list[Node] = []
         for output in outputs:
-            stack: list[tuple[Node, Iterator[Node]]] = []
-            if output not in done:
-                stack.append((output, iter(_deep_first(output))))
-                done.add(output)
+            stack = [output]
             while stack:
-                node, pending = stack[-1]
-                for argument in pending:
-                    if argument not in done:
-                        done.add(argument)
-                        stack.append((argument, iter(_deep_first(argument))))
-                        break
+                node = stack[-1]
+                if node in done:
+                    stack.pop()
+                    continue
+                pending = [argument for argument in node.arguments if argument not in done]
+                if pending:
+                    # The deeper argument was made later; it goes on top and comes first.
+                    stack += pending if pending[0].index < pending[-1].index else pending[::-1]
                 else:
+                    done.add(node)
                     ordered.append(node)
                     stack.pop()
         return ordered
@@ -320,7 +334,7 @@ class Program:
     def _sign_and_size(self, a: Node) -> tuple[bool, Node]:
         if a.operation == "neg":
             return True, a.arguments[0]
-        if a.number is not None and a.number < 0:
+        if a.number is not None and a.number.numerator < 0:
             return True, self.constant(-a.number)
         return False, a
 
@@ -335,10 +349,6 @@ class Program:
             node = Node(self, len(self._nodes), operation, arguments, value, parameter_only)
             self._nodes[key] = node
         return node
-
-
-def _deep_first(node: Node) -> list[Node]:
-    return sorted(node.arguments, key=lambda argument: -argument.index)
 
 
 def _fold(name: str, a: Fraction) -> Fraction | None:
