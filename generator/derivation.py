@@ -23,7 +23,8 @@ def quantities() -> dict[str, Quantity]:
 def derive(robot: Robot, names: Collection[str] | None = None, check: bool = True, plain: bool = False) -> Model:
     """The model of ``robot`` with the functions ``names`` (all that apply, if None).
 
-    A ``plain`` model writes the textbook recursion. With ``check`` the groupings are compared with the numerical rank of the regressor.
+    A ``plain`` model writes the textbook recursion. With ``check`` the groupings are compared with the numerical rank
+    of the regressor.
 
     Raises InputError for effects that do not fit the robot and GroupingMismatch if the check fails.
     """

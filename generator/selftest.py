@@ -1,5 +1,6 @@
 """Cases that a generated self-test checks: random physical parameters and states, with outputs that the independent
-numerical implementation computed."""
+numerical implementation computed.
+"""
 
 from __future__ import annotations
 

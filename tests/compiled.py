@@ -28,16 +28,11 @@ def write(folder: Path, files: Mapping[str, str | bytes]) -> Path:
 
 def run(command: Sequence[str | Path], **options: Any) -> str:
     """The output of a command; fails the test with that output if the command fails."""
-    done = subprocess.run(
-        [str(word) for word in command],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-        **options,
-    )
-    assert done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}"
-    return done.stdout
+    words = [str(word) for word in command]
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+    output: str = done.stdout
+    assert done.returncode == 0, f"{' '.join(words)}\n{output}"
+    return output
 
 
 def module(source: str | bytes, name: str) -> ModuleType:

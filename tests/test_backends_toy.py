@@ -417,7 +417,8 @@ def test_cmake_project(library: Path, tmp_path: Path) -> None:
         {
             "CMakeLists.txt": "cmake_minimum_required(VERSION 3.13)\nproject(user C)\nfind_package(toy REQUIRED)\n"
             "add_executable(user user.c)\ntarget_link_libraries(user PRIVATE toy::toy)\n",
-            "user.c": "#include <toy.h>\nint main(void) { toy_params p; toy_params_first(&p); return p.value[0] != -2.5; }\n",
+            "user.c": "#include <toy.h>\n"
+            "int main(void) { toy_params p; toy_params_first(&p); return p.value[0] != -2.5; }\n",
         },
     )
     run(["cmake", "-S", user, "-B", user / "build", f"-DCMAKE_PREFIX_PATH={tmp_path / 'installed'}"])

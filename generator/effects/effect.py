@@ -1,7 +1,7 @@
 """What an effect is: anything that adds torque to the rigid chain, stated in one file of its own.
 
-The torque is linear in the effect's parameters: torque on joint i = sum over its parameters p of p * column[p][i]. What enters
-otherwise (a length, an exponent, a speed) is a shape value, fixed in the robot file.
+The torque is linear in the effect's parameters: on joint i it is the sum over its parameters p of p * column[p][i].
+What enters otherwise (a length, an exponent, a speed) is a shape value, fixed in the robot file.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ import generator.effects
 from generator.discovery import modules
 from generator.effects.effect import Column, Effect, Shape, Site
 from generator.errors import InputError, Place
-from generator.robot.description import FIXED, PRISMATIC, EffectUse, Joint, Robot
+from generator.robot.description import FIXED, EffectUse, Joint, Robot
 from generator.robot.parameters import Parameter
 
 
@@ -97,9 +97,8 @@ def _values(use: EffectUse, effect: Effect) -> dict[str, sympy.Expr]:
     shapes = {shape.name: shape for shape in effect.shapes}
     for name, quantity in use.values.items():
         if name not in shapes:
-            raise InputError(
-                quantity.place, f"effect {effect.id} has no value {name!r}", _one_of(name, list(shapes)) if shapes else "none"
-            )
+            known = _one_of(name, list(shapes)) if shapes else "none"
+            raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
     return {name: _value(use, effect, shape) for name, shape in shapes.items()}
 
 
@@ -107,7 +106,8 @@ def _value(use: EffectUse, effect: Effect, shape: Shape) -> sympy.Expr:
     quantity = use.values.get(shape.name)
     if quantity is None:
         if shape.default is None:
-            raise InputError(use.place, f"effect {effect.id} lacks its value {shape.name}", f"{shape.meaning} [{shape.unit}]")
+            problem = f"effect {effect.id} lacks its value {shape.name}"
+            raise InputError(use.place, problem, f"{shape.meaning} [{shape.unit}]")
         return shape.default
     if quantity.unit != shape.unit:
         raise InputError(quantity.place, f"{shape.name} is given in {quantity.unit or '1'}", f"a value in {shape.unit}")

@@ -12,7 +12,7 @@ def _columns(at: Site) -> tuple[Column, ...]:
 EFFECT = Effect(
     id="rotor_inertia",
     title="rotor and drive-train inertia",
-    parameters=(LinearParameter("Ia", ("kg m2", "kg"), "inertia of rotor and drive train about the motor's axis", 0.0),),
+    parameters=(LinearParameter("Ia", ("kg m2", "kg"), "inertia of rotor and drive train about their axis", 0.0),),
     columns=_columns,
     kinetic_energy=lambda at: (at.qd**2 / 2,),
     needs=("qdd",),

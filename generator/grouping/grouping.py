@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from generator.grouping.linear_algebra import times
-from generator.grouping.observability import OFFSET, ROTOR_INERTIA, base_reach, carried, invisible, moved
+from generator.grouping.observability import ROTOR_INERTIA, base_reach, carried, invisible, moved
 from generator.grouping.rigid_motion import transport
 from generator.grouping.rules import elimination_order, rule_of
 from generator.grouping.scalars import Numbers, Scalar
@@ -62,7 +61,8 @@ class Grouping:
 
 def group(robot: Robot, standard: tuple[str, ...]) -> Grouping:
     """The groupings of ``robot`` for the standard parameters named in ``standard`` (those that are none of the twelve
-    of ``STEMS`` stand alone)."""
+    of ``STEMS`` stand alone).
+    """
     numbers = Numbers(robot)
     forms, rules = _regroup(robot, frozenset(standard), numbers)
     base, values = [], {}

@@ -1,10 +1,10 @@
 """What each joint lets be seen of the parameters beyond it: an exact recursion over the chain.
 
 The torques see a combination of parameters unless the energies it makes are zero (kinetic) or constant (potential)
-over every motion. Split by the powers of the last joint's speed and by its position, this gives, joint by joint from the
-tips, linear conditions on the parameters of one body; what satisfies them all is invisible at this joint and can be
-moved to the antecedent body. It generalises the rules of Gautier and Khalil (1990) to any tree and any special geometry
-(see also Wensing, Niemeyer and Slotine 2017 on the geometry of observability).
+over every motion. Split by the powers of the last joint's speed and by its position, this gives, joint by joint from
+the tips, linear conditions on the parameters of one body; what satisfies them all is invisible at this joint and can be
+moved to the antecedent body. It generalises the rules of Gautier and Khalil (1990) to any tree and any special
+geometry (see also Wensing, Niemeyer and Slotine 2017 on the geometry of observability).
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ SIZE = 12
 @dataclass(frozen=True)
 class Reach:
     """What the motion of a frame spans: ``twists`` (6), ``energies`` rows of the kinetic energy (10), and ``gravity``,
-    the directions of gravity with a constant 1 as fourth component (4)."""
+    the directions of gravity with a constant 1 as fourth component (4).
+    """
 
     twists: Span
     energies: Span
@@ -68,7 +69,9 @@ def moved(joint: Joint, by_antecedent: Reach, numbers: Numbers) -> Reach:
     return Reach(twists, energies, by_antecedent.gravity)
 
 
-def invisible(joint: Joint, by_antecedent: Reach, present: Sequence[int], order: Sequence[int], numbers: Numbers) -> Matrix:
+def invisible(
+    joint: Joint, by_antecedent: Reach, present: Sequence[int], order: Sequence[int], numbers: Numbers
+) -> Matrix:
     """Basis of the combinations of a joint's twelve parameters that no torque at it or before it shows.
 
     ``present`` are the indices of the parameters that exist; ``order`` the indices from the first to be eliminated to

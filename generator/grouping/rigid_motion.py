@@ -118,9 +118,8 @@ def energy(a: Sequence[Scalar], b: Sequence[Scalar], numbers: Numbers) -> Vector
     """The symmetric bilinear form of the kinetic energy: row with T(V) = row(V, V) . chi."""
     va, wa, vb, wb = list(a[:3]), list(a[3:]), list(b[:3]), list(b[3:])
     half = numbers.one / numbers.integer(2)
-    tensor = [
-        wa[i] * wb[i] * half if i == k else (wa[i] * wb[k] + wa[k] * wb[i]) * half for i in range(3) for k in range(i, 3)
-    ]
+    pairs = [(i, k) for i in range(3) for k in range(i, 3)]
+    tensor = [(wa[i] * wb[i] if i == k else wa[i] * wb[k] + wa[k] * wb[i]) * half for i, k in pairs]
     moment = [(x + y) * half for x, y in zip(_cross(va, wb), _cross(vb, wa), strict=True)]
     return [*tensor, *moment, _sum(numbers, (x * y for x, y in zip(va, vb, strict=True))) * half]
 

@@ -14,8 +14,8 @@ import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.fields import field
 
-from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
 from generator.constants import exact_constant
+from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
 
 #: Irrational constants are carried to sixty digits; what is smaller than this is zero.
 _NOTHING = Fraction(1, 10**40)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from generator.quantities.quantity import Quantity
 from generator.symbolic.function import Signal, Sparsity
@@ -10,7 +10,7 @@ from generator.symbolic.model import Model
 from generator.symbolic.sparse import Columns, dense, packed, sparsity
 from generator.symbolic.vectors import Array
 
-Signals = Callable[[Model], tuple[Signal, ...]]
+Signals = Callable[[Model], Sequence[Signal]]
 
 
 def base_columns(model: Model) -> Columns:
@@ -24,7 +24,12 @@ def standard_columns(model: Model) -> Columns:
 
 
 def dense_regressor(
-    name: str, summary: str, details: str, inputs: Signals, columns: Callable[[Model], Columns], rows: Callable[[Model], int]
+    name: str,
+    summary: str,
+    details: str,
+    inputs: Signals,
+    columns: Callable[[Model], Columns],
+    rows: Callable[[Model], int],
 ) -> Quantity:
     """A regressor with all its entries, row-major."""
 
@@ -39,7 +44,12 @@ def dense_regressor(
 
 
 def packed_regressor(
-    name: str, summary: str, details: str, inputs: Signals, columns: Callable[[Model], Columns], rows: Callable[[Model], int]
+    name: str,
+    summary: str,
+    details: str,
+    inputs: Signals,
+    columns: Callable[[Model], Columns],
+    rows: Callable[[Model], int],
 ) -> Quantity:
     """The structural nonzeros of a regressor, row by row, with their places."""
 

@@ -35,7 +35,8 @@ def body(program: Program, values: Mapping[str, Node]) -> Body:
 
 def bodies(program: Program, values: Mapping[str, Node], numbers: list[int]) -> dict[int, Body]:
     """The bodies of the numbered frames from parameters named ``XX1`` ... ``M1``."""
-    return {j: body(program, {name: values[f"{name}{j}"] for name in INERTIAL if f"{name}{j}" in values}) for j in numbers}
+    given = {j: {name: values[f"{name}{j}"] for name in INERTIAL if f"{name}{j}" in values} for j in numbers}
+    return {j: body(program, own) for j, own in given.items()}
 
 
 def seen_from_antecedent(moved: Body, rotation: Array, position: Array) -> Body:

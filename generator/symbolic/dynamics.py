@@ -19,7 +19,7 @@ from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.regressor import columns_about
 from generator.symbolic.statements import Node
 from generator.symbolic.strategy import TEXTBOOK, Strategies
-from generator.symbolic.vectors import Array, array, cross, zeros
+from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 
 
 @dataclass(frozen=True)
@@ -27,14 +27,14 @@ class Dynamics:
     """A chain with its effects, at joint speeds ``qd`` and accelerations ``qdd`` (n each).
 
     ``parameters`` maps the standard names of the parameters that are kept to their nodes; what is absent is zero.
-    ``strategies`` says how the equations are written. ``payload`` is an additional body in the tool frame (report eq. 50).
+    ``strategies`` says how the equations are written. ``payload`` is one more body, in the tool frame (report eq. 50).
     """
 
     chain: Chain
     effects: Sequence[Instance]
     parameters: Mapping[str, Node]
-    qd: Sequence[Node]
-    qdd: Sequence[Node]
+    qd: Nodes
+    qdd: Nodes
     payload: Body | None = None
     strategies: Strategies = TEXTBOOK
 
@@ -53,7 +53,7 @@ class Dynamics:
     def still(self) -> list[Node]:
         return [self.chain.program.zero] * self.chain.dof
 
-    def joint_motion(self, qd: Sequence[Node], qdd: Sequence[Node]) -> JointMotion:
+    def joint_motion(self, qd: Nodes, qdd: Nodes) -> JointMotion:
         q = [self.chain.values[joint.variable] for joint in self.chain.robot.moving]
         return JointMotion(q, qd, qdd, {})
 
@@ -78,7 +78,7 @@ class Dynamics:
         rotors = effect_torques.inertia(self.chain, self.effects, motion, self.parameters)
         return strategy.inertia_matrix(self.chain, self.matter, self.strategies.inertia) + rotors
 
-    def direct_dynamics(self, tau: Sequence[Node], wrench: Wrench | None = None) -> Array:
+    def direct_dynamics(self, tau: Nodes, wrench: Wrench | None = None) -> Array:
         """qdd from tau (report eq. 6)."""
         held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
         return solve(self.inertia_matrix, tau - held)
@@ -95,12 +95,13 @@ class Dynamics:
             twice = twice + w @ (part.inertia @ w) + v @ momentum
         motion = self.joint_motion(self.qd, self.still)
         rotors = effect_torques.energy(self.chain, self.effects, "kinetic_energy", motion, self.parameters)
-        return twice / 2 + rotors
+        kinetic: Node = twice / 2 + rotors
+        return kinetic
 
     @cached_property
     def height_energy(self) -> Node:
         """Potential energy of the bodies' weight [J], up to a constant."""
-        return -(self.chain.gravity @ self._moment_at_base())
+        return -dot(self.chain.gravity, self._moment_at_base())
 
     @cached_property
     def effect_energy(self) -> Node:
@@ -137,7 +138,7 @@ class Dynamics:
         motion = lean_newton_euler.own_motions(self.chain, positions, self.qd, self.qdd)
         return motion, own_screws(self.chain, positions), offsets
 
-    def _torques(self, qd: Sequence[Node], qdd: Sequence[Node], wrench: Wrench | None) -> Array:
+    def _torques(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None) -> Array:
         if wrench is None:
             of_bodies = strategy.torques(self.chain, self.matter, qd, qdd, self.strategies.torque)
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import sympy
@@ -12,16 +12,16 @@ from generator.effects.library import Instance
 from generator.symbolic.frames import Chain
 from generator.symbolic.lowering import lower
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, zeros
+from generator.symbolic.vectors import Array, Nodes, zeros
 
 
 @dataclass(frozen=True)
 class JointMotion:
-    """Nodes of the joints' positions, speeds and accelerations (n each) and of the elastic coordinates by joint number."""
+    """Nodes of the joints' positions, speeds and accelerations (n each), and elastic coordinates by joint number."""
 
-    q: Sequence[Node]
-    qd: Sequence[Node]
-    qdd: Sequence[Node]
+    q: Nodes
+    qd: Nodes
+    qdd: Nodes
     elongation: Mapping[int, Node]
 
     def symbols(self, chain: Chain) -> dict[sympy.Symbol, Node]:

@@ -70,7 +70,8 @@ class _Rewriter:
         if best is None or counts[best] < 2:
             return self._added([(negative, self.done[node]) for negative, node in terms])
         chosen = {place for place, (_, product) in products if best in _factors(product)}
-        inner = [(terms[place][0] != _negative(terms[place][1]), _other(terms[place][1], best)) for place in sorted(chosen)]
+        picked = [terms[place] for place in sorted(chosen)]
+        inner = [(negative != _negative(term), _other(term, best)) for negative, term in picked]
         bracket = self._added([(negative, self.done[node]) for negative, node in inner])
         product = self.done[best] * bracket
         rest = [term for place, term in enumerate(terms) if place not in chosen]

@@ -14,11 +14,10 @@ import numpy as np
 
 from generator.effects.library import Instance
 from generator.symbolic import effect_torques
-from generator.symbolic.direct import solve
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.effect_torques import JointMotion
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, zeros
+from generator.symbolic.vectors import Array, Nodes, zeros
 
 
 @dataclass(frozen=True)
@@ -33,9 +32,9 @@ class FlexibleDynamics:
     motor_effects: Sequence[Instance]
     parameters: Mapping[str, Node]
     elastic: tuple[int, ...]
-    q: Sequence[Node]
-    qd: Sequence[Node]
-    qdd: Sequence[Node]
+    q: Nodes
+    qd: Nodes
+    qdd: Nodes
 
     @property
     def dof(self) -> int:
@@ -61,11 +60,12 @@ class FlexibleDynamics:
             tau[joint] = of_motors[joint]
         return tau, of_links[list(self.elastic)]
 
-    def direct_dynamics(self, tau: Sequence[Node]) -> Array:
+    def direct_dynamics(self, tau: Nodes) -> Array:
         """[qdd_m; qdd_e] from the motor torques tau (n) (eq. 11)."""
         n = self.dof
         chain = self.link.chain
-        held = self._motors(JointMotion(self.q[:n], self.qd[:n], [chain.program.zero] * n, self.motor_motion.elongation))
+        still = [chain.program.zero] * n
+        held = self._motors(JointMotion(self.q[:n], self.qd[:n], still, self.motor_motion.elongation))
         drive = np.array(tau, dtype=object)
         for joint in self.elastic:
             drive[joint] = self._spring(joint)
@@ -89,7 +89,8 @@ class FlexibleDynamics:
         for name, column in self.link.regressor_columns(link_names).items():
             result[name] = {balance.get(row, row): entry for row, entry in column.items()}
         of_motors = effect_torques.columns(self.link.chain, self.motor_effects, self.motor_motion)
-        stiffness = {name for instance in self.motor_effects if "qe" in instance.effect.needs for name in instance.names}
+        springs = [instance for instance in self.motor_effects if "qe" in instance.effect.needs]
+        stiffness = {name for instance in springs for name in instance.names}
         for name in motor_names:
             column = dict(of_motors[name])
             if name in stiffness:

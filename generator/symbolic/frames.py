@@ -42,7 +42,7 @@ class Frame:
         return self.joint.sigma == PRISMATIC
 
     def path(self) -> Iterator[Frame]:
-        """This frame and those that carry it, from here towards the base."""
+        """The frame and those that carry it, from here towards the base."""
         frame: Frame | None = self
         while frame is not None:
             yield frame

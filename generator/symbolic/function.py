@@ -70,7 +70,7 @@ class Function:
 
     @property
     def uses_parameters(self) -> bool:
-        return any(node.operation == "input" and node.value[0] == PARAMETERS for node in self.nodes)  # type: ignore[index]
+        return any(node.operation == "input" and node.source[0] == PARAMETERS for node in self.nodes)
 
     @property
     def prepared(self) -> list[Node]:

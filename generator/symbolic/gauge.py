@@ -14,15 +14,15 @@ from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.matter import Matter, matter, moved, nothing
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, array, identity, named, zeros
+from generator.symbolic.vectors import Array, array, dot, identity, named, zeros
 
 
 @dataclass(frozen=True)
 class Gauge:
     """Which freedoms to use beyond S33 = MZ = M = 0.
 
-    ``slide`` moves the origin of a last frame along its axis next to its antecedent's; ``balance`` names joints that keep
-    a mass at their origin, such that one first moment of their antecedent vanishes.
+    ``slide`` moves the origin of a last frame along its axis next to its antecedent's; ``balance`` names joints that
+    keep a mass at their origin, such that one first moment of their antecedent vanishes.
     """
 
     slide: bool = True
@@ -96,8 +96,7 @@ def _slid(frame: Frame, part: Matter) -> tuple[Matter, Array]:
 
 def offset_along_axis(frame: Frame) -> Node:
     """How far the frame's origin stands along its own axis from the point next to its antecedent's origin."""
-    offset: Node = frame.rotation[:, 2] @ frame.position
-    return offset
+    return dot(frame.rotation[:, 2], frame.position)
 
 
 def slid_origin(frame: Frame) -> Array:
@@ -110,5 +109,8 @@ def _balancing_mass(below: Matter, position: Array) -> Node:
     """The mass to keep at ``position`` so that the antecedent's moment along y, else along x, becomes zero."""
     zero = below.mass.program.zero
     component = next((k for k in (1, 0) if position[k] is not zero), None)
-    return zero if component is None else below.moment[component] / position[component]
+    if component is None:
+        return zero
+    mass: Node = below.moment[component] / position[component]
+    return mass
 

@@ -46,8 +46,8 @@ def evaluate_nodes(nodes: list[Node], inputs: Mapping[str, ArrayLike]) -> dict[N
         if node.operation == "constant":
             values[node] = float(node.value)  # type: ignore[arg-type]
         elif node.operation == "input":
-            name, index = node.value  # type: ignore[misc]
-            values[node] = signals[name][..., index]
+            name, place = node.source
+            values[node] = signals[name][..., place]
         elif node.operation in _UNARY:
             values[node] = _UNARY[node.operation](values[node.arguments[0]])
         else:

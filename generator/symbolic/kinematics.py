@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from generator.symbolic.frames import Chain, Frame, axis, world_transforms
-from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, cross, zeros
+from generator.symbolic.vectors import Array, Nodes, cross, zeros
 
 
 @dataclass(frozen=True)
@@ -20,7 +18,7 @@ class Velocity:
     v: Array
 
 
-def velocities(chain: Chain, qd: Sequence[Node]) -> dict[int, Velocity]:
+def velocities(chain: Chain, qd: Nodes) -> dict[int, Velocity]:
     program = chain.program
     result: dict[int, Velocity] = {}
     for frame in chain.frames:

@@ -1,8 +1,8 @@
 """Inertia matrix with few operations: composite bodies in pseudo-inertia form, and screws that meet their wrenches.
 
 A composite body is summed in own axes, turned once into the unspun axes of its segment, and handed on there. The wrench
-of each unit acceleration travels towards the base as far as the frame ``meeting``; there the screws of the joints before it
-are known, and one product gives each entry.
+of each unit acceleration travels towards the base as far as the frame ``meeting``; there the screws of the joints
+before it are known, and one product gives each entry.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Screws, screws
-from generator.symbolic.matter import Matter, inertia, moved, unspun
+from generator.symbolic.matter import Matter, inertia, moved, spun_again, unspun
 from generator.symbolic.matter import about_z as moment_about_z
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun, segments
@@ -95,7 +95,8 @@ def _composites(
         if link.continues and k not in met:
             _add(in_unspun, k, moved(in_unspun[j], identity(program, 3), spun[k].to_unspun(position)))
         elif link.continues:
-            _add(own, k, moved(own[j], spun[k].relative(link), position))
+            arm = spun[k].to_unspun(position - points.get(k, zeros(program, 3)))
+            _add(own, k, spun_again(moved(in_unspun[j], identity(program, 3), arm), spun[k]))
         else:
             _add(own, k, moved(in_unspun[j], link.entry, position - points.get(k, zeros(program, 3))))
     return own, in_unspun, about_z
@@ -138,7 +139,7 @@ def _twice_energy(part: Matter, screw: Screw, about_z: Node) -> Node:
     w, s = screw.w, part.sigma
     program = part.mass.program
     turning = [i for i in range(3) if w[i] is not program.zero]
-    total = part.mass * (screw.v @ screw.v) + 2 * (screw.v @ cross(w, part.moment))
+    total: Node = part.mass * (screw.v @ screw.v) + 2 * (screw.v @ cross(w, part.moment))
     if turning:
         last = turning[-1]
         about_last = s[(last + 1) % 3, (last + 1) % 3] + s[(last + 2) % 3, (last + 2) % 3]

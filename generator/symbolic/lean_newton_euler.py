@@ -1,12 +1,12 @@
 """Inverse dynamics with few operations: Newton-Euler on segments of parallel axes, in pseudo-inertia form.
 
-Each body works in its own axes or in the unspun axes of its segment, whichever ``Strategy`` says; forces and moments are
-summed in the unspun axes, where parallel joints need no rotation between them.
+Each body works in its own axes or in the unspun axes of its segment, whichever ``Strategy`` says; forces and moments
+are summed in the unspun axes, where parallel joints need no rotation between them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,7 +19,7 @@ from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.spin import Spin, entered, in_own_axes, moment, standing, with_rate
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, array, cross, named, zeros
+from generator.symbolic.vectors import Array, Nodes, array, cross, named, zeros
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class LeanMotion:
 
 
 def inverse_dynamics(
-    chain: Chain, bodies: Mapping[int, Body], qd: Sequence[Node], qdd: Sequence[Node], strategy: Strategy
+    chain: Chain, bodies: Mapping[int, Body], qd: Nodes, qdd: Nodes, strategy: Strategy
 ) -> Array:
     """Joint torques of the bodies alone, as ``newton_euler.inverse_dynamics`` gives them."""
     spun = segments(chain)
@@ -55,7 +55,7 @@ def inverse_dynamics(
 
 
 def own_motions(
-    chain: Chain, positions: Mapping[int, Array], qd: Sequence[Node], qdd: Sequence[Node]
+    chain: Chain, positions: Mapping[int, Array], qd: Nodes, qdd: Nodes
 ) -> dict[int, Motion]:
     """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it, for origins at ``positions``."""
     motion = _motions(chain, segments(chain), positions, qd, qdd)
@@ -63,7 +63,7 @@ def own_motions(
 
 
 def _motions(
-    chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array], qd: Sequence[Node], qdd: Sequence[Node]
+    chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array], qd: Nodes, qdd: Nodes
 ) -> dict[int, LeanMotion]:
     program = chain.program
     result: dict[int, LeanMotion] = {}

@@ -1,4 +1,4 @@
-"""Screws of the joints on segments of parallel axes: what each joint's unit speed does to each frame that it carries."""
+"""Screws of the joints on segments of parallel axes: what a joint's unit speed does to each frame that it carries."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from generator.symbolic.kinematics import Screw
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.vectors import Array, array, cross, zeros
 
-
 #: Screws by frame number and coordinate.
 Screws = Mapping[int, Mapping[int, Screw]]
 
 
 def own_screws(chain: Chain, positions: Mapping[int, Array]) -> Screws:
-    """For each frame, by coordinate, the screws of the joints that carry it, in own axes, for origins at ``positions``."""
+    """For each frame, by coordinate, the screws of the joints that carry it, in own axes at ``positions``."""
     return screws(chain, segments(chain), positions)[0]
 
 

@@ -51,7 +51,7 @@ def inertia(part: Matter) -> Array:
 
 
 def moved(part: Matter, entry: Array, position: Array) -> Matter:
-    """The same matter in the axes whose columns ``entry`` is turned from, about an origin ``position`` before its own."""
+    """The same matter in the antecedent: ``entry`` holds its axes there, ``position`` its origin."""
     moment = entry @ part.moment
     arm = moment + part.mass * position
     sigma = entry @ part.sigma @ entry.T
@@ -63,18 +63,28 @@ def moved(part: Matter, entry: Array, position: Array) -> Matter:
 
 
 def unspun(part: Matter, spun: Spun) -> Matter:
-    """A body of own axes in the unspun ones.
+    """A body of own axes in the unspun ones."""
+    return _turned(part, spun.cosine, spun.sine)
+
+
+def spun_again(part: Matter, spun: Spun) -> Matter:
+    """A body of unspun axes in the own ones."""
+    return _turned(part, spun.cosine, -spun.sine)
+
+
+def _turned(part: Matter, c: Node, s: Node) -> Matter:
+    """A body turned about z by the angle of cosine c and sine s.
 
     With u = s (S11 - S22) + 2 c S12 the turned tensor is S11 - s u, S22 + s u, c u - S12: fewer operations than by
     the double angle, and none of its own trigonometry.
     """
-    c, s = spun.cosine, spun.sine
     (a, b, x), (_, d, y), (_, _, z) = part.sigma
     u = s * (a - d) + c * (2 * b)
     across, shift = c * u - b, s * u
     xz, yz = c * x - s * y, s * x + c * y
     sigma = np.array([[a - shift, across, xz], [across, d + shift, yz], [xz, yz, z]], dtype=object)
-    return Matter(sigma, spun.to_unspun(part.moment), part.mass)
+    mx, my, mz = part.moment
+    return Matter(sigma, np.array([c * mx - s * my, s * mx + c * my, mz], dtype=object), part.mass)
 
 
 def nothing(program: Program) -> Matter:

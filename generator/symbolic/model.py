@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +11,7 @@ from generator.effects.library import effects_of, motor_side
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
-from generator.symbolic.bodies import Body, body, INERTIAL
+from generator.symbolic.bodies import INERTIAL, Body, body
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.flexible import FlexibleDynamics
 from generator.symbolic.frames import Chain, build_chain
@@ -90,7 +89,7 @@ class Model:
     @cached_property
     def symbolic_lengths(self) -> tuple[Parameter, ...]:
         return tuple(
-            Parameter(length.name, length.unit, 0, "length of the geometry" if length.unit == "m" else "angle of the geometry", None)
+            Parameter(length.name, length.unit, 0, f"{'length' if length.unit == 'm' else 'angle'} of the geometry")
             for length in self.robot.lengths
             if length.symbolic
         )
@@ -217,12 +216,12 @@ class Model:
                 link[joint] = stacked[joint] + stacked[n + k]
             at_links.append(link)
         chain = self.chain_at(at_links[0])
-        link = Dynamics(chain, self.effects, self.kept, at_links[1], at_links[2], strategies=self.strategies)
-        return FlexibleDynamics(link, self.motor_effects, self.parameter_nodes, self.elastic, q, qd, qdd)
+        side = Dynamics(chain, self.effects, self.kept, at_links[1], at_links[2], strategies=self.strategies)
+        return FlexibleDynamics(side, self.motor_effects, self.parameter_nodes, self.elastic, q, qd, qdd)
 
     def _payload(self) -> Body:
         nodes = self.signal("payload", len(INERTIAL))
         return body(self.program, dict(zip(INERTIAL, nodes, strict=True)))
 
-    def _variables(self, q: Array) -> Mapping[sympy.Symbol, Node]:
+    def _variables(self, q: Array) -> dict[sympy.Symbol, Node]:
         return {joint.variable: q[index] for index, joint in enumerate(self.robot.moving) if joint.sigma != FIXED}

@@ -6,19 +6,19 @@ of Robots, 2002, ch. 9; the report uses it through SYMORO+ (eq. 2, 3).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame, axis
-from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, array, cross, named, skew, zeros
+from generator.symbolic.vectors import Array, Nodes, array, cross, named, skew, zeros
 
 
 @dataclass(frozen=True)
 class Motion:
     """Motion of frame j: angular velocity ``w`` [rad/s], U = skew(wd) + skew(w)^2 [rad/s2], acceleration ``a`` of O_j
-    [m/s2] with gravity taken as an acceleration of the base, angular acceleration ``wd`` [rad/s2]."""
+    [m/s2] with gravity taken as an acceleration of the base, angular acceleration ``wd`` [rad/s2].
+    """
 
     w: Array
     wd: Array
@@ -37,7 +37,7 @@ class Wrench:
         return Wrench(self.f + other.f, self.n + other.n)
 
 
-def motions(chain: Chain, qd: Sequence[Node], qdd: Sequence[Node], gravity: Array | None = None) -> dict[int, Motion]:
+def motions(chain: Chain, qd: Nodes, qdd: Nodes, gravity: Array | None = None) -> dict[int, Motion]:
     """Forward recursion from joint speeds and accelerations; ``gravity`` (frame 0) defaults to the chain's."""
     program = chain.program
     free_fall = chain.gravity if gravity is None else gravity
@@ -49,7 +49,7 @@ def motions(chain: Chain, qd: Sequence[Node], qdd: Sequence[Node], gravity: Arra
     return result
 
 
-def _step(chain: Chain, frame: Frame, before: Motion, qd: Sequence[Node], qdd: Sequence[Node]) -> Motion:
+def _step(chain: Chain, frame: Frame, before: Motion, qd: Nodes, qdd: Nodes) -> Motion:
     to_frame = frame.rotation.T
     j = frame.number
     z = axis(frame, chain.program)
@@ -113,7 +113,8 @@ def inverse_dynamics(
     tool_wrench: Wrench | None = None,
 ) -> Array:
     """Joint torques of the bodies alone: M(q) qdd + H(q, qd) without effects (report eq. 2), plus the wrench that the
-    tool exerts on its environment, in the tool frame (report eq. 73)."""
+    tool exerts on its environment, in the tool frame (report eq. 73).
+    """
     wrenches = {j: inertial_wrench(j, motion[j], part) for j, part in matter.items()}
     if tool_wrench is not None:
         j = chain.tool.number

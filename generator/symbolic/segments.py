@@ -1,8 +1,8 @@
 """Chains read as segments of parallel axes, each with one frame that does not spin.
 
 Frame j follows from its antecedent by a constant rotation (about x by alpha), then by the spin about z_j. Between the
-two stands the *unspun* frame: its z axis is z_j, and joints with parallel axes in a row share it, their angles adding up.
-What is constant along z_j, and every sum over a segment, is cheapest there.
+two stands the *unspun* frame: its z axis is z_j, and joints with parallel axes in a row share it, their angles adding
+up. What is constant along z_j, and every sum over a segment, is cheapest there.
 """
 
 from __future__ import annotations

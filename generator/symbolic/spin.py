@@ -98,15 +98,14 @@ def moment(spin: Spin, sigma: Array, about_z: Node) -> Array:
     """
     u, ww, s = spin.u, spin.ww, sigma
     zero = about_z.program.zero
-    if ww[0, 1] is zero:
-        turning = spin.wd[2] * about_z
-    else:
-        turning = u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1]
+    x = u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + (ww[2, 2] - ww[1, 1]) * s[1, 2]
+    y = u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + (ww[0, 0] - ww[2, 2]) * s[0, 2]
+    z = spin.wd[2] * about_z if ww[0, 1] is zero else u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1]
     return np.array(
         [
-            u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + (ww[2, 2] - ww[1, 1]) * s[1, 2] + u[2, 0] * s[0, 1] - u[1, 0] * s[0, 2],
-            u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + (ww[0, 0] - ww[2, 2]) * s[0, 2] + u[0, 1] * s[1, 2] - u[2, 1] * s[0, 1],
-            turning + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
+            x + u[2, 0] * s[0, 1] - u[1, 0] * s[0, 2],
+            y + u[0, 1] * s[1, 2] - u[2, 1] * s[0, 1],
+            z + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
         ],
         dtype=object,
     )

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Union
 
-Number = Union[int, Fraction]
+Number = int | Fraction
 Operand = Union["Node", int, Fraction]
 
 #: Operations of one argument that are evaluated by the mathematics library of the target language.
@@ -31,7 +31,7 @@ class Node:
     ``parameter_only`` tells that no input signal of the moving robot is among its ancestors.
     """
 
-    __slots__ = ("program", "index", "operation", "arguments", "value", "number", "parameter_only", "name")
+    __slots__ = ("arguments", "index", "name", "number", "operation", "parameter_only", "program", "value")
 
     def __init__(
         self,
@@ -51,6 +51,13 @@ class Node:
         self.number: Fraction | None = value if type(value) is Fraction else None
         self.parameter_only = parameter_only
         self.name: str | None = None
+
+    @property
+    def source(self) -> tuple[str, int]:
+        """Signal and index of an input."""
+        assert isinstance(self.value, tuple)
+        signal, index = self.value
+        return str(signal), int(index)
 
     # An operand that is no number (an array, say) is given its own turn.
     def __add__(self, other: Operand) -> Node:
@@ -92,8 +99,7 @@ class Node:
         if self.operation == "constant":
             return str(self.value)
         if self.operation == "input":
-            signal, index = self.value  # type: ignore[misc]
-            return f"{signal}[{index}]"
+            return "{}[{}]".format(*self.source)
         return f"{self.operation}({', '.join(map(repr, self.arguments))})"
 
 

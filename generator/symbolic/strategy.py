@@ -5,7 +5,7 @@ The textbook recursion is always among the candidates, so that no chain gets lon
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -16,12 +16,11 @@ from generator.symbolic.gauge import Gauge
 from generator.symbolic.lean_inertia import InertiaStrategy
 from generator.symbolic.lean_newton_euler import Strategy
 from generator.symbolic.segments import segments
-from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array
+from generator.symbolic.vectors import Array, Nodes
 
 _Way = TypeVar("_Way")
 
-#: Frames tried as the place where screws and wrenches meet; a long chain is cut here, its shortest place is near the base.
+#: Frames tried as the place where screws and wrenches meet, from the base, where the shortest place of a chain is.
 _MEETINGS = 8
 
 
@@ -53,7 +52,7 @@ TEXTBOOK = Strategies()
 
 
 def torques(
-    chain: Chain, matter: Mapping[int, Body], qd: Sequence[Node], qdd: Sequence[Node], way: Strategy | None
+    chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way: Strategy | None
 ) -> Array:
     """Joint torques of the bodies, written in the given way."""
     if way is None:
@@ -66,7 +65,7 @@ def inertia_matrix(chain: Chain, matter: Mapping[int, Body], way: InertiaStrateg
     return inertia.inertia_matrix(chain, matter) if way is None else lean_inertia.inertia_matrix(chain, matter, way)
 
 
-def choose(chain: Chain, matter: Mapping[int, Body], qd: Sequence[Node], qdd: Sequence[Node]) -> Strategies:
+def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes) -> Strategies:
     """The shortest ways for a chain."""
     still = [chain.program.zero] * chain.dof
     torque, torque_choice = _shortest_torque(chain, lambda way: torques(chain, matter, qd, qdd, way))
@@ -132,5 +131,5 @@ def _balances(chain: Chain, number: int) -> bool:
 def _meetings(chain: Chain) -> list[int]:
     """Last frames of the segments, from the base."""
     spun = segments(chain)
-    inside = {frame.parent.number for frame in chain.frames if spun[frame.number].continues and frame.parent is not None}
+    inside = {f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None}
     return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()][:_MEETINGS]

@@ -8,10 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.symbolic.statements import Node, Number, Program
+from generator.symbolic.statements import Node, Program
 
 #: An array of nodes; numpy cannot type the elements of object arrays.
 Array = NDArray[Any]
+
+#: One node per joint, as an array or any other sequence.
+Nodes = Array | Sequence[Node]
 
 
 def array(program: Program, rows: Sequence[Any]) -> Array:
@@ -36,6 +39,13 @@ def cross(a: Array, b: Array) -> Array:
     product = np.empty(3, dtype=object)
     product[:] = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     return product
+
+
+def dot(a: Array, b: Array) -> Node:
+    """The scalar product of two vectors."""
+    product: Any = a @ b
+    node: Node = product
+    return node
 
 
 def skew(a: Array) -> Array:

@@ -6,8 +6,9 @@ size, row-major, a number an array of one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from generator.backends.printing.identifiers import C_RESERVED, Identifiers
 from generator.backends.printing.language import LINE, Language
@@ -18,6 +19,9 @@ from generator.symbolic.function import Function, Signal
 
 #: The operations that <math.h> computes: its function for double; the one for float has an f behind.
 MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": "fabs", "pow": "pow"}
+
+#: Zeros in a row that are worth a loop.
+_RUN = 4
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,16 @@ class Argument:
     @property
     def size(self) -> int:
         return self.signal.size
+
+
+@dataclass(frozen=True)
+class Result:
+    """``count`` entries of an output from ``start`` on that have one ``value``."""
+
+    output: str
+    start: int
+    count: int
+    value: str
 
 
 @dataclass(frozen=True)
@@ -50,10 +64,17 @@ class CFunction:
         return self.source.name
 
     @property
-    def results(self) -> list[tuple[str, str]]:
-        """Each output entry with its value."""
-        places = [f"{output.name}[{place}]" for output in self.outputs for place in range(output.size)]
-        return list(zip(places, self.code.results, strict=True))
+    def results(self) -> Iterator[Result]:
+        """The values of the output entries in order, a long run of zeros as one."""
+        values = iter(self.code.results)
+        for argument, output in zip(self.outputs, self.source.outputs, strict=True):
+            entries = enumerate(zip(output.nodes, values, strict=False))
+            for is_zero, run in groupby(entries, lambda entry: entry[1][0].number == 0):
+                places = list(run)
+                if is_zero and len(places) >= _RUN:
+                    yield Result(argument.name, places[0][0], len(places), places[0][1][1])
+                else:
+                    yield from (Result(argument.name, place, 1, value) for place, (_, value) in places)
 
 
 def c_language(prefix: str) -> Language:
@@ -65,7 +86,7 @@ def c_language(prefix: str) -> Language:
 def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction:
     """One quantity; what depends on parameters alone is read from ``prepared``."""
     language = c_language(prefix)
-    names = Identifiers(language.reserved | {"prepared"})
+    names = Identifiers(language.reserved | {"prepared", "i"})
     nodes = prepared.moving[function.name]
     fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
     read = {node.value[0] for node in nodes if node.operation == "input"}  # type: ignore[index]

@@ -1,0 +1,159 @@
+"""Every backend of every quantity of every robot against the others and against the nodes that they print."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import casadi
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from generator.backends import c as c_backend
+from generator.backends import casadi as casadi_backend
+from generator.backends import numpy as numpy_backend
+from generator.symbolic.function import PARAMETERS, Function
+from generator.symbolic.parameter_sets import parameter_vector
+from tests.compiled import CLibrary, Results, module, run, write
+from tests.subject import Subject
+
+SEEDS = range(3)
+#: Of the largest entry of an output.
+DOUBLE, SINGLE = 1e-12, 1e-4
+
+
+@dataclass(frozen=True)
+class Emitted:
+    """All that the backends emit for one robot, made callable."""
+
+    arm: Subject
+    folder: Path
+
+    @property
+    def name(self) -> str:
+        return self.arm.robot.name
+
+    @cached_property
+    def library(self) -> CLibrary:
+        return CLibrary(self.arm.model, self.folder / "c", ("-O1",))
+
+    @cached_property
+    def single(self) -> CLibrary:
+        return CLibrary(self.arm.model, self.folder / "c", ("-O0", f"-D{self.name.upper()}_USE_FLOAT"))
+
+    @cached_property
+    def numpy(self) -> Any:
+        return module((self.folder / "numpy" / f"{self.name}.py").read_text(), self.name)
+
+    @cached_property
+    def casadi(self) -> Mapping[str, Any]:
+        return module((self.folder / "casadi" / f"{self.name}.py").read_text(), self.name).functions()  # type: ignore[no-any-return]
+
+    @cached_property
+    def external(self) -> Path:
+        sources = [self.folder / "casadi" / f"{self.name}_casadi.c", self.folder / "c" / f"{self.name}.c"]
+        library = self.folder / "external.so"
+        run(["gcc", "-std=c99", "-O0", "-shared", "-fPIC", f"-I{self.folder / 'c'}", *sources, "-o", library, "-lm"])
+        return library
+
+
+@pytest.fixture(scope="module")
+def emitted(robot_arm: Subject, tmp_path_factory: pytest.TempPathFactory) -> Emitted:
+    folder = tmp_path_factory.mktemp(robot_arm.robot.name)
+    for backend in (c_backend, casadi_backend, numpy_backend):
+        write(folder / backend.NAME, backend.emit(robot_arm.model))
+    return Emitted(robot_arm, folder)
+
+
+def condition(arm: Subject, function: Function, inputs: Mapping[str, ArrayLike]) -> float:
+    """What a direct model loses: the condition of the inertia matrix that it solves with; 1 for other functions."""
+    if "direct" not in function.name:
+        return 1.0
+    stacked = np.asarray(inputs["q"])
+    q = stacked[: arm.dof].copy()
+    for elongation, joint in zip(stacked[arm.dof :], arm.model.elastic, strict=False):
+        q[joint] += elongation
+    return float(np.linalg.cond(arm.output("inertia_matrix", q=q)))
+
+
+def assert_same(found: Results, wanted: Results, tolerance: float) -> None:
+    assert list(found) == list(wanted)
+    for name, value in wanted.items():
+        assert found[name].shape == value.shape, name
+        worst = np.abs(found[name] - value).max()
+        assert worst <= tolerance * np.abs(value).max(), f"{name}: {worst / np.abs(value).max():.1e}"
+
+
+def cases(emitted: Emitted) -> Iterator[tuple[Function, dict[str, ArrayLike], Results, float]]:
+    """Each function at each state with what its nodes give, and the condition that a tolerance is scaled with."""
+    for function in emitted.arm.model.functions.values():
+        for seed in SEEDS:
+            inputs = {PARAMETERS: emitted.arm.parameters, **emitted.arm.inputs(function, seed)}
+            wanted = emitted.arm.generated(function.name, inputs)
+            yield function, inputs, wanted, condition(emitted.arm, function, inputs)
+
+
+def test_c(emitted: Emitted) -> None:
+    for function, inputs, wanted, worse in cases(emitted):
+        assert_same(emitted.library.evaluate(function.name, inputs), wanted, DOUBLE * worse)
+
+
+def test_c_in_single_precision(emitted: Emitted) -> None:
+    for function, inputs, wanted, worse in cases(emitted):
+        assert_same(emitted.single.evaluate(function.name, inputs), wanted, SINGLE * worse)
+
+
+def test_numpy(emitted: Emitted) -> None:
+    for function, inputs, wanted, worse in cases(emitted):
+        arguments = [inputs[name] for name in emitted.casadi[function.name].name_in()]
+        found = emitted.numpy.FUNCTIONS[function.name](*arguments)
+        found = found if isinstance(found, tuple) else (found,)
+        assert_same(dict(zip(wanted, found, strict=True)), wanted, DOUBLE * worse)
+
+
+def test_casadi(emitted: Emitted) -> None:
+    for function, inputs, wanted, worse in cases(emitted):
+        saved = casadi.Function.load(str(emitted.folder / "casadi" / "functions" / f"{function.name}.casadi"))
+        for built in (emitted.casadi[function.name], saved):
+            assert_same(called(built, inputs), as_matrices(wanted), DOUBLE * worse)
+
+
+def test_c_through_casadi(emitted: Emitted) -> None:
+    for function, inputs, wanted, worse in cases(emitted):
+        built = casadi.external(f"{emitted.name}_casadi_{function.name}", str(emitted.external))
+        assert built.name_in() == emitted.casadi[function.name].name_in()
+        assert_same(called(built, inputs), as_matrices(wanted), DOUBLE * worse)
+
+
+def test_packed_outputs_are_the_dense_ones(emitted: Emitted) -> None:
+    for packed in (function for function in emitted.arm.model.functions.values() if function.sparsity):
+        inputs = {PARAMETERS: emitted.arm.parameters, **emitted.arm.inputs(packed, 0)}
+        (dense,) = emitted.library.evaluate(packed.name.removesuffix("_packed"), inputs).values()
+        (values,) = emitted.library.evaluate(packed.name, inputs).values()
+        scattered = np.zeros(dense.shape)
+        scattered[emitted.library.sparsity(packed.name)] = values
+        assert (scattered == dense).all()
+        assert emitted.numpy.SPARSITY[packed.name] == tuple(map(tuple, emitted.library.sparsity(packed.name)))
+
+
+def test_parameter_sets_are_those_of_the_robot(emitted: Emitted) -> None:
+    model = emitted.arm.model
+    assert set(emitted.numpy.PARAMETER_SETS) == set(model.robot.parameter_sets)
+    for name, one in model.robot.parameter_sets.items():
+        values = emitted.library.parameter_set(name)
+        assert values == list(emitted.numpy.PARAMETER_SETS[name]) == list(parameter_vector(model, one.values))
+
+
+def called(built: Any, inputs: Mapping[str, ArrayLike]) -> Results:
+    """Outputs of a casadi.Function by name, as matrices."""
+    found = built.call([inputs[name] for name in built.name_in()])
+    return dict(zip(built.name_out(), map(np.array, found), strict=True))
+
+
+def as_matrices(outputs: Results) -> Results:
+    """Vectors as columns, and the leading dimensions of arrays merged: how CasADi has them."""
+    return {name: value.reshape(-1, value.shape[-1] if value.ndim > 1 else 1) for name, value in outputs.items()}

@@ -1,0 +1,135 @@
+"""Formulas of the review: reading order, three notations, decimals, and the effects' laws read back as numbers."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+from fractions import Fraction
+from math import pi
+
+import pytest
+import sympy
+
+from generator.review import laws
+from generator.review.decimals import decimal, rounded, scientific
+from generator.review.formula import (
+    Name,
+    formula,
+    natural,
+)
+from generator.review.mathml import math
+from generator.review.plain import plain
+from generator.review.tex import tex
+from generator.review.trigonometry import without_half_angles
+from tests.reviewed import value
+from tests.subject import Subject
+
+x, d2, d3, d10, rl4, phi, q2, fc = sympy.symbols("x d2 d3 d10 rl4 phi q2 Fc2", real=True)
+ROOT = sympy.sqrt(d2**2 + d3**2 + 2 * d2 * d3 * sympy.cos(phi + q2))
+
+
+@pytest.mark.parametrize(
+    ("expression", "text", "latex"),
+    [
+        (rl4**2 - d3**2, "rl4^2 - d3^2", r"\mathit{rl}_{4}^{2} - d_{3}^{2}"),
+        (-(d3**2) + rl4**2 - d2, "rl4^2 - d3^2 - d2", r"\mathit{rl}_{4}^{2} - d_{3}^{2} - d_{2}"),
+        (d10 + d2, "d2 + d10", r"d_{2} + d_{10}"),
+        (q2 - sympy.pi / 2, "q2 - pi/2", r"q_{2} - \frac{\pi}{2}"),
+        (-sympy.pi / 2, "-pi/2", r"-\frac{\pi}{2}"),
+        (2 * rl4, "2 rl4", r"2 \, \mathit{rl}_{4}"),
+        (sympy.Rational(43, 100) * d2, "0.43 d2", r"0.43 \, d_{2}"),
+        (sympy.sqrt(2) * d2 / 2, "sqrt(2) d2/2", r"\frac{\sqrt{2} \, d_{2}}{2}"),
+        (
+            -fc * d2 * sympy.sin(phi + q2) / ROOT,
+            "-Fc2 d2 sin(phi + q2)/sqrt(d2^2 + d3^2 + 2 d2 d3 cos(phi + q2))",
+            r"-\frac{\mathit{Fc}_{2} \, d_{2} \, \sin\left(\phi + q_{2}\right)}"
+            r"{\sqrt{d_{2}^{2} + d_{3}^{2} + 2 \, d_{2} \, d_{3} \, \cos\left(\phi + q_{2}\right)}}",
+        ),
+        (sympy.sign(q2) * fc, "Fc2 sign(q2)", r"\mathit{Fc}_{2} \, \operatorname{sign}\left(q_{2}\right)"),
+        ((d2 / d3) ** sympy.Rational(13, 10), "(d2/d3)^1.3", r"\left(\frac{d_{2}}{d_{3}}\right)^{1.3}"),
+        ((d2 + d3) ** 2, "(d2 + d3)^2", r"\left(d_{2} + d_{3}\right)^{2}"),
+        (sympy.Integer(0), "0", "0"),
+    ],
+)
+def test_a_formula_reads_as_on_paper(expression: sympy.Expr, text: str, latex: str) -> None:
+    tree = formula(expression)
+    assert plain(tree) == text
+    assert tex(tree) == latex
+    assert ElementTree.fromstring(math(tree)).attrib["alttext"] == text
+    at = {symbol.name: 0.3 + 0.21 * k for k, symbol in enumerate(sorted(expression.free_symbols, key=str))}
+    exact = float(expression.subs({symbol: at[symbol.name] for symbol in expression.free_symbols}))
+    assert value(tree, {"pi": pi, **at}) == pytest.approx(exact, rel=1e-12)
+
+
+def test_mathml_has_indices_powers_and_dots() -> None:
+    markup = str(math(formula(sympy.Symbol("qdd_j") * d2**2)))
+    assert "<msubsup><mi>d</mi><mn>2</mn><mn>2</mn></msubsup>" in markup
+    assert '<msub><mi class="word">q\u0308</mi><mi>j</mi></msub>' in markup
+
+
+def test_names_sort_by_their_numbers() -> None:
+    assert sorted(["d10", "d2", "a3", "d2a"], key=natural) == ["a3", "d2", "d2a", "d10"]
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Fraction(1943025, 1000000), "1.943025"),
+        (Fraction(2, 3), "0.6666667"),
+        (Fraction(-1045, 1000), "-1.045"),
+        (Fraction(1, 8), "0.125"),
+        (Fraction(1, 10**9), "0.000000001"),
+        (Fraction(7), "7"),
+    ],
+)
+def test_decimals_are_exact_where_they_end(number: Fraction, text: str) -> None:
+    assert decimal(number) == text
+
+
+def test_rounding_is_half_to_even_and_without_trailing_zeros() -> None:
+    assert rounded(Fraction(105365, 100000), 5) == "1.0536"
+    assert rounded(Fraction(105375, 100000), 5) == "1.0538"
+    assert rounded(Fraction(1685, 1000), 7) == "1.685"
+
+
+@pytest.mark.parametrize(
+    ("number", "text"), [(6.21e6, "6.21e6"), (0.0, "0"), (-37.5, "-37.5"), (4.5e-5, "4.5e-5"), (24500.0, "24500")]
+)
+def test_values_turn_to_powers_of_ten_only_where_long(number: float, text: str) -> None:
+    assert scientific(number) == text
+
+
+@pytest.mark.parametrize("squares", [(1, 0, 0), (0, 0, 1), (1, 1, 1), (2, 3, 5), (0, 2, 0)])
+def test_half_angles_become_sines_and_cosines(squares: tuple[int, int, int]) -> None:
+    a, b, c = squares
+    t = sympy.tan(x / 2)
+    cosine, sine = (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
+    expression = sympy.together(a * cosine**2 + b * d2 * cosine * sine + c * sine**2)
+    result = without_half_angles(expression)
+    assert not result.has(sympy.tan)
+    assert result.free_symbols <= {x, d2}
+    for at in (0.3, 1.1, -2.0):
+        numbers = {x: at, d2: 0.7}
+        assert float(result.subs(numbers)) == pytest.approx(float(expression.subs(numbers)), abs=1e-12)
+
+
+def test_laws_mean_what_the_effects_do(arm: Subject) -> None:
+    """The printed torque of each effect, read back as a number, is its column times its parameters."""
+    for instance in arm.model.effects:
+        number = str(instance.joint.number)
+        at = {f"q{number}": 0.4, f"qd{number}": -0.7, f"qdd{number}": 1.3, "pi": pi}
+        at |= {name: float(v) for name, v in instance.site.values.items()}
+        at |= {name: 2.0 + k for k, name in enumerate(instance.names)}
+        symbols = {sympy.Symbol(name, real=True): v for name, v in at.items()}
+        (equation,) = laws.torque(instance, number)
+        exact = sum(
+            at[name] * float(sympy.sympify(column[instance.joint.number]).subs(symbols))
+            for name, column in zip(instance.names, instance.columns(), strict=True)
+        )
+        assert equation.left == Name(f"tau{number}")
+        assert value(equation.right, at) == pytest.approx(exact, rel=1e-12)
+        told = dict(at)
+        for equation in laws.observables(instance):
+            assert isinstance(equation.left, Name)
+            told[equation.left.text] = value(equation.right, told)
+            told.setdefault("length(0)", value(equation.right, told | {f"q{number}": 0.0}))
+        assert told.get("torque", exact) == pytest.approx(exact, rel=1e-12)

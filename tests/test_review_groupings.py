@@ -1,0 +1,173 @@
+"""The review's groupings against the report's lists and against the model, as text and in LaTeX."""
+
+from __future__ import annotations
+
+import re
+from math import floor, log10, pi
+
+import numpy as np
+import pytest
+
+from generator.review.counts import ladder
+from generator.review.formula import (
+    Name,
+)
+from generator.review.groupings import equations
+from generator.review.tex import escape
+from generator.symbolic.bodies import INERTIAL
+from tests.reviewed import block, files, listed, model, parsed, state, value
+from tests.subject import Subject
+
+#: The lists of report sections 5.1 and 6.1, as printed.
+REPORT = {
+    "kr270_calibrated": """
+        ZZ1R = ZZ1 + Ia1 + YY2 + 0.12241 M2 + YY3 + 1.685 M3 + 1.6881 M4 + 1.6881 M5 + 1.6881 M6
+        XX2R = XX2 - YY2 - 1.5626 M3 - 1.5626 M4 - 1.5626 M5 - 1.5626 M6
+        XZ2R = XZ2 - 1.25 MZ3
+        ZZ2R = ZZ2 + Ia2 + 1.5626 M3 + 1.5626 M4 + 1.5626 M5 + 1.5626 M6
+        MX2R = MX2 + 1.25 M3 + 1.25 M4 + 1.25 M5 + 1.25 M6
+        XX3R = XX3 - YY3 + YY4 - 2.2 MZ4 + 1.207 M4 + 1.207 M5 + 1.207 M6
+        XY3R = XY3 - 0.055187 MZ4 + 0.060706 M4 + 0.060706 M5 + 0.060706 M6
+        ZZ3R = ZZ3 + YY4 - 2.2 MZ4 + 1.213 M4 + 1.213 M5 + 1.213 M6
+        MX3R = MX3 + 0.055187 M4 + 0.055187 M5 + 0.055187 M6
+        MY3R = MY3 + MZ4 - 1.1 M4 - 1.1 M5 - 1.1 M6
+        XX4R = XX4 - YY4 + YY5
+        ZZ4R = ZZ4 + YY5
+        MY4R = MY4 - MZ5
+        XX5R = XX5 - YY5 + YY6 - 0.46 MZ6 + 0.0529 M6
+        ZZ5R = ZZ5 + YY6 - 0.46 MZ6 + 0.0529 M6
+        MY5R = MY5 + MZ6 - 0.23 M6
+        XX6R = XX6 - YY6
+    """,
+    "kr500": """
+        ZZ1R = ZZ1 + Ia1 + YY2 + 0.25 M2 + YY3 + 1.94 M3 + 1.943 M4 + 1.943 M5 + 1.943 M6
+        XX2R = XX2 - YY2 - 1.69 M3 - 1.69 M4 - 1.69 M5 - 1.69 M6
+        XZ2R = XZ2 - 1.3 MZ3
+        ZZ2R = ZZ2 + Ia2 + 1.69 M3 + 1.69 M4 + 1.69 M5 + 1.69 M6
+        MX2R = MX2 + 1.3 M3 + 1.3 M4 + 1.3 M5 + 1.3 M6
+        XX3R = XX3 - YY3 + YY4 - 2.05 MZ4 + 1.0476 M4 + 1.0476 M5 + 1.0476 M6
+        XY3R = XY3 + 0.055 MZ4 - 0.056375 M4 - 0.056375 M5 - 0.056375 M6
+        ZZ3R = ZZ3 + YY4 - 2.05 MZ4 + 1.0536 M4 + 1.0536 M5 + 1.0537 M6
+        MX3R = MX3 - 0.055 M4 - 0.055 M5 - 0.055 M6
+        MY3R = MY3 + MZ4 - 1.025 M4 - 1.025 M5 - 1.025 M6
+        XX4R = XX4 - YY4 + YY5
+        ZZ4R = ZZ4 + YY5
+        MY4R = MY4 - MZ5
+        XX5R = XX5 - YY5 + YY6 - 0.58 MZ6 + 0.0841 M6
+        ZZ5R = ZZ5 + YY6 - 0.58 MZ6 + 0.0841 M6
+        MY5R = MY5 + MZ6 - 0.29 M6
+        XX6R = XX6 - YY6
+    """,
+}
+
+SYMBOLIC = """
+    ZZ1R = ZZ1 + Ia1 + YY2 + d2^2 M2 + YY3 + (d2^2 + d3^2) M3 + (d2^2 + d3^2 + d4^2) (M4 + M5 + M6)
+    XX2R = XX2 - YY2 - d3^2 (M3 + M4 + M5 + M6)
+    XZ2R = XZ2 - d3 MZ3
+    ZZ2R = ZZ2 + Ia2 + d3^2 (M3 + M4 + M5 + M6)
+    MX2R = MX2 + d3 (M3 + M4 + M5 + M6)
+    XX3R = XX3 - YY3 + YY4 + 2 rl4 MZ4 + (rl4^2 - d4^2) (M4 + M5 + M6)
+    XY3R = XY3 - d4 MZ4 - d4 rl4 (M4 + M5 + M6)
+    ZZ3R = ZZ3 + YY4 + 2 rl4 MZ4 + (d4^2 + rl4^2) (M4 + M5 + M6)
+    MX3R = MX3 + d4 (M4 + M5 + M6)
+    MY3R = MY3 + MZ4 + rl4 (M4 + M5 + M6)
+    XX4R = XX4 - YY4 + YY5
+    ZZ4R = ZZ4 + YY5
+    MY4R = MY4 - MZ5
+    XX5R = XX5 - YY5 + YY6 + 2 rl6 MZ6 + rl6^2 M6
+    ZZ5R = ZZ5 + YY6 + 2 rl6 MZ6 + rl6^2 M6
+    MY5R = MY5 + MZ6 + rl6 M6
+    XX6R = XX6 - YY6
+"""
+
+
+@pytest.mark.parametrize("name", REPORT)
+def test_numeric_groupings_are_those_of_the_report(name: str) -> None:
+    lines = block(files(model(name))["groupings.md"], "Numeric")
+    printed = listed(REPORT[name])
+    assert len(lines) == len(printed) == 17
+    for line, expected in zip(lines, printed, strict=True):
+        left, terms = parsed(line)
+        expected_left, expected_terms = parsed(expected)
+        assert left == expected_left
+        assert [term for term, _ in terms] == [term for term, _ in expected_terms]
+        for (_, ours), (_, theirs) in zip(terms, expected_terms, strict=True):
+            # Five digits are printed; 1.05365 is printed rounded both ways.
+            last_digit = 10.0 ** (floor(log10(abs(theirs))) - 4)
+            assert abs(ours - theirs) <= 0.5 * last_digit * (1 + 1e-9), line
+
+
+@pytest.mark.parametrize("name", ["kr500", "kr270", "kr270_calibrated"])
+def test_symbolic_groupings_of_both_robots(name: str) -> None:
+    assert block(files(model(name))["groupings.md"], "Symbolic") == listed(SYMBOLIC)
+
+
+def test_groupings_mean_what_they_say(arm: Subject) -> None:
+    """Both equations, read back as numbers, give the base parameters of the model."""
+    lengths = {length.name: float(length.value) for length in arm.robot.lengths}
+    rng = np.random.default_rng(5)
+    standard = {p.name: float(rng.normal()) for p in arm.model.standard_parameters}
+    numbers = arm.model.grouping.numeric()
+    for parameter, symbolic, numeric in equations(arm.model.grouping):
+        exact = sum(c * standard[name] for name, c in numbers[parameter.name].items())
+        assert symbolic.left == numeric.left == Name(parameter.name)
+        assert value(symbolic.right, lengths | standard | {"pi": pi}) == pytest.approx(exact, rel=1e-11, abs=1e-11)
+        assert value(numeric.right, standard) == pytest.approx(exact, rel=1e-5, abs=1e-5)
+
+
+def test_every_standard_parameter_is_accounted_for_once(arm: Subject) -> None:
+    markdown = files(arm.model)["groupings.md"]
+    grouped = [parsed(line)[1][0][0] for line in block(markdown, "Numeric") if line]
+    alone = [name for line in block(markdown, "Parameters that stand alone") if line for name in line.split()[2:]]
+    left = re.findall(r"^\| (\w+) \|", markdown.split("## Why each parameter left")[1].split("## Geometry")[0], re.M)
+    assert sorted(grouped + alone + left[1:]) == sorted(p.name for p in arm.model.standard_parameters)
+
+
+def test_the_parameter_vector_is_listed_in_its_order(arm: Subject) -> None:
+    table = files(arm.model)["groupings.md"].split("## Parameter vector")[1]
+    rows = [line.split(" | ") for line in table.splitlines() if line.startswith("| ")][1:]
+    assert [(row[0].removeprefix("| "), row[1]) for row in rows] == [(p.name, p.unit) for p in arm.model.parameters]
+
+
+@pytest.mark.parametrize(
+    ("name", "totals"),
+    [("kr500", [36, 40, 58, 59]), ("kr270", [36, 40, 58, 60]), ("kr500_table5", [72, 82]), ("kr270_table5", [72, 82])],
+)
+def test_counts_of_the_report(name: str, totals: list[int]) -> None:
+    assert [stage.total for stage in ladder(model(name))] == totals
+
+
+def test_counts_are_ranks_of_the_regressor(arm: Subject) -> None:
+    stages = ladder(arm.model)
+    assert stages[-1].total == len(arm.model.base_parameters)
+    rows = np.concatenate([arm.generated("regressor_standard", state(arm, seed))["W"] for seed in range(40)])
+    bodies = {f"{stem}{body.number}" for body in arm.robot.bodies for stem in INERTIAL}
+    inertial = [k for k, parameter in enumerate(arm.model.standard_parameters) if parameter.name in bodies]
+    columns = rows[:, inertial]
+    size = np.linalg.norm(columns, axis=0)
+    assert stages[0].total == np.linalg.matrix_rank(columns[:, size > 1e-9] / size[size > 1e-9], tol=1e-8)
+
+
+def test_latex_is_balanced_and_complete(arm: Subject) -> None:
+    text = files(arm.model)["groupings.tex"]
+    bare = re.sub(r"\\[{}]", "", text)
+    depth = 0
+    for character in bare:
+        depth += {"{": 1, "}": -1}.get(character, 0)
+        assert depth >= 0
+    assert depth == 0
+    assert text.count(r"\left(") == text.count(r"\right)")
+    assert re.findall(r"\\begin\{(\w+)\}", text).count("align") == re.findall(r"\\end\{(\w+)\}", text).count("align")
+    assert text.count("$") % 2 == 0
+    aligned = re.findall(r"\\begin\{align\}\n(.*?)\n\\end\{align\}", text, re.S)
+    for block_ in aligned:
+        lines = block_.split(" \\\\\n")
+        assert all(line.count("&") == 1 for line in lines)
+        starts = [line for line in lines if "&=" in line]
+        assert len(starts) == len(equations(arm.model.grouping))
+
+
+def test_latex_takes_text_literally() -> None:
+    assert escape(r"50 % of a_b & {c} \d ~^#$") == (
+        r"50 \% of a\_b \& \{c\} \textbackslash{}d \textasciitilde{}\textasciicircum{}\#\$"
+    )
