@@ -9,7 +9,7 @@ from generator.robot.description import ParameterSet, ParameterValue
 #: Digits of a written value, and the smallest amount [SI] that is not written as zero.
 _DIGITS, _NOTHING = 6, 1e-6
 
-_SECTION = re.compile(r"^parameters:[^\n]*\n(?:(?:[ #][^\n]*)?\n)*", re.MULTILINE)
+_SECTION = re.compile(r"^parameters: *(?:#[^\n]*)?\n(?:(?:[ #][^\n]*)?\n)*", re.MULTILINE)
 
 
 def rounded(value: float) -> float:
@@ -22,13 +22,13 @@ def with_parameter_set(text: str, one: ParameterSet) -> str:
 
     Values are in SI and keep six significant digits; units and notes go with them, sources as one for the set.
 
-    Raises ValueError where the section is not written key by key with two spaces of indentation.
+    Sets are looked for as keys indented by two spaces. Raises ValueError where the section is not written one key a line.
     """
     section = _SECTION.search(text)
     if section is None:
+        if re.search(r"^parameters:", text, re.MULTILINE):
+            raise ValueError("section parameters is not written one key a line")
         return f"{text.rstrip()}\n\nparameters:\n{_written(one)}"
-    if section[0].split("#")[0].strip() != "parameters:" and not re.search(r"^  \w+:\s*(#.*)?$", section[0], re.MULTILINE):
-        raise ValueError("section parameters: its sets are not one key a line, indented by two spaces")
     present = re.compile(rf"^  {re.escape(one.name)}:[^\n]*\n(?:(?:    [^\n]*)?\n)*", re.MULTILINE)
     old = present.search(section[0])
     if old is None:

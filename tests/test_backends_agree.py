@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -127,6 +128,15 @@ def test_c_through_casadi(emitted: Emitted) -> None:
         built = casadi.external(f"{emitted.name}_casadi_{function.name}", str(emitted.external))
         assert built.name_in() == emitted.casadi[function.name].name_in()
         assert_same(called(built, inputs), as_matrices(wanted), DOUBLE * worse)
+
+
+def test_self_test_under_sanitizers(emitted: Emitted) -> None:
+    sources = [emitted.folder / "c" / f"{emitted.name}{ending}.c" for ending in ("", "_selftest")]
+    flags = ["-std=c99", "-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    run(["gcc", *flags, *sources, "-o", emitted.folder / "selftest", "-lm"])
+    passed = re.fullmatch(r"(\d+) passed, 0 failed\n", run([emitted.folder / "selftest"]))
+    assert passed is not None
+    assert int(passed[1]) >= len(emitted.arm.model.functions)
 
 
 def test_packed_outputs_are_the_dense_ones(emitted: Emitted) -> None:

@@ -59,6 +59,7 @@ def example() -> Any:
         function(program, "plain", [plain, sign, rest]),
         function(program, "constant", [program.constant(Fraction(1, 3)), program.constant(-2)]),
         function(program, "matrix", matrix, (3, 2), output="M"),
+        function(program, "sparse", [*([program.zero] * 3), q[0], *([program.zero] * 6), torque, program.zero]),
         function(program, "array", [*matrix, *matrix[::-1]], (2, 3, 2), output="T"),
         function(program, "packed", [q[0], torque], sparsity=Sparsity((2, 4), (0, 1), (3, 2))),
     )
@@ -287,6 +288,12 @@ def test_what_depends_on_parameters_alone_is_prepared(library: Path) -> None:
         ("p2", "class/NQ"),
     ]
     assert "params" not in source.split("void toy_two", 1)[1].split("}", 1)[0]
+
+
+def test_a_run_of_zeros_is_a_loop(library: Path) -> None:
+    body = (library / "toy.c").read_text().split("void toy_sparse", 1)[1].split("\n}", 1)[0]
+    assert re.findall(r"for .*", body) == ["for (int i = 4; i < 10; ++i) {"]
+    assert re.findall(r"y\[(\w+)\] =", body) == ["0", "1", "2", "3", "i", "10", "11"]
 
 
 def test_parameter_constants(library: Path) -> None:

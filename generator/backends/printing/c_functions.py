@@ -89,7 +89,7 @@ def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction
     names = Identifiers(language.reserved | {"prepared", "i"})
     nodes = prepared.moving[function.name]
     fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
-    read = {node.value[0] for node in nodes if node.operation == "input"}  # type: ignore[index]
+    read = {signal_of(node) for node in nodes if node.operation == "input"}
     inputs = tuple(Argument(s, names.claim(s.name), s.name in read) for s in function.inputs)
     outputs = tuple(Argument(output.signal, names.claim(output.signal.name)) for output in function.outputs)
     given = {argument.signal.name: argument.name for argument in inputs}
