@@ -24,7 +24,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list test test-extra lock clean distclean
+.PHONY: help generate all-robots list test test-extra format lock clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -49,6 +49,10 @@ test: $(TESTING) ## every test that needs Python and a C compiler alone
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra
+
+format: $(TESTING) ## lay out the Python files and sort their imports
+	@"$(VENV)/bin/python" -m ruff check --quiet --fix-only --select I .
+	@"$(VENV)/bin/python" -m ruff format --quiet .
 
 lock: ## resolve the lock files anew (asks the package registry)
 	$(PYTHON) -m venv --clear build/lock

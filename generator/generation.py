@@ -27,9 +27,7 @@ def silent(text: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def generate(
-    robot_file: Path, out: Path, stage: Stage = silent, plain: bool = False
-) -> tuple[Path, dict[str, Any]]:
+def generate(robot_file: Path, out: Path, stage: Stage = silent, plain: bool = False) -> tuple[Path, dict[str, Any]]:
     """Generates every backend's files for a robot file into ``out/<robot's name>``; returns that folder, the manifest.
 
     A ``plain`` generation writes the textbook recursion. Nothing is written before everything has been derived. Raises

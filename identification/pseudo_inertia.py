@@ -1,8 +1,8 @@
 """A body's ten inertial parameters as one 4 x 4 matrix, the second moment of its mass in homogeneous coordinates.
 
-P = integral of r r^T dm with r = (x, y, z, 1): [[tr(I)/2 1 - I, h], [h^T, m]] for the inertia tensor I, the first moment h and
-the mass m about the frame's origin. A body of positive mass density can have the ten parameters if and only if P is positive
-semidefinite; it is definite unless the mass lies in a plane (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67).
+P = integral of r r^T dm with r = (x, y, z, 1): [[tr(I)/2 1 - I, h], [h^T, m]] for the inertia tensor I, the first
+moment h and the mass m about the frame's origin. Matter can have the ten parameters if and only if P is positive semidefinite,
+and P is definite unless the mass lies in a plane (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67).
 """
 
 from __future__ import annotations

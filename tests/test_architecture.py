@@ -17,7 +17,7 @@ PACKAGES = ("generator", "identification")
 CODE = [path for folder in (*PACKAGES, "tests", "benchmarks") for path in sorted((ROOT / folder).rglob("*.py"))]
 
 #: Makers' and models' names; what holds for one robot must hold for its whole structure.
-ROBOT_NAMES = {"kuka", "kr270", "kr500", "kr300", "puma", "stanford", "scara", "staubli", "stäubli", "tx40", "iiwa", "panda"}
+ROBOT_NAMES = {"kuka", "kr270", "kr300", "kr500", "iiwa", "panda", "puma", "scara", "stanford", "staubli", "tx40"}
 
 
 def run(*words: str) -> None:

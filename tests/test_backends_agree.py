@@ -89,7 +89,7 @@ def assert_same(found: Results, wanted: Results, tolerance: float) -> None:
         assert worst <= tolerance * np.abs(value).max(), f"{name}: {worst / np.abs(value).max():.1e}"
 
 
-def cases(emitted: Emitted) -> Iterator[tuple[Function, dict[str, ArrayLike], Results, float]]:
+def cases(emitted: Emitted) -> Iterator[tuple[Function, Mapping[str, ArrayLike], Results, float]]:
     """Each function at each state with what its nodes give, and the condition that a tolerance is scaled with."""
     for function in emitted.arm.model.functions.values():
         for seed in SEEDS:

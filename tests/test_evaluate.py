@@ -225,9 +225,8 @@ def test_base_beside_standard_parameters_are_refused(tmp_path: Path, capsys: pyt
     file = tmp_path / "mixed.yaml"
     file.write_text("ZZ1R: 1\nFv1: 2\nM2: 3\n")
     got = refusal("kr500", "gravity", "--q", *"000000", "--parameters", file, capsys=capsys)
-    assert got == (
-        f"error: {file}:3:1: the standard parameter M2 beside the base parameter ZZ1R, expected parameters of one kind\n"
-    )
+    beside = "the standard parameter M2 beside the base parameter ZZ1R"
+    assert got == f"error: {file}:3:1: {beside}, expected parameters of one kind\n"
 
 
 def test_standard_parameters_cannot_come_from_base_ones(capsys: pytest.CaptureFixture[str]) -> None:

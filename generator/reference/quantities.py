@@ -102,6 +102,15 @@ def _inverse_dynamics(case: Case) -> Results:
     return {"tau": case.rigid.inverse_dynamics(*case.motion)}
 
 
+def _dynamics(case: Case) -> Results:
+    q = case["q"]
+    return {
+        "tau": case.rigid.inverse_dynamics(*case.motion),
+        "M": case.rigid.inertia_matrix(q),
+        "Q": case.rigid.gravity(q),
+    }
+
+
 def _inverse_dynamics_loaded(case: Case) -> Results:
     return {"tau": case.loaded.inverse_dynamics(*case.motion) + _held(case)}
 
@@ -146,6 +155,7 @@ _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "tool_jacobian": _tool_jacobian,
     "inverse_dynamics": _inverse_dynamics,
     "inverse_dynamics_standard": _inverse_dynamics,
+    "dynamics": _dynamics,
     "inverse_dynamics_loaded": _inverse_dynamics_loaded,
     "regressor": _regressor,
     "regressor_standard": _regressor,

@@ -18,7 +18,9 @@ def without_half_angles(expression: sympy.Expr) -> sympy.Expr:
 def _rewritten(expression: sympy.Expr, tangent: sympy.Expr) -> sympy.Expr:
     angle = 2 * tangent.args[0]
     t, c, s = sympy.symbols("t c s")
-    in_t = expression.subs({tangent: t, sympy.sin(angle): 2 * t / (1 + t**2), sympy.cos(angle): (1 - t**2) / (1 + t**2)})
+    in_t = expression.subs(
+        {tangent: t, sympy.sin(angle): 2 * t / (1 + t**2), sympy.cos(angle): (1 - t**2) / (1 + t**2)}
+    )
     above, below = sympy.fraction(sympy.cancel(in_t))
     power, rest = 0, sympy.Poly(below, t)
     unit = sympy.Poly(1 + t**2, t)

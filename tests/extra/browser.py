@@ -1,4 +1,4 @@
-"""A headless browser as the tests use it: screenshots, what the console said, and what the page asked the network for."""
+"""A headless browser as the tests use it: screenshots, console messages, and what the page asked the network for."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+#: Screenshots are taken at this scale: enough to see that something is drawn, and four times quicker to decode.
+_SCALE = 0.5
 _COMMANDS = ("chromium", "chromium-browser", "google-chrome")
 #: The browser's own services are kept quiet and offline: no name resolves.
 _FLAGS = (
@@ -27,7 +29,7 @@ _FLAGS = (
     "--disable-dev-shm-usage",
     "--no-first-run",
     "--hide-scrollbars",
-    "--force-device-scale-factor=1",
+    f"--force-device-scale-factor={_SCALE}",
     "--host-resolver-rules=MAP * ~NOTFOUND",
     "--enable-logging=stderr",
 )
@@ -35,11 +37,16 @@ _FLAGS = (
 
 @dataclass(frozen=True)
 class Visit:
-    """What one visit to a page left: pixels (height, width, 3), console messages, addresses asked for, the final DOM."""
+    """What one visit to a page left: pixels (height, width, 3), console messages, addresses that it asked for."""
 
     pixels: NDArray[np.uint8]
     console: tuple[str, ...]
     requests: tuple[str, ...]
+
+    def region(self, left: float, top: float, right: float, bottom: float) -> NDArray[np.uint8]:
+        """Pixels (k, 3) of a box given in the page's own pixels."""
+        rows, columns = slice(int(top * _SCALE), int(bottom * _SCALE)), slice(int(left * _SCALE), int(right * _SCALE))
+        return self.pixels[rows, columns].reshape(-1, 3)
 
 
 def browser() -> str:
@@ -72,7 +79,7 @@ def _run(page: Path, folder: Path, width: int, height: int, *flags: str) -> subp
 
 
 def _requests(log: Path) -> tuple[str, ...]:
-    """Addresses other than files that the page asked for; the browser's own services have no origin and do not count."""
+    """Addresses other than files that the page asked for; the browser's own services have no origin: not counted."""
     record = json.loads(log.read_text())
     start = record["constants"]["logEventTypes"]["URL_REQUEST_START_JOB"]
     asked = (

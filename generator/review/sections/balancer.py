@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math as mathematics
 from collections.abc import Sequence
+from itertools import islice
 
 import numpy as np
 
 from generator.effects.library import Instance
+from generator.review.laws import observables
 from generator.review.markup import Markup, element, join
 from generator.review.plot import Curve, Marker, plot
-from generator.review.words import unit
+from generator.review.words import listed, unit
 from generator.robot.description import PRISMATIC, Joint
 from generator.symbolic.function import Function, Output
 from generator.symbolic.interpret import evaluate
@@ -21,17 +23,16 @@ ORDER = 90
 
 _SAMPLES = 241
 
+Vector = np.ndarray[tuple[int], np.dtype[np.float64]]
+
 
 def render(model: Model) -> Markup | None:
     function = model.functions.get("balancer")
     observed = [instance for instance in model.effects if instance.effect.observables]
     if function is None or not observed:
         return None
-    per_effect = len(function.outputs) // len(observed)
-    parts = []
-    for k, instance in enumerate(observed):
-        parts.append(_balancer(model, function, instance, function.outputs[k * per_effect : (k + 1) * per_effect]))
-    return join(parts)
+    outputs = iter(function.outputs)
+    return join([_balancer(model, function, one, list(islice(outputs, len(observables(one))))) for one in observed])
 
 
 def _balancer(model: Model, function: Function, instance: Instance, outputs: Sequence[Output]) -> Markup:
@@ -46,7 +47,8 @@ def _balancer(model: Model, function: Function, instance: Instance, outputs: Seq
     shown = [float(mathematics.degrees(p)) if degrees else float(p) for p in positions]
     across = f"q{joint.number} [{'deg' if degrees else 'm'}]"
     first = next(iter(results.values()))
-    markers = [Marker(at, "dead centre") for at in _turning_points(shown, first[outputs[0].signal.name])]
+    lengths = [first[output.signal.name] for output in outputs if output.signal.name.startswith("length")]
+    markers = [Marker(at, "dead centre") for length in lengths for at in _turning_points(shown, length)]
     plots = []
     for output in outputs:
         name, symbol = output.signal.name, output.signal.units[0]
@@ -58,7 +60,7 @@ def _balancer(model: Model, function: Function, instance: Instance, outputs: Seq
         plots.append(element("figure", picture, element("figcaption", caption)))
     keys = [[element("i", class_=f"key line curve-{k % 6}"), f" {label} "] for k, label in enumerate(sets)]
     return join(
-        element("p", f"The {instance.effect.title} on joint {joint.number}, over its range; ", _valued(sets, instance)),
+        element("p", f"The {instance.effect.title} on joint {joint.number}, over its range."),
         element("div", plots, class_="plots"),
         element("p", keys, class_="legend"),
     )
@@ -71,32 +73,24 @@ def _range(joint: Joint) -> tuple[float, float]:
     )
 
 
-def _sets(model: Model, instance: Instance) -> dict[str, np.ndarray[tuple[int], np.dtype[np.float64]]]:
-    """Parameter vectors of the sets that value the balancer; with none, its parameters at one."""
-    index = {parameter.name: k for k, parameter in enumerate(model.parameters)}
-    found = {}
+def _sets(model: Model, instance: Instance) -> dict[str, Vector]:
+    """Parameter vectors by the names of the sets that value the balancer alike; with none, its parameters at one."""
+    alike: dict[tuple[float, ...], list[str]] = {}
     for name, parameter_set in model.robot.parameter_sets.items():
         if all(needed in parameter_set.values for needed in instance.names):
-            found[name] = model.default_parameters()
-            for needed in instance.names:
-                found[name][index[needed]] = parameter_set.values[needed].value
-    if not found:
-        found["unit parameters"] = model.default_parameters()
-        for needed in instance.names:
-            found["unit parameters"][index[needed]] = 1.0
-    return found
+            alike.setdefault(tuple(parameter_set.values[needed].value for needed in instance.names), []).append(name)
+    if not alike:
+        alike[(1.0,) * len(instance.names)] = [f"{listed(instance.names)} = 1"]
+    index = {parameter.name: k for k, parameter in enumerate(model.parameters)}
+    vectors = {}
+    for values, names in alike.items():
+        vector = model.default_parameters()
+        vector[[index[needed] for needed in instance.names]] = values
+        vectors[listed(names)] = vector
+    return vectors
 
 
-def _valued(sets: dict[str, np.ndarray[tuple[int], np.dtype[np.float64]]], instance: Instance) -> str:
-    names = " and ".join(instance.names)
-    return (
-        f"{names} set to 1 in the absence of values."
-        if "unit parameters" in sets
-        else f"{names} from the parameter sets."
-    )
-
-
-def _turning_points(x: Sequence[float], length: np.ndarray[tuple[int], np.dtype[np.float64]]) -> list[float]:
+def _turning_points(x: Sequence[float], length: Vector) -> list[float]:
     """Where the length turns, by a parabola through three samples: there the lever arm is nothing."""
     found = []
     for k in range(1, len(x) - 1):

@@ -32,11 +32,11 @@ def _strategies(model: Model) -> list[Markup]:
     if not model.strategies.choices:
         return [element("p", "The equations are those of the textbook recursion.")]
     rows: list[list[Markup | str]] = [
-        [kind, choice.way, str(choice.operations), str(choice.textbook), f"{100 * choice.saved:.0f} %"]
+        [kind, str(choice.operations), str(choice.textbook), f"{100 * choice.saved:.0f} %", choice.way]
         for kind, choice in model.strategies.choices.items()
     ]
-    heads = ("equations of the bodies", "written with", "mul + add + div", "textbook recursion", "saved")
-    return [table(heads, rows, class_="numbers")]
+    heads = ("equations of the bodies", "mul + add + div", "textbook recursion", "saved", "written with")
+    return [table(heads, rows)]
 
 
 def _row(function: Function, largest: int) -> list[Markup | str]:

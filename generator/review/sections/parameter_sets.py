@@ -26,7 +26,7 @@ def render(model: Model) -> Markup | None:
         ],
         class_="facts",
     )
-    return join(sources, _values(model, sets), _others(sets))
+    return join(sources, _values(model, sets), _others(sets), _notes(sets))
 
 
 def _values(model: Model, sets: list[ParameterSet]) -> Markup:
@@ -51,12 +51,27 @@ def _others(sets: list[ParameterSet]) -> Markup | None:
     return join(title, table(("name", "unit", "value", "set"), rows, class_="numbers"))
 
 
+def _notes(sets: list[ParameterSet]) -> Markup | None:
+    """What the file remarks on single values, each remark once with the values that it stands beside."""
+    remarks: dict[tuple[str, str], list[str]] = {}
+    for one in sets:
+        for name, value in (*one.values.items(), *one.other_values.items()):
+            if value.note:
+                remarks.setdefault((one.name, value.note), []).append(name)
+    if not remarks:
+        return None
+    rows: list[list[Content]] = [
+        [", ".join(names), element("code", in_set), note] for (in_set, note), names in remarks.items()
+    ]
+    return join(element("h3", "Notes (*)"), table(("value", "set", "note"), rows, class_="remarks"))
+
+
 def _cell(value: ParameterValue | None) -> Content:
     if value is None:
         return "·"
     hint = "; ".join(text for text in (value.note, value.source) if text) or None
     accuracy = None if value.relative_std is None else element("small", f" ± {value.relative_std:g} %")
-    mark = element("sup", "*") if value.note else None
+    mark = element("span", "*", class_="mark") if value.note else None
     return element("span", _number(value.value), mark, accuracy, title=hint)
 
 
