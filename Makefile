@@ -24,7 +24,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list test test-extra format lock clean distclean
+.PHONY: twins help generate all-robots list test test-extra format lock clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -45,7 +45,7 @@ list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
-	@$(PYTEST) -n 2 --dist loadgroup --ignore=tests/extra tests
+	@$(PYTEST) -n 2 --ignore=tests/extra tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra
@@ -62,6 +62,9 @@ lock: ## resolve the lock files anew (asks the package registry)
 	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
 LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-find-links \
     --no-emit-index-url --custom-compile-command 'make lock'
+
+twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins
 
 clean: ## remove caches and build folders; keeps .venv and generated/
 	rm -rf build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache

@@ -175,7 +175,7 @@ class Twin:
         for parameter in self.model.standard_parameters:
             note = ""
             if parameter.name in grouped_in and self._of_drive_train(parameter.name):
-                note = "identified only in sum with the bodies: as the assumed bodies leave it"
+                note = "assumed: identified only in sum with the bodies"
             values[parameter.name] = ParameterValue(self.standard[parameter.name], parameter.unit, note=note)
         return values
 

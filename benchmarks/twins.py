@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks.twin_recipes import RECIPES, WEIGHT, Twin, twin_of
 from generator.resources import find_robot
-from identification.pseudo_inertia import of_body
+from identification.pseudo_inertia import of_body, radii_of_gyration
 from identification.robot_file import with_parameter_set
 
 DOCUMENT = Path(__file__).parents[1] / "docs" / "parameter_sets.md"
@@ -55,6 +55,8 @@ def summary(twin: Twin) -> Iterator[str]:
     yield f"Shifts beyond {LARGE:g} standard deviations: {large or 'none'}."
     masses = [twin.standard[f"M{number}"] for number in twin.recipe.bodies]
     yield f"Masses of the bodies [kg]: {', '.join(f'{mass:.0f}' for mass in masses)}; {sum(masses):.0f} in all."
+    spread = [radii_of_gyration(of_body(number, twin.standard)).max() for number in twin.recipe.bodies]
+    yield f"Largest radii of gyration [m]: {', '.join(f'{r:.2f}' for r in spread)}."
     least = [np.linalg.eigvalsh(of_body(number, twin.standard)).min() for number in twin.recipe.bodies]
     yield f"Smallest eigenvalues of their pseudo-inertias [SI]: {', '.join(f'{value:.2g}' for value in least)}."
 

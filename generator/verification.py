@@ -7,19 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.errors import InputError
 from generator.quantities.regressors import standard_columns
 from generator.symbolic.function import PARAMETERS
-from generator.symbolic.interpret import evaluate_nodes
 from generator.symbolic.model import Model
+from generator.symbolic.sparse import sampled
 
 #: Singular values below this part of the largest are zero; the columns are scaled to unit length before.
 _RANK_TOLERANCE = 1e-9
 _FIT_TOLERANCE = 1e-8
-
-
-#: Effects whose parameters take part in the exact groupings.
-_GROUPED = ("rotor_inertia", "offset")
 
 
 class GroupingMismatch(Exception):
@@ -28,8 +23,6 @@ class GroupingMismatch(Exception):
 
 def check_grouping(model: Model) -> None:
     """Compares groupings and regressor over random states; raises GroupingMismatch naming the columns.
-
-    Raises InputError at an effect whose torque other parameters make too (a spring that acts like a weight, say).
 
     Two facts are checked: the base columns are independent, and the standard regressor equals the base columns times
     the groupings' coefficients.
@@ -41,7 +34,7 @@ def check_grouping(model: Model) -> None:
     scale = np.maximum(np.linalg.norm(w, axis=0), 1e-30)
     involved = _dependent(w[:, heads] / scale[heads], [names[k] for k in heads])
     if involved:
-        _refuse(model, involved)
+        raise GroupingMismatch(f"the base columns of {', '.join(involved)} depend on each other")
     error = np.linalg.norm(w - w[:, heads] @ coefficients, axis=0)
     bad = [name for name, e in zip(names, error, strict=True) if e > _FIT_TOLERANCE * max(scale.max(), 1.0)]
     if bad:
@@ -56,20 +49,6 @@ def _dependent(base: NDArray[np.float64], names: Sequence[str]) -> list[str]:
     return [name for name, size in zip(names, weight, strict=True) if size > 1e-3]
 
 
-def _refuse(model: Model, involved: list[str]) -> None:
-    """An effect that repeats what other parameters do is the file's fault, any other dependency the rules'."""
-    for use in model.robot.effects:
-        mine = [n for i in model.effects if i.effect.id == use.effect for n in i.names if n in involved]
-        if mine and use.effect not in _GROUPED:
-            others = [name for name in involved if name not in mine]
-            raise InputError(
-                use.place,
-                f"the torque of {' and '.join(mine)} is one that {' and '.join(others)} make too",
-                "an effect that the robot's motion can tell from the others",
-            )
-    raise GroupingMismatch(f"the base columns of {', '.join(involved)} depend on each other")
-
-
 def _coefficients(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
     matrix = np.zeros((len(model.grouping.base), len(names)))
     for row, terms in enumerate(model.grouping.numeric().values()):
@@ -80,14 +59,6 @@ def _coefficients(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
 
 def _observation_matrix(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
     """The standard regressor over random states, one under the other."""
-    columns = standard_columns(model)
-    samples = 12 + len(names) // max(model.dof, 1)
-    random = np.random.default_rng(0)
-    inputs = {name: random.uniform(-3.0, 3.0, (samples, model.dof)) for name in ("q", "qd", "qdd")}
-    nodes = [entry for column in columns.values() for entry in column.values()]
-    values = evaluate_nodes(model.program.reachable(nodes), {**inputs, PARAMETERS: model.default_parameters()})
-    w = np.zeros((samples, model.dof, len(names)))
-    for k, name in enumerate(names):
-        for row, entry in columns[name].items():
-            w[:, row, k] = values[entry]
-    return w.reshape(samples * model.dof, len(names))
+    parameters = {PARAMETERS: model.default_parameters()}
+    columns = sampled(model.program, standard_columns(model), model.dof, parameters)
+    return np.stack([columns[name] for name in names], axis=1)

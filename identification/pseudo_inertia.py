@@ -1,8 +1,8 @@
 """A body's ten inertial parameters as one 4 x 4 matrix, the second moment of its mass in homogeneous coordinates.
 
 P = integral of r r^T dm with r = (x, y, z, 1): [[tr(I)/2 1 - I, h], [h^T, m]] for the inertia tensor I, the first
-moment h and the mass m about the frame's origin. Matter can have the ten parameters if and only if P is positive semidefinite,
-and P is definite unless the mass lies in a plane (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67).
+moment h and the mass m about the frame's origin. Matter can have the ten parameters if and only if P is positive
+semidefinite; P is definite unless the mass lies in a plane (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67).
 """
 
 from __future__ import annotations
@@ -32,6 +32,12 @@ def basis() -> Matrix:
 def of_body(number: int, values: Mapping[str, float]) -> Matrix:
     """P of the body whose parameters are called XX<number> ... M<number>."""
     return pseudo_inertia([values[f"{stem}{number}"] for stem in INERTIAL])
+
+
+def radii_of_gyration(P: Matrix) -> Matrix:
+    """Root mean square distances [m] (3) of the mass from its centre along its principal axes, ascending."""
+    centre = P[:3, 3] / P[3, 3]
+    return np.sqrt(np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre)))
 
 
 def uniform_bar(mass: float, start: Sequence[float], end: Sequence[float], radius: float) -> Matrix:

@@ -26,7 +26,8 @@ from generator.units import Quantity
 #: Free fall in the world frame, exact.
 STANDARD_GRAVITY = (Integer(0), Integer(0), Rational(-981, 100))
 
-_ANGLES = [Integer(0), pi / 2, -pi / 2, pi, Integer(0), pi / 2, pi / 3, Rational(7, 10), -Rational(13, 10)]
+_RIGHT_ANGLES = [Integer(0), Integer(0), pi / 2, pi / 2, -pi / 2, pi]
+_ODD_ANGLES = [pi / 3, -pi / 4, Rational(7, 10), -Rational(13, 10)]
 _LENGTHS = [Integer(0), Integer(0), Rational(1, 2), -Rational(3, 10), Rational(17, 20)]
 
 
@@ -168,7 +169,7 @@ def elastic_chain(rigid: Robot, effects: Sequence[EffectUse] = ()) -> ElasticCha
 def random_robot(draw: Random, most: int = 5) -> Robot:
     """Any chain or tree of one to ``most`` frames with bodies, and most often a tool frame.
 
-    All kinds of joints, right and odd angles, lengths that are zero, numbers or symbols, any base and gravity.
+    All kinds of joints, right angles and an odd one, lengths that are zero, numbers or symbols, any base and gravity.
     """
     count = draw.randint(1, most)
     sigmas = [draw.choice((REVOLUTE, REVOLUTE, REVOLUTE, PRISMATIC, FIXED)) for _ in range(count)]
@@ -176,9 +177,14 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
         sigmas[-1] = REVOLUTE
     lengths = [Length(f"a{k}", Rational(draw.randint(1, 30), 20), symbolic=draw.random() < 0.5) for k in (1, 2)]
     branching = draw.random() < 0.35
-    joints = [_random_joint(draw, number, sigma, branching, lengths) for number, sigma in enumerate(sigmas, start=1)]
+    choices = _Choices(
+        angles=[*_RIGHT_ANGLES, draw.choice(_ODD_ANGLES)],
+        lengths=[*_LENGTHS, *(symbol(length.name) for length in lengths)],
+        branching=branching,
+    )
+    joints = [_random_joint(draw, number, sigma, choices) for number, sigma in enumerate(sigmas, start=1)]
     if draw.random() < 0.7:
-        joints.append(_random_joint(draw, count + 1, FIXED, branching, lengths, tool=True))
+        joints.append(_random_joint(draw, count + 1, FIXED, choices, tool=True))
     moving = [j for j in joints if j.sigma != FIXED]
     return robot(
         "random",
@@ -192,14 +198,21 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
     )
 
 
-def _random_joint(
-    draw: Random, number: int, sigma: int, branching: bool, lengths: Sequence[Length], tool: bool = False
-) -> Joint:
-    antecedent = draw.randint(0, number - 1) if branching else number - 1
-    choices = [*_LENGTHS, *(symbol(length.name) for length in lengths)]
-    alpha, theta = draw.choice(_ANGLES), draw.choice(_ANGLES)
-    d, r = draw.choice(choices), draw.choice(choices)
-    gamma, b = (draw.choice(_ANGLES), draw.choice(choices)) if antecedent != number - 1 else (Integer(0), Integer(0))
+@dataclass(frozen=True)
+class _Choices:
+    """What the joints of a random robot are made of."""
+
+    angles: Sequence[sympy.Expr]
+    lengths: Sequence[sympy.Expr]
+    branching: bool
+
+
+def _random_joint(draw: Random, number: int, sigma: int, choices: _Choices, tool: bool = False) -> Joint:
+    antecedent = draw.randint(0, number - 1) if choices.branching else number - 1
+    alpha, theta, gamma = (draw.choice(choices.angles) for _ in range(3))
+    d, r, b = (draw.choice(choices.lengths) for _ in range(3))
+    if antecedent == number - 1:
+        gamma, b = Integer(0), Integer(0)
     return joint(number, sigma, alpha, d, theta, r, antecedent=antecedent, gamma=gamma, b=b, tool=tool)
 
 
@@ -234,9 +247,19 @@ def _random_effects(draw: Random, moving: Sequence[Joint]) -> list[EffectUse]:
             uses.append(EffectUse(effect, carried))
     turning = [j for j in moving if j.sigma == REVOLUTE]
     if turning and draw.random() < 0.5:
-        number = (draw.choice(turning).number,)
-        uses.append(draw.choice([spring_balancer, gas_balancer])(number, draw))
+        carrier = draw.choice(turning)
+        makers = [gas_balancer, spring_balancer] if _swings(carrier, turning) else [gas_balancer]
+        uses.append(draw.choice(makers)((carrier.number,), draw))
     return uses
+
+
+def _swings(joint: Joint, turning: Sequence[Joint]) -> bool:
+    """Whether another axis swings this one about.
+
+    Where none does, a spring's stiffness acts like the weight of the arm, and the generator refuses it.
+    """
+    carried = any(other.number == joint.antecedent for other in turning)
+    return carried and joint.d != 0 and not (joint.alpha / pi).is_Integer
 
 
 def _crank(draw: Random) -> dict[str, Quantity]:

@@ -92,6 +92,7 @@ def test_the_bytes_do_not_depend_on_the_hash_seed() -> None:
         subprocess.run(
             [sys.executable, "-c", code],
             env=os.environ | {"PYTHONHASHSEED": seed},
+            cwd=Path(__file__).parent.parent,
             capture_output=True,
             check=True,
             text=True,

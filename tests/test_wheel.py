@@ -17,9 +17,6 @@ from tests.commands import ROOT, process, tree
 #: Where ``make test`` keeps the locked wheels, so that this test needs no network.
 WHEELS = Path(sys.prefix, "wheels")
 
-#: One worker builds and installs for all.
-pytestmark = pytest.mark.xdist_group("wheel")
-
 
 def run(*command: str | Path, cwd: Path) -> str:
     """The output of a command that sees nothing of this checkout."""
@@ -62,11 +59,8 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(wheel: Path) -> None:
     assert not [name for name in names if name.endswith((".pyc", ".so"))]
 
 
-def test_its_dependencies_are_all_declared_and_locked(installed: Path, tmp_path: Path) -> None:
+def test_an_empty_environment_generates_what_the_checkout_generates(installed: Path, tmp_path: Path) -> None:
     assert run(installed / "python", "-m", "pip", "check", cwd=tmp_path) == "No broken requirements found.\n"
-
-
-def test_it_generates_elsewhere_what_the_checkout_generates(installed: Path, tmp_path: Path) -> None:
     assert "kr270" in run(installed / "counterpoise", "list", cwd=tmp_path)
     run(installed / "counterpoise", "generate", "kr270", "--out", "by wheel", "--self-test", cwd=tmp_path)
     assert process("generate", "kr270", "--out", tmp_path / "by checkout").status == 0

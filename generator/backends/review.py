@@ -15,6 +15,7 @@ NAME = "review"
 def emit(model: Model) -> dict[str, str | bytes]:
     """The files of the review by their paths: ``groupings.md``, ``groupings.tex``, ``review.html``."""
     robot = model.robot
+    texts = documents.markdown(model)
     page = {
         "title": element("title", f"{robot.name}: model review"),
         "heading": element("h1", robot.name),
@@ -25,7 +26,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "version": VERSION,
     }
     return {
-        "groupings.md": render("review/groupings.md.jinja", document=documents.markdown(model)),
-        "groupings.tex": render("review/groupings.tex.jinja", document=documents.tex(model)),
+        "groupings.md": render("review/groupings.md.jinja", document=texts),
+        "groupings.tex": render("review/groupings.tex.jinja", document=documents.tex(model, texts)),
         "review.html": render("review/page.html.jinja", **page),
     }

@@ -15,7 +15,9 @@ from generator.symbolic.vectors import Array
 
 
 def _observed(model: Model) -> list[Instance]:
-    return [instance for instance in model.effects if instance.effect.observables]
+    """The balancers whose parameters are known by themselves: one grouped with the bodies has no force of its own."""
+    known = model.parameter_nodes
+    return [one for one in model.effects if one.effect.observables and all(name in known for name in one.names)]
 
 
 def _observables(instance: Instance) -> Mapping[str, tuple[sympy.Expr, str, str]]:

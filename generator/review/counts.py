@@ -47,4 +47,6 @@ def _groups(model: Model) -> list[list[Effect]]:
 
 
 def _rank(coefficients: np.ndarray[tuple[int, int], np.dtype[np.float64]], names: list[str], included: set[str]) -> int:
-    return int(np.linalg.matrix_rank(coefficients[:, [name in included for name in names]]))
+    chosen = [name in included for name in names]
+    # The base columns are independent, so that all standard parameters together have one column each.
+    return len(coefficients) if all(chosen) else int(np.linalg.matrix_rank(coefficients[:, chosen]))

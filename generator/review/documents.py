@@ -56,10 +56,9 @@ def markdown(model: Model) -> Document:
     )
 
 
-def tex(model: Model) -> Document:
-    """The groupings in LaTeX's mathematics, long ones broken between terms."""
+def tex(model: Model, texts: Document) -> Document:
+    """The same as ``texts`` with its formulas in LaTeX's mathematics, long ones broken between terms."""
     grouped = equations(model.grouping)
-    texts = markdown(model)
     return Document(
         texts.robot,
         tuple(f"{latex.tex(Name(length.name))} = {_value(length_value(length))}" for length in model.robot.lengths),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -11,12 +12,14 @@ from generator.effects.library import effects_of, motor_side
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
+from generator.symbolic.absorption import absorbed
 from generator.symbolic.bodies import INERTIAL, Body, body
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.flexible import FlexibleDynamics
 from generator.symbolic.frames import Chain, build_chain
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.lowering import lower
+from generator.symbolic.sparse import sampled
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.strategy import TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
@@ -57,7 +60,16 @@ class Model:
 
     @cached_property
     def grouping(self) -> Grouping:
-        return group(self.robot, tuple(parameter.name for parameter in self.standard_parameters))
+        """The exact groupings, with effects that repeat other parameters' torques grouped with them."""
+        names = [parameter.name for parameter in self.standard_parameters]
+        exact = group(self.robot, tuple(names))
+        others = [name for instance in self.effects if not instance.effect.drive_train for name in instance.names]
+        if not others:
+            return exact
+        lengths = tuple(replace(length, symbolic=False) for length in self.robot.lengths)
+        numeric = Model(replace(self.robot, lengths=lengths))
+        columns = numeric.standard.regressor_columns(names)
+        return absorbed(exact, others, sampled(numeric.program, columns, self.dof, {}))
 
     @cached_property
     def base_parameters(self) -> tuple[Parameter, ...]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.symbolic.function import Sparsity
+from generator.symbolic.interpret import evaluate_nodes
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, zeros
 
@@ -28,6 +30,24 @@ def sparsity(program: Program, columns: Columns, rows: int) -> Sparsity:
     matrix = dense(program, columns, rows)
     places = [(i, k) for i in range(rows) for k in range(len(columns)) if matrix[i, k] is not program.zero]
     return Sparsity((rows, len(columns)), tuple(i for i, _ in places), tuple(k for _, k in places))
+
+
+def sampled(
+    program: Program, columns: Columns, dof: int, given: Mapping[str, NDArray[np.float64]]
+) -> dict[str, NDArray[np.float64]]:
+    """Each column over random states, the rows of each state together; ``given`` are further input signals."""
+    samples = 12 + len(columns) // max(dof, 1)
+    random = np.random.default_rng(0)
+    inputs = {name: random.uniform(-3.0, 3.0, (samples, dof)) for name in ("q", "qd", "qdd")}
+    nodes = [entry for column in columns.values() for entry in column.values()]
+    values = evaluate_nodes(program.reachable(nodes), {**inputs, **given})
+    result = {}
+    for name, column in columns.items():
+        rows = np.zeros((samples, dof))
+        for row, entry in column.items():
+            rows[:, row] = values[entry]
+        result[name] = rows.ravel()
+    return result
 
 
 def packed(program: Program, columns: Columns, rows: int) -> Array:

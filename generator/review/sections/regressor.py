@@ -14,6 +14,8 @@ TITLE = "Structure of the regressor"
 ORDER = 60
 
 _WIDTH = 1070.0
+#: Narrower than this the grid scrolls instead of shrinking [px].
+_LEGIBLE = 740.0
 _SMALLEST, _LARGEST = 13.0, 22.0
 _LEFT, _TOP = 34.0, 62.0
 _KINDS = dict.fromkeys(INERTIAL[:6], "tensor") | dict.fromkeys(INERTIAL[6:9], "moment") | {INERTIAL[9]: "mass"}
@@ -86,7 +88,10 @@ def _grid(model: Model, rows: int, columns: int, filled: list[tuple[int, int]]) 
     description = (
         f"{rows} joint torques by {columns} base parameters; a filled cell is an entry that is not always zero."
     )
-    return svg(width, height, "Structure of the base regressor", description, join(*drawn, by="\n"), kind="regressor")
+    picture = svg(
+        width, height, "Structure of the base regressor", description, join(*drawn, by="\n"), kind="regressor"
+    )
+    return element("div", picture, style=f"max-width:{pixel(width)}px;min-width:{pixel(min(width, _LEGIBLE))}px")
 
 
 def _kind(parameter: Parameter) -> str:
