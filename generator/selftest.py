@@ -45,7 +45,10 @@ def cases(model: Model) -> tuple[Case, ...]:
     """
     if any(use.effect not in LAWS for use in model.robot.effects):
         return ()
-    values = physical_parameters(model.robot, 1)
+    # A balancer grouped with the bodies acts in their parameters: gravity alone would hold it too.
+    absent = {name for one in model.effects if not one.effect.drive_train for name in one.names}
+    absent -= {base.head for base in model.grouping.base}
+    values = {name: 0.0 if name in absent else value for name, value in physical_parameters(model.robot, 1).items()}
     given = {name: ParameterValue(value, "") for name, value in values.items()}
     parameters = tuple(float(value) for value in parameter_vector(model, given))
     standard = tuple(values[parameter.name] for parameter in model.standard_parameters)

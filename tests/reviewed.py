@@ -48,8 +48,9 @@ def listed(text: str) -> list[str]:
 
 
 def block(markdown: str, heading: str) -> list[str]:
-    """The lines of the fenced block under a heading."""
-    return markdown.split(f"\n## {heading}\n", 1)[1].split("```text\n", 1)[1].split("\n```", 1)[0].splitlines()
+    """The lines of the fenced block under a heading; "none" stands for no line."""
+    lines = markdown.split(f"\n## {heading}\n", 1)[1].split("```text\n", 1)[1].split("\n```", 1)[0].splitlines()
+    return [] if lines == ["none"] else lines
 
 
 @cache

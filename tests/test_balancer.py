@@ -207,9 +207,10 @@ def test_spring_stiffness_hides_in_the_weight_of_the_arm_at_rest() -> None:
     names = list(arm.base_values)
     states = [arm.state(seed)[0] for seed in range(40)]
     rest = np.concatenate([arm.output("regressor", q=q, qd=0 * q, qdd=0 * q) for q in states])
-    weight, stiffness, preload = rest[:, [names.index("MX2R"), names.index("MY2")]], *rest[
-        :, [names.index("Kr2"), names.index("K02")]
-    ].T
+    weight, stiffness, preload = (
+        rest[:, [names.index("MX2R"), names.index("MY2")]],
+        *rest[:, [names.index("Kr2"), names.index("K02")]].T,
+    )
     for column, hidden in ((stiffness, True), (preload, False)):
         left = column - weight @ np.linalg.lstsq(weight, column)[0]
         assert (np.linalg.norm(left) < 1e-10 * np.linalg.norm(column)) == hidden

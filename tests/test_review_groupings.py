@@ -117,8 +117,8 @@ def test_groupings_mean_what_they_say(arm: Subject) -> None:
 
 def test_every_standard_parameter_is_accounted_for_once(arm: Subject) -> None:
     markdown = files(arm.model)["groupings.md"]
-    grouped = [parsed(line)[1][0][0] for line in block(markdown, "Numeric") if line]
-    alone = [name for line in block(markdown, "Parameters that stand alone") if line for name in line.split()[2:]]
+    grouped = [parsed(line)[1][0][0] for line in block(markdown, "Numeric")]
+    alone = [name for line in block(markdown, "Parameters that stand alone") for name in line.split()[2:]]
     left = re.findall(r"^\| (\w+) \|", markdown.split("## Why each parameter left")[1].split("## Geometry")[0], re.M)
     assert sorted(grouped + alone + left[1:]) == sorted(p.name for p in arm.model.standard_parameters)
 
