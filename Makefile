@@ -10,6 +10,8 @@ IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH" CC="$(CC)"
 COUNTERPOISE := $(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m generator
 PYTEST := $(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m pytest
 UV := uv==0.13.8
+LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-find-links \
+    --no-emit-index-url --custom-compile-command 'make lock'
 
 # A stamp carries a checksum of what the environment was made from, and of the folder that its scripts point to:
 # touched files cost nothing, a changed lock or a moved checkout makes the environment anew.
@@ -24,7 +26,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: twins help generate all-robots list test test-extra format lock clean distclean
+.PHONY: help generate all-robots list test test-extra format lock twins clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -60,8 +62,6 @@ lock: ## resolve the lock files anew (asks the package registry)
 	build/lock/bin/uv pip compile --quiet pyproject.toml --group build $(LOCKING) --output-file requirements.lock
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test \
 	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
-LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-find-links \
-    --no-emit-index-url --custom-compile-command 'make lock'
 
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins

@@ -5,14 +5,14 @@ numerical implementation computed.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from generator.reference.joint_effects import LAWS
 from generator.reference.quantities import NAMES, reference
 from generator.reference.sample import payload, physical_parameters, positions, signal
-from generator.robot.description import ParameterValue
+from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.function import Function, Signal
 from generator.symbolic.model import STANDARD, Model
 from generator.symbolic.parameter_sets import parameter_vector
@@ -41,25 +41,26 @@ class Case:
 def cases(model: Model) -> tuple[Case, ...]:
     """Cases for every function that the independent implementation knows.
 
-    It knows none of a robot with an effect that has no law there.
+    An effect without a law there has zero parameters in every case, and a robot with one no cases for its regressors.
     """
-    if any(use.effect not in LAWS for use in model.robot.effects):
-        return ()
+    known = replace(model.robot, effects=tuple(use for use in model.robot.effects if use.effect in LAWS))
+    complete = len(known.effects) == len(model.robot.effects)
     # A balancer grouped with the bodies acts in their parameters: gravity alone would hold it too.
     absent = {name for one in model.effects if not one.effect.drive_train for name in one.names}
     absent -= {base.head for base in model.grouping.base}
-    values = {name: 0.0 if name in absent else value for name, value in physical_parameters(model.robot, 1).items()}
+    values = {parameter.name: 0.0 for parameter in model.standard_parameters}
+    values |= {name: 0.0 if name in absent else value for name, value in physical_parameters(known, 1).items()}
     given = {name: ParameterValue(value, "") for name, value in values.items()}
     parameters = tuple(float(value) for value in parameter_vector(model, given))
     standard = tuple(values[parameter.name] for parameter in model.standard_parameters)
     result = []
     for function in model.functions.values():
-        if function.name.removesuffix(_PACKED) not in NAMES:
+        if function.name.removesuffix(_PACKED) not in NAMES or ("regressor" in function.name and not complete):
             continue
         for state in range(_STATES):
             inputs = {s.name: _input(model, s, state, standard) for s in function.inputs}
             tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
-            outputs = _outputs(model, function, values, inputs)
+            outputs = _outputs(model, known, function, values, inputs)
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)
 
@@ -78,13 +79,13 @@ def _input(model: Model, wanted: Signal, state: int, standard: tuple[float, ...]
 
 
 def _outputs(
-    model: Model, function: Function, values: Mapping[str, float], inputs: Mapping[str, Sequence[float]]
+    model: Model, known: Robot, function: Function, values: Mapping[str, float], inputs: Mapping[str, Sequence[float]]
 ) -> dict[str, tuple[float, ...]]:
     heads = [base.head for base in model.grouping.base]
     columns = [parameter.name for parameter in model.standard_parameters]
     if "standard" not in function.name:
         columns = heads + [parameter.name for parameter in model.motor_parameters] * ("flexible" in function.name)
-    computed = reference(model.robot, function.name.removesuffix(_PACKED), values, inputs, columns)
+    computed = reference(known, function.name.removesuffix(_PACKED), values, inputs, columns)
     if function.sparsity is not None:
         places = (list(function.sparsity.rows), list(function.sparsity.columns))
         computed = {name: matrix[places] for name, matrix in computed.items()}

@@ -178,7 +178,7 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
     lengths = [Length(f"a{k}", Rational(draw.randint(1, 30), 20), symbolic=draw.random() < 0.5) for k in (1, 2)]
     branching = draw.random() < 0.35
     choices = _Choices(
-        angles=[*_RIGHT_ANGLES, draw.choice(_ODD_ANGLES)],
+        angles=[*_RIGHT_ANGLES, draw.choice(_ODD_ANGLES)] if draw.random() < 0.6 else _RIGHT_ANGLES,
         lengths=[*_LENGTHS, *(symbol(length.name) for length in lengths)],
         branching=branching,
     )
@@ -247,19 +247,8 @@ def _random_effects(draw: Random, moving: Sequence[Joint]) -> list[EffectUse]:
             uses.append(EffectUse(effect, carried))
     turning = [j for j in moving if j.sigma == REVOLUTE]
     if turning and draw.random() < 0.5:
-        carrier = draw.choice(turning)
-        makers = [gas_balancer, spring_balancer] if _swings(carrier, turning) else [gas_balancer]
-        uses.append(draw.choice(makers)((carrier.number,), draw))
+        uses.append(draw.choice([gas_balancer, spring_balancer])((draw.choice(turning).number,), draw))
     return uses
-
-
-def _swings(joint: Joint, turning: Sequence[Joint]) -> bool:
-    """Whether another axis swings this one about.
-
-    Where none does, a spring's stiffness acts like the weight of the arm, and the generator refuses it.
-    """
-    carried = any(other.number == joint.antecedent for other in turning)
-    return carried and joint.d != 0 and not (joint.alpha / pi).is_Integer
 
 
 def _crank(draw: Random) -> dict[str, Quantity]:

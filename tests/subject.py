@@ -78,11 +78,14 @@ class Subject:
         others = {name: value for name, value in self.values.items() if name not in self.standard}
         return Subject(self.model, base | others)
 
-    @property
-    def weight_shows(self) -> bool:
-        """Whether torques tell weight from constant offsets: they do not where something slides along a fixed slope."""
+    def hides(self, *stems: str) -> bool:
+        """Whether a grouping mixes parameters of these stems with others.
+
+        Constant offsets hide in the weight of what slides along a fixed slope, a spring in that of an arm whose axis
+        does not move; the base parameters then hold their sum alone.
+        """
         mixed = (base for base in self.model.grouping.base if len(base.terms) > 1)
-        return not any(name.startswith("Off") for base in mixed for _, name in base.terms)
+        return any(self._stems[name] in stems for base in mixed for _, name in base.terms)
 
     @cached_property
     def rigid(self) -> Rigid:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -66,3 +68,17 @@ def test_no_module_or_template_names_a_robot(folder: str) -> None:
         if any(word == name or word.startswith(f"{name}_") for name in known)
     }
     assert not found
+
+
+def test_every_dependency_is_locked_and_explained() -> None:
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    runtime = pyproject["project"]["dependencies"] + pyproject["dependency-groups"]["build"]
+    extras = [*pyproject["project"]["optional-dependencies"].values(), *pyproject["dependency-groups"].values()]
+    wanted = {"requirements.lock": runtime, "requirements-test.lock": [*runtime, *chain.from_iterable(extras)]}
+    explained = (ROOT / "docs" / "dependencies.md").read_text().lower()
+    for lock, requirements in wanted.items():
+        locked = set(re.findall(r"^([a-z0-9-]+)==", (ROOT / lock).read_text(), re.MULTILINE))
+        for requirement in requirements:
+            name = re.split(r"[<>=!; ]", requirement)[0].lower()
+            assert name.replace(".", "-") in locked, f"{name} is not in {lock}; run make lock"
+            assert name in explained, f"docs/dependencies.md does not say what {name} is for"

@@ -13,10 +13,10 @@ _REVOLUTE = ("Ia", "M", "MZ", "YY", "XX", "XY", "XZ", "YZ", "MY", "MX", "ZZ", "O
 #: The inertia tensor behind a prismatic joint.
 _PRISMATIC = ("Ia", "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MZ", "MY", "MX", "M", "Off")
 
-_INDEX = {
-    stem: index
-    for index, stem in enumerate(("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"))
-} | {"Ia": ROTOR_INERTIA, "Off": OFFSET}
+_INDEX = {stem: index for index, stem in enumerate(("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"))} | {
+    "Ia": ROTOR_INERTIA,
+    "Off": OFFSET,
+}
 
 
 def elimination_order(joint: Joint) -> list[int]:

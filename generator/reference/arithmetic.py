@@ -76,7 +76,10 @@ def _alternating(angle: Decimal, term: Decimal, order: int) -> Decimal:
 
 
 def solve(matrix: Array, right: Array) -> Array:
-    """The solution x of A x = b (n x n, n) by Gauss-Jordan elimination with row pivoting; raises ZeroDivisionError if singular."""
+    """The solution x of A x = b (n x n, n) by Gauss-Jordan elimination with row pivoting.
+
+    Raises ZeroDivisionError if A is singular.
+    """
     size = len(right)
     rows = np.hstack([matrix, right.reshape(size, 1)]).astype(object)
     for k in range(size):

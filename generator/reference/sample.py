@@ -11,6 +11,8 @@ from generator.reference.joint_effects import LAWS
 from generator.reference.matter import INERTIAL
 from generator.robot.description import PRISMATIC, Robot
 
+#: Range of a parameter that is not listed below.
+_USUAL = (0.5, 2.0)
 #: Ranges of the effects' parameters by stem [SI], those of a mid-sized arm.
 _RANGES = {
     "Ia": (0.5, 3.0),
@@ -94,5 +96,5 @@ def _add(a: Sequence[int], b: Sequence[int]) -> list[int]:
 
 
 def _between(draw: Random, stem: str) -> float:
-    lower, upper = _RANGES[stem]
+    lower, upper = _RANGES.get(stem, _USUAL)
     return round(draw.uniform(lower, upper), 2)

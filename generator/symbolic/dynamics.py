@@ -144,9 +144,7 @@ class Dynamics:
         else:
             motion = newton_euler.motions(self.chain, qd, qdd)
             of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
-        return of_bodies + effect_torques.torques(
-            self.chain, self.effects, self.joint_motion(qd, qdd), self.parameters
-        )
+        return of_bodies + effect_torques.torques(self.chain, self.effects, self.joint_motion(qd, qdd), self.parameters)
 
     def _moment_at_base(self) -> Array:
         """First moment of all matter about O_0, in frame 0 [kg m]."""
@@ -170,5 +168,3 @@ def _first_moment(part: Body, frame: Frame) -> Body:
     """Mass and first moment seen from the antecedent; the tensor is left as nothing."""
     moment = frame.rotation @ part.moment + part.mass * frame.position
     return Body(zeros(part.mass.program, 3, 3), moment, part.mass)
-
-

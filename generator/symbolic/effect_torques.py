@@ -45,9 +45,7 @@ def columns(chain: Chain, instances: Iterable[Instance], motion: JointMotion) ->
     return result
 
 
-def torques(
-    chain: Chain, instances: Iterable[Instance], motion: JointMotion, parameters: Mapping[str, Node]
-) -> Array:
+def torques(chain: Chain, instances: Iterable[Instance], motion: JointMotion, parameters: Mapping[str, Node]) -> Array:
     """Torque of the effects on each joint; parameters that are absent have no effect."""
     total = zeros(chain.program, chain.dof)
     for name, column in columns(chain, instances, motion).items():

@@ -113,4 +113,3 @@ def _balancing_mass(below: Matter, position: Array) -> Node:
         return zero
     mass: Node = below.moment[component] / position[component]
     return mass
-

@@ -44,9 +44,7 @@ class LeanMotion:
     a_own: Array
 
 
-def inverse_dynamics(
-    chain: Chain, bodies: Mapping[int, Body], qd: Nodes, qdd: Nodes, strategy: Strategy
-) -> Array:
+def inverse_dynamics(chain: Chain, bodies: Mapping[int, Body], qd: Nodes, qdd: Nodes, strategy: Strategy) -> Array:
     """Joint torques of the bodies alone, as ``newton_euler.inverse_dynamics`` gives them."""
     spun = segments(chain)
     chosen = regauge(chain, bodies, strategy.gauge)
@@ -54,9 +52,7 @@ def inverse_dynamics(
     return _torques(chain, spun, chosen, motion, strategy)
 
 
-def own_motions(
-    chain: Chain, positions: Mapping[int, Array], qd: Nodes, qdd: Nodes
-) -> dict[int, Motion]:
+def own_motions(chain: Chain, positions: Mapping[int, Array], qd: Nodes, qdd: Nodes) -> dict[int, Motion]:
     """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it, for origins at ``positions``."""
     motion = _motions(chain, segments(chain), positions, qd, qdd)
     return {j: Motion(own.own.w, own.own.wd, own.own.u, own.a_own) for j, own in motion.items()}

@@ -51,9 +51,7 @@ class Strategies:
 TEXTBOOK = Strategies()
 
 
-def torques(
-    chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way: Strategy | None
-) -> Array:
+def torques(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way: Strategy | None) -> Array:
     """Joint torques of the bodies, written in the given way."""
     if way is None:
         return newton_euler.inverse_dynamics(chain, newton_euler.motions(chain, qd, qdd), matter)
@@ -91,9 +89,7 @@ def _shortest_torque(chain: Chain, write: Callable[[Strategy | None], Array]) ->
     return _shortest(chain, write, [best, *balanced[:_MEETINGS]])
 
 
-def _shortest(
-    chain: Chain, write: Callable[[_Way | None], Array], ways: Iterable[_Way]
-) -> tuple[_Way | None, Choice]:
+def _shortest(chain: Chain, write: Callable[[_Way | None], Array], ways: Iterable[_Way]) -> tuple[_Way | None, Choice]:
     textbook = operations(chain, write(None))
     best: _Way | None = None
     least = textbook
