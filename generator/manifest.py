@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from importlib.metadata import version
 from typing import Any
 
 from generator.review.groupings import symbolic
@@ -26,6 +27,7 @@ def manifest(model: Model, files: Sequence[str]) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "generator": f"counterpoise {VERSION}",
+        "versions": {"counterpoise": VERSION, **{name: version(name) for name in ("casadi", "sympy")}},
         "robot": {"name": robot.name, "description": robot.description, "source": robot.source, "sha256": robot.digest},
         "joints": [{"joint": joint.number, "sigma": joint.sigma} for joint in robot.moving],
         "effects": _effects(model),

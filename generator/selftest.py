@@ -22,6 +22,7 @@ _STATES = 3
 #: Relative to an output's largest entry; a direct model loses what its inertia matrix's condition costs.
 _TOLERANCE, _DIRECT_TOLERANCE = 1e-11, 1e-8
 _PACKED = "_packed"
+_NOTHING = 1e-25
 
 
 @dataclass(frozen=True)
@@ -45,9 +46,7 @@ def cases(model: Model) -> tuple[Case, ...]:
     """
     known = replace(model.robot, effects=tuple(use for use in model.robot.effects if use.effect in LAWS))
     complete = len(known.effects) == len(model.robot.effects)
-    # A balancer grouped with the bodies acts in their parameters: gravity alone would hold it too.
-    absent = {name for one in model.effects if not one.effect.drive_train for name in one.names}
-    absent -= {base.head for base in model.grouping.base}
+    absent = _acting_as_weight(model)
     values = {parameter.name: 0.0 for parameter in model.standard_parameters}
     values |= {name: 0.0 if name in absent else value for name, value in physical_parameters(known, 1).items()}
     given = {name: ParameterValue(value, "") for name, value in values.items()}
@@ -63,6 +62,17 @@ def cases(model: Model) -> tuple[Case, ...]:
             outputs = _outputs(model, known, function, values, inputs)
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)
+
+
+def _acting_as_weight(model: Model) -> set[str]:
+    """Effects that are grouped with the bodies' weight, where no torque tells them apart: gravity would hold them too.
+
+    A balancer may act like a first moment; the rotor of a vertical slide acts like mass and an offset together.
+    """
+    of_effects = {name for one in model.effects for name in one.names}
+    grouped = {one.name: one.into for one in model.grouping.eliminated if one.name in of_effects}
+    rotors = {name for one in model.effects if one.effect.kinetic_energy for name in one.names}
+    return {name for name, into in grouped.items() if name not in rotors or any(t.startswith("Off") for t in into)}
 
 
 def _input(model: Model, wanted: Signal, state: int, standard: tuple[float, ...]) -> tuple[float, ...]:
@@ -89,4 +99,9 @@ def _outputs(
     if function.sparsity is not None:
         places = (list(function.sparsity.rows), list(function.sparsity.columns))
         computed = {name: matrix[places] for name, matrix in computed.items()}
-    return {name: tuple(float(entry) for entry in np.ravel(value)) for name, value in computed.items()}
+    return {name: tuple(_settled(float(entry)) for entry in np.ravel(value)) for name, value in computed.items()}
+
+
+def _settled(entry: float) -> float:
+    """What the exact arithmetic of the reference leaves of a zero is zero."""
+    return entry if abs(entry) > _NOTHING else 0.0

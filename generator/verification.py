@@ -15,6 +15,8 @@ from generator.symbolic.sparse import sampled
 #: Singular values below this part of the largest are zero; the columns are scaled to unit length before.
 _RANK_TOLERANCE = 1e-9
 _FIT_TOLERANCE = 1e-8
+#: A column this much smaller than the largest is rounding.
+_ROUNDING = 1e-7
 
 
 class GroupingMismatch(Exception):
@@ -36,7 +38,8 @@ def check_grouping(model: Model) -> None:
     if involved:
         raise GroupingMismatch(f"the base columns of {', '.join(involved)} depend on each other")
     error = np.linalg.norm(w - w[:, heads] @ coefficients, axis=0)
-    bad = [name for name, e in zip(names, error, strict=True) if e > _FIT_TOLERANCE * max(scale.max(), 1.0)]
+    allowed = _FIT_TOLERANCE * np.maximum(scale, _ROUNDING * scale.max())
+    bad = [name for name, e, most in zip(names, error, allowed, strict=True) if e > most]
     if bad:
         raise GroupingMismatch(f"groupings of {', '.join(bad)} do not reproduce their columns of the regressor")
 

@@ -31,7 +31,8 @@ def test_chain_and_reduced_model_accelerate_alike(name: str, seed: int) -> None:
     # Table 5 has no friction and no balancer; its motors carry no matter, its links no rotors.
     matter = {f"{stem}{j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL}
     drives = {f"{stem}{j}": sample[f"{stem}{j}"] for j in joints for stem in ("Iam", "k")}
-    on_chain = {f"{stem}{2 * j}": sample[f"{stem}{j}"] for j in joints for stem in (*INERTIAL, "k")}
+    on_chain = {f"{stem}{2 * j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL}
+    on_chain |= {f"ks{2 * j}": sample[f"k{j}"] for j in joints}
     on_chain |= {f"Ia{2 * j - 1}": sample[f"Iam{j}"] for j in joints}
 
     random = np.random.default_rng(seed)

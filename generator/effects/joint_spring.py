@@ -12,7 +12,7 @@ def _columns(at: Site) -> tuple[Column, ...]:
 EFFECT = Effect(
     id="joint_spring",
     title="spring across the joint",
-    parameters=(LinearParameter("k", ("N m/rad", "N/m"), "stiffness of the spring", 0.0),),
+    parameters=(LinearParameter("ks", ("N m/rad", "N/m"), "stiffness of the spring", 0.0),),
     columns=_columns,
     potential_energy=lambda at: (at.q**2 / 2,),
     needs=("q",),

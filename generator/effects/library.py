@@ -70,8 +70,20 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
             if joint.sigma not in effect.kinds:
                 raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
             instances[number, effect.id] = Instance(effect, Site(joint, _values(use, effect)))
+    _check_names(robot, list(instances.values()))
     order = list(library())
     return tuple(instances[key] for key in sorted(instances, key=lambda key: (key[0], order.index(key[1]))))
+
+
+def _check_names(robot: Robot, instances: list[Instance]) -> None:
+    """Every parameter has a name of its own, among the lengths too."""
+    known = {length.name for length in robot.lengths} | {name for one in motor_side(robot) for name in one.names}
+    for one in instances:
+        for name in one.names:
+            if name in known:
+                place = next(use.place for use in robot.effects if use.effect == one.effect.id)
+                raise InputError(place, f"the parameter {name} of {one.effect.id} has its name twice", "another name")
+            known.add(name)
 
 
 def motor_side(robot: Robot) -> tuple[Instance, ...]:

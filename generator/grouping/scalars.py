@@ -100,9 +100,7 @@ class Numbers:
         result = scalar.symbol.as_expr()
         renamed = {sympy.Symbol(str(symbol)): symbol for symbol in self._values}
         tangents = {sympy.Symbol(str(t)): sympy.tan(angle / 2) for angle, t in self._half_tangents.items()}
-        if result.free_symbols & set(tangents):
-            return sympy.trigsimp(sympy.simplify(result.subs(tangents))).subs(renamed)
-        return result.subs(renamed)
+        return result.subs(tangents).subs(renamed)
 
     def value(self, expression: sympy.Expr) -> float:
         """The number of an expression at the robot's lengths."""

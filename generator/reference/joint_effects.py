@@ -45,7 +45,7 @@ LAWS: Mapping[str, Law] = {
     "viscous_friction": Law(("Fv",), lambda shape, q, qd, qdd: (qd,)),
     "coulomb_friction": Law(("Fc",), lambda shape, q, qd, qdd: (sign(qd),)),
     "offset": Law(("Off",), lambda shape, q, qd, qdd: (Decimal(1),)),
-    "joint_spring": Law(("k",), lambda shape, q, qd, qdd: (q,), potential=lambda shape, q: (q * q / 2,)),
+    "joint_spring": Law(("ks",), lambda shape, q, qd, qdd: (q,), potential=lambda shape, q: (q * q / 2,)),
     "spring_balancer": _balancer(("Kr", "K0"), balancers.spring_forces, balancers.spring_energies),
     "gas_balancer": _balancer(("F0",), balancers.gas_forces, balancers.gas_energies),
 }

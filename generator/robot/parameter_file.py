@@ -1,6 +1,6 @@
 """Files with nothing but parameter values, in JSON or YAML.
 
-A value is a number in the parameter's SI unit or a table with its unit:
+A value is a number in the parameter's SI unit, a number with its unit as in a robot file, or a table with both:
 ``{"ZZ1R": 5.2e3, "Fv1": {"value": 8.76, "unit": "kN m s/rad"}}``.
 """
 
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from generator.expressions import has_unit
 from generator.robot import fields
 from generator.robot.description import ParameterValue
 from generator.robot.document import Entry, Table
@@ -30,6 +31,10 @@ def read(path: Path) -> dict[str, ParameterValue]:
 def _value(name: str, entry: Entry) -> ParameterValue:
     what = f"value of {name}"
     if not isinstance(entry.value, Table):
+        scalar = fields.text(entry.value, what, "a number, with a unit or without")
+        if has_unit(scalar.content):
+            short = fields.quantity(entry.value, what, None)
+            return ParameterValue(float(short.value), short.unit, place=entry.key)
         return ParameterValue(float(fields.number(entry.value, what)), UNSTATED, place=entry.key)
     keys = fields.table(entry.value, what, ("value",), ("unit", "relative_std", "source", "note"))
     value = fields.number(keys["value"].value, what)

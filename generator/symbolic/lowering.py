@@ -35,6 +35,8 @@ def lower(program: Program, expression: sympy.Expr, values: Mapping[sympy.Symbol
         if not exponent.is_Rational:
             raise ValueError(f"only exact rational powers are emitted, got {expression}")
         return program.power(arguments[0], Fraction(int(exponent.p), int(exponent.q)))
+    if expression.func is sympy.tan:
+        return program.function("sin", arguments[0]) / program.function("cos", arguments[0])
     name = _FUNCTIONS.get(expression.func)
     if name is None:
         raise ValueError(f"no backend prints {expression.func.__name__}")

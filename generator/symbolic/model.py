@@ -79,7 +79,8 @@ class Model:
         for base in self.grouping.base:
             head = standard[base.head]
             lower_bound = head.lower if base.alone else None
-            result.append(Parameter(base.name, head.unit, head.joint, head.meaning, lower_bound))
+            grouped = "" if base.alone else f"; holds {' '.join(name for _, name in base.terms[1:])}"
+            result.append(Parameter(base.name, head.unit, head.joint, head.meaning + grouped, lower_bound))
         return tuple(result)
 
     @cached_property

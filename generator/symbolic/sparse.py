@@ -35,19 +35,24 @@ def sparsity(program: Program, columns: Columns, rows: int) -> Sparsity:
 def sampled(
     program: Program, columns: Columns, dof: int, given: Mapping[str, NDArray[np.float64]]
 ) -> dict[str, NDArray[np.float64]]:
-    """Each column over random states, the rows of each state together; ``given`` are further input signals."""
-    samples = 12 + len(columns) // max(dof, 1)
+    """Each column over random states, the rows of each state together; ``given`` are further input signals.
+
+    States where an effect is not defined (a gas chamber pressed beyond its end) are left out.
+    """
+    samples = 3 * (12 + len(columns) // max(dof, 1))
     random = np.random.default_rng(0)
     inputs = {name: random.uniform(-3.0, 3.0, (samples, dof)) for name in ("q", "qd", "qdd")}
     nodes = [entry for column in columns.values() for entry in column.values()]
-    values = evaluate_nodes(program.reachable(nodes), {**inputs, **given})
+    with np.errstate(all="ignore"):
+        values = evaluate_nodes(program.reachable(nodes), {**inputs, **given})
     result = {}
     for name, column in columns.items():
         rows = np.zeros((samples, dof))
         for row, entry in column.items():
             rows[:, row] = values[entry]
-        result[name] = rows.ravel()
-    return result
+        result[name] = rows
+    defined = np.all([np.isfinite(rows).all(axis=1) for rows in result.values()], axis=0)
+    return {name: rows[defined].ravel() for name, rows in result.items()}
 
 
 def packed(program: Program, columns: Columns, rows: int) -> Array:

@@ -78,56 +78,56 @@ typedef double kr270_real;
 
 /** The parameters: places in kr270_params. */
 enum {
-    KR270_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR270_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     KR270_Fv1, /**< [N m s/rad] viscous friction coefficient */
     KR270_Fc1, /**< [N m] Coulomb friction coefficient */
     KR270_Off1, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR270_XX2R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR270_XX2R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY2 M3 M4 M5 M6 */
     KR270_XY2, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
-    KR270_XZ2R, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
+    KR270_XZ2R, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm); holds MZ3 */
     KR270_YZ2, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR270_ZZ2R, /**< [kg m2] moment of inertia about z, about the frame's origin */
-    KR270_MX2R, /**< [kg m] first moment along x: mass times x of the centre of mass */
+    KR270_ZZ2R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia2 M3 M4 M5 M6 */
+    KR270_MX2R, /**< [kg m] first moment along x: mass times x of the centre of mass; holds M3 M4 M5 M6 */
     KR270_MY2, /**< [kg m] first moment along y: mass times y of the centre of mass */
     KR270_Fv2, /**< [N m s/rad] viscous friction coefficient */
     KR270_Fc2, /**< [N m] Coulomb friction coefficient */
     KR270_Off2, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
     KR270_Kr2, /**< [N/m] stiffness of the balancer's spring */
     KR270_K02, /**< [N] force of the balancer's spring extrapolated to zero length */
-    KR270_XX3R, /**< [kg m2] moment of inertia about x, about the frame's origin */
-    KR270_XY3R, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
+    KR270_XX3R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY3 YY4 MZ4 M4 M5 M6 */
+    KR270_XY3R, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm); holds MZ4 M4 M5 M6 */
     KR270_XZ3, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR270_YZ3, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR270_ZZ3R, /**< [kg m2] moment of inertia about z, about the frame's origin */
-    KR270_MX3R, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR270_MY3R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR270_ZZ3R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY4 MZ4 M4 M5 M6 */
+    KR270_MX3R, /**< [kg m] first moment along x: mass times x of the centre of mass; holds M4 M5 M6 */
+    KR270_MY3R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ4 M4 M5 M6 */
     KR270_Ia3, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR270_Fv3, /**< [N m s/rad] viscous friction coefficient */
     KR270_Fc3, /**< [N m] Coulomb friction coefficient */
     KR270_Off3, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR270_XX4R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR270_XX4R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY4 YY5 */
     KR270_XY4, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR270_XZ4, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR270_YZ4, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR270_ZZ4R, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR270_ZZ4R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY5 */
     KR270_MX4, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR270_MY4R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR270_MY4R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ5 */
     KR270_Ia4, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR270_Fv4, /**< [N m s/rad] viscous friction coefficient */
     KR270_Fc4, /**< [N m] Coulomb friction coefficient */
     KR270_Off4, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR270_XX5R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR270_XX5R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY5 YY6 MZ6 M6 */
     KR270_XY5, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR270_XZ5, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR270_YZ5, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR270_ZZ5R, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR270_ZZ5R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY6 MZ6 M6 */
     KR270_MX5, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR270_MY5R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR270_MY5R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ6 M6 */
     KR270_Ia5, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR270_Fv5, /**< [N m s/rad] viscous friction coefficient */
     KR270_Fc5, /**< [N m] Coulomb friction coefficient */
     KR270_Off5, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR270_XX6R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR270_XX6R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY6 */
     KR270_XY6, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR270_XZ6, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR270_YZ6, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
@@ -275,56 +275,56 @@ typedef struct {
 
 /** What the functions need of the parameters, computed once by kr270_prepare(). */
 typedef struct {
-    kr270_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr270_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     kr270_real Fv1; /**< [N m s/rad] viscous friction coefficient */
     kr270_real Fc1; /**< [N m] Coulomb friction coefficient */
     kr270_real Off1; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr270_real XX2R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr270_real XX2R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY2 M3 M4 M5 M6 */
     kr270_real XY2; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
-    kr270_real XZ2R; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
+    kr270_real XZ2R; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm); holds MZ3 */
     kr270_real YZ2; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr270_real ZZ2R; /**< [kg m2] moment of inertia about z, about the frame's origin */
-    kr270_real MX2R; /**< [kg m] first moment along x: mass times x of the centre of mass */
+    kr270_real ZZ2R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia2 M3 M4 M5 M6 */
+    kr270_real MX2R; /**< [kg m] first moment along x: mass times x of the centre of mass; holds M3 M4 M5 M6 */
     kr270_real MY2; /**< [kg m] first moment along y: mass times y of the centre of mass */
     kr270_real Fv2; /**< [N m s/rad] viscous friction coefficient */
     kr270_real Fc2; /**< [N m] Coulomb friction coefficient */
     kr270_real Off2; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
     kr270_real Kr2; /**< [N/m] stiffness of the balancer's spring */
     kr270_real K02; /**< [N] force of the balancer's spring extrapolated to zero length */
-    kr270_real XX3R; /**< [kg m2] moment of inertia about x, about the frame's origin */
-    kr270_real XY3R; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
+    kr270_real XX3R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY3 YY4 MZ4 M4 M5 M6 */
+    kr270_real XY3R; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm); holds MZ4 M4 M5 M6 */
     kr270_real XZ3; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr270_real YZ3; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr270_real ZZ3R; /**< [kg m2] moment of inertia about z, about the frame's origin */
-    kr270_real MX3R; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr270_real MY3R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr270_real ZZ3R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY4 MZ4 M4 M5 M6 */
+    kr270_real MX3R; /**< [kg m] first moment along x: mass times x of the centre of mass; holds M4 M5 M6 */
+    kr270_real MY3R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ4 M4 M5 M6 */
     kr270_real Ia3; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr270_real Fv3; /**< [N m s/rad] viscous friction coefficient */
     kr270_real Fc3; /**< [N m] Coulomb friction coefficient */
     kr270_real Off3; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr270_real XX4R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr270_real XX4R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY4 YY5 */
     kr270_real XY4; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr270_real XZ4; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr270_real YZ4; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr270_real ZZ4R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr270_real ZZ4R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY5 */
     kr270_real MX4; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr270_real MY4R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr270_real MY4R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ5 */
     kr270_real Ia4; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr270_real Fv4; /**< [N m s/rad] viscous friction coefficient */
     kr270_real Fc4; /**< [N m] Coulomb friction coefficient */
     kr270_real Off4; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr270_real XX5R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr270_real XX5R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY5 YY6 MZ6 M6 */
     kr270_real XY5; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr270_real XZ5; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr270_real YZ5; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr270_real ZZ5R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr270_real ZZ5R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY6 MZ6 M6 */
     kr270_real MX5; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr270_real MY5R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr270_real MY5R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ6 M6 */
     kr270_real Ia5; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr270_real Fv5; /**< [N m s/rad] viscous friction coefficient */
     kr270_real Fc5; /**< [N m] Coulomb friction coefficient */
     kr270_real Off5; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr270_real XX6R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr270_real XX6R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY6 */
     kr270_real XY6; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr270_real XZ6; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr270_real YZ6; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */

@@ -78,55 +78,55 @@ typedef double kr500_real;
 
 /** The parameters: places in kr500_params. */
 enum {
-    KR500_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR500_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     KR500_Fv1, /**< [N m s/rad] viscous friction coefficient */
     KR500_Fc1, /**< [N m] Coulomb friction coefficient */
     KR500_Off1, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR500_XX2R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR500_XX2R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY2 M3 M4 M5 M6 */
     KR500_XY2, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
-    KR500_XZ2R, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
+    KR500_XZ2R, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm); holds MZ3 */
     KR500_YZ2, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR500_ZZ2R, /**< [kg m2] moment of inertia about z, about the frame's origin */
-    KR500_MX2R, /**< [kg m] first moment along x: mass times x of the centre of mass */
+    KR500_ZZ2R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia2 M3 M4 M5 M6 */
+    KR500_MX2R, /**< [kg m] first moment along x: mass times x of the centre of mass; holds M3 M4 M5 M6 */
     KR500_MY2, /**< [kg m] first moment along y: mass times y of the centre of mass */
     KR500_Fv2, /**< [N m s/rad] viscous friction coefficient */
     KR500_Fc2, /**< [N m] Coulomb friction coefficient */
     KR500_Off2, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
     KR500_F02, /**< [N] force of the balancer at q = 0 */
-    KR500_XX3R, /**< [kg m2] moment of inertia about x, about the frame's origin */
-    KR500_XY3R, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
+    KR500_XX3R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY3 YY4 MZ4 M4 M5 M6 */
+    KR500_XY3R, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm); holds MZ4 M4 M5 M6 */
     KR500_XZ3, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR500_YZ3, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR500_ZZ3R, /**< [kg m2] moment of inertia about z, about the frame's origin */
-    KR500_MX3R, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR500_MY3R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR500_ZZ3R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY4 MZ4 M4 M5 M6 */
+    KR500_MX3R, /**< [kg m] first moment along x: mass times x of the centre of mass; holds M4 M5 M6 */
+    KR500_MY3R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ4 M4 M5 M6 */
     KR500_Ia3, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR500_Fv3, /**< [N m s/rad] viscous friction coefficient */
     KR500_Fc3, /**< [N m] Coulomb friction coefficient */
     KR500_Off3, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR500_XX4R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR500_XX4R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY4 YY5 */
     KR500_XY4, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR500_XZ4, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR500_YZ4, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR500_ZZ4R, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR500_ZZ4R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY5 */
     KR500_MX4, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR500_MY4R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR500_MY4R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ5 */
     KR500_Ia4, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR500_Fv4, /**< [N m s/rad] viscous friction coefficient */
     KR500_Fc4, /**< [N m] Coulomb friction coefficient */
     KR500_Off4, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR500_XX5R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR500_XX5R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY5 YY6 MZ6 M6 */
     KR500_XY5, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR500_XZ5, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR500_YZ5, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    KR500_ZZ5R, /**< [kg m2] moment of inertia about z, about the frame's origin */
+    KR500_ZZ5R, /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY6 MZ6 M6 */
     KR500_MX5, /**< [kg m] first moment along x: mass times x of the centre of mass */
-    KR500_MY5R, /**< [kg m] first moment along y: mass times y of the centre of mass */
+    KR500_MY5R, /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ6 M6 */
     KR500_Ia5, /**< [kg m2] inertia of rotor and drive train about their axis */
     KR500_Fv5, /**< [N m s/rad] viscous friction coefficient */
     KR500_Fc5, /**< [N m] Coulomb friction coefficient */
     KR500_Off5, /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    KR500_XX6R, /**< [kg m2] moment of inertia about x, about the frame's origin */
+    KR500_XX6R, /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY6 */
     KR500_XY6, /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     KR500_XZ6, /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     KR500_YZ6, /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
@@ -273,55 +273,55 @@ typedef struct {
 
 /** What the functions need of the parameters, computed once by kr500_prepare(). */
 typedef struct {
-    kr500_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr500_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     kr500_real Fv1; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc1; /**< [N m] Coulomb friction coefficient */
     kr500_real Off1; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr500_real XX2R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr500_real XX2R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY2 M3 M4 M5 M6 */
     kr500_real XY2; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
-    kr500_real XZ2R; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
+    kr500_real XZ2R; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm); holds MZ3 */
     kr500_real YZ2; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr500_real ZZ2R; /**< [kg m2] moment of inertia about z, about the frame's origin */
-    kr500_real MX2R; /**< [kg m] first moment along x: mass times x of the centre of mass */
+    kr500_real ZZ2R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia2 M3 M4 M5 M6 */
+    kr500_real MX2R; /**< [kg m] first moment along x: mass times x of the centre of mass; holds M3 M4 M5 M6 */
     kr500_real MY2; /**< [kg m] first moment along y: mass times y of the centre of mass */
     kr500_real Fv2; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc2; /**< [N m] Coulomb friction coefficient */
     kr500_real Off2; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
     kr500_real F02; /**< [N] force of the balancer at q = 0 */
-    kr500_real XX3R; /**< [kg m2] moment of inertia about x, about the frame's origin */
-    kr500_real XY3R; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
+    kr500_real XX3R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY3 YY4 MZ4 M4 M5 M6 */
+    kr500_real XY3R; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm); holds MZ4 M4 M5 M6 */
     kr500_real XZ3; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr500_real YZ3; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr500_real ZZ3R; /**< [kg m2] moment of inertia about z, about the frame's origin */
-    kr500_real MX3R; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr500_real MY3R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr500_real ZZ3R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY4 MZ4 M4 M5 M6 */
+    kr500_real MX3R; /**< [kg m] first moment along x: mass times x of the centre of mass; holds M4 M5 M6 */
+    kr500_real MY3R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ4 M4 M5 M6 */
     kr500_real Ia3; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr500_real Fv3; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc3; /**< [N m] Coulomb friction coefficient */
     kr500_real Off3; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr500_real XX4R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr500_real XX4R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY4 YY5 */
     kr500_real XY4; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr500_real XZ4; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr500_real YZ4; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr500_real ZZ4R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr500_real ZZ4R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY5 */
     kr500_real MX4; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr500_real MY4R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr500_real MY4R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ5 */
     kr500_real Ia4; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr500_real Fv4; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc4; /**< [N m] Coulomb friction coefficient */
     kr500_real Off4; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr500_real XX5R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr500_real XX5R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY5 YY6 MZ6 M6 */
     kr500_real XY5; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr500_real XZ5; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr500_real YZ5; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
-    kr500_real ZZ5R; /**< [kg m2] moment of inertia about z, about the frame's origin */
+    kr500_real ZZ5R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds YY6 MZ6 M6 */
     kr500_real MX5; /**< [kg m] first moment along x: mass times x of the centre of mass */
-    kr500_real MY5R; /**< [kg m] first moment along y: mass times y of the centre of mass */
+    kr500_real MY5R; /**< [kg m] first moment along y: mass times y of the centre of mass; holds MZ6 M6 */
     kr500_real Ia5; /**< [kg m2] inertia of rotor and drive train about their axis */
     kr500_real Fv5; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc5; /**< [N m] Coulomb friction coefficient */
     kr500_real Off5; /**< [N m] offset of the torque and asymmetry of the Coulomb friction */
-    kr500_real XX6R; /**< [kg m2] moment of inertia about x, about the frame's origin */
+    kr500_real XX6R; /**< [kg m2] moment of inertia about x, about the frame's origin; holds YY6 */
     kr500_real XY6; /**< [kg m2] element xy of the inertia tensor (minus the integral of x y dm) */
     kr500_real XZ6; /**< [kg m2] element xz of the inertia tensor (minus the integral of x z dm) */
     kr500_real YZ6; /**< [kg m2] element yz of the inertia tensor (minus the integral of y z dm) */
