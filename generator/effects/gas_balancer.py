@@ -44,6 +44,7 @@ EFFECT = Effect(
     parameters=(LinearParameter("F0", ("N", "N"), "force of the balancer at q = 0", 0.0),),
     columns=_columns,
     potential_energy=_energy,
+    positive=lambda at: {"l0": _chamber(at)},
     observables=_observables,
     shapes=(
         *crank.SHAPES,

@@ -16,6 +16,9 @@ from generator.errors import InputError, Place
 from generator.robot.description import FIXED, EffectUse, Joint, Robot
 from generator.robot.parameters import Parameter
 
+#: Points at which a range is looked at.
+_STEPS = 200
+
 
 @dataclass(frozen=True)
 class Instance:
@@ -69,10 +72,27 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
                 raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
             if joint.sigma not in effect.kinds:
                 raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
-            instances[number, effect.id] = Instance(effect, Site(joint, _values(use, effect)))
+            site = Site(joint, _values(use, effect))
+            _check_range(use, effect, site)
+            instances[number, effect.id] = Instance(effect, site)
     _check_names(robot, list(instances.values()))
     order = list(library())
     return tuple(instances[key] for key in sorted(instances, key=lambda key: (key[0], order.index(key[1]))))
+
+
+def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:
+    """What must be positive is so over the joint's limits, where the file gives them."""
+    lower, upper = site.joint.lower, site.joint.upper
+    if effect.positive is None or lower is None or upper is None:
+        return
+    for name, expression in effect.positive(site).items():
+        value = sympy.lambdify(site.q, expression, "math")
+        least = min(value(float(lower + (upper - lower) * step / _STEPS)) for step in range(_STEPS + 1))
+        if least <= 0:
+            place = use.values[name].place if name in use.values else use.place
+            raise InputError(
+                place, f"{name} is too small: within the joint's limits {least:.3g} m is left", "a longer one"
+            )
 
 
 def _check_names(robot: Robot, instances: list[Instance]) -> None:
