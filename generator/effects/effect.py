@@ -82,11 +82,11 @@ class Effect:
 
     ``columns`` returns one column per linear parameter, in the order of ``parameters``. ``kinetic_energy`` and
     ``potential_energy`` return the energy per unit of each parameter [J/unit], where the effect stores any;
-    a potential is zero at q = 0 where it is finite there. ``positive`` names lengths that must stay positive over the
-    joint's limits, by the shape value to blame. ``observables`` names further outputs worth emitting, each an expression
-    that may contain the parameters' symbols (named by their stems), with its unit. ``drive_train`` effects sit on the
-    motor side of an elastic joint. ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the
-    parameters of one joint.
+    a potential is zero at q = 0 where it is finite there. ``positive`` names lengths that must stay positive over
+    the joint's limits, by the shape value to blame. ``observables`` names further outputs worth emitting, each an
+    expression that may contain the parameters' symbols (named by their stems), with its unit. ``drive_train``
+    effects sit on the motor side of an elastic joint. ``kinds`` are the kinds of joint (sigma) it can sit on.
+    ``rank`` orders the parameters of one joint.
     """
 
     id: str
