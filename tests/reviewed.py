@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping
 from functools import cache
-from math import cos, log, sin, sqrt
+from math import cos, log, sin, sqrt, tan
 
 import numpy as np
 
@@ -80,6 +80,7 @@ def value(of: Formula, at: Mapping[str, float]) -> float:
     known: dict[str, Callable[[float], float]] = {
         "sin": sin,
         "cos": cos,
+        "tan": tan,
         "sqrt": sqrt,
         "log": log,
         "sign": np.sign,
