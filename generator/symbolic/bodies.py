@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.symbolic.statements import Node, Program
-from generator.symbolic.vectors import Array, array, zeros
+from generator.symbolic.vectors import Array, array
 
 #: The ten inertial parameters of a body in SYMORO's order (report eq. 4).
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -51,8 +51,3 @@ def seen_from_antecedent(moved: Body, rotation: Array, position: Array) -> Body:
             entry = inertia[i, k] - position[i] * moment[k] - arm[i] * position[k]
             shifted[i, k] = shifted[k, i] = entry + twice if i == k else entry
     return Body(shifted, arm, moved.mass)
-
-
-def nothing(program: Program) -> Body:
-    """A body without matter."""
-    return Body(zeros(program, 3, 3), zeros(program, 3), program.zero)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from generator.symbolic.frames import Chain, Frame, axis, world_transforms
 from generator.symbolic.vectors import Array, Nodes, cross, zeros
 
@@ -76,8 +74,3 @@ def screws(chain: Chain) -> dict[int, dict[int, Screw]]:
             mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
         result[frame.number] = mine
     return result
-
-
-def stacked(rows: list[Array]) -> Array:
-    """Arrays under each other, as one array of the backends' two-dimensional outputs."""
-    return np.stack(rows)

@@ -298,36 +298,6 @@ class Program:
 
     # -- making ---------------------------------------------------------------------------------------------------
 
-    def _gathered_sum(self, a: Node, size: Node, negative: bool) -> Node | None:
-        """a +- (p +- x) as (a +- p) +- x where a and p are parameter-only: never longer at each call."""
-        if not a.parameter_only or size.parameter_only or size.operation not in ("add", "sub"):
-            return None
-        first, second = size.arguments
-        if size.operation == "sub":
-            second = self.negate(second)
-        if negative:
-            first, second = self.negate(first), self.negate(second)
-        if first.parameter_only:
-            return self.add(self.add(a, first), second)
-        return self.add(self.add(a, second), first) if second.parameter_only else None
-
-    def _gathered_coefficients(self, a: Node, b: Node, negative_a: bool, negative_b: bool) -> Node | None:
-        """p x +- q x as (p +- q) x where p and q are parameter-only and x is not."""
-        p, x = self._coefficient(a)
-        q, y = self._coefficient(b)
-        if x is not y or x.parameter_only:
-            return None
-        return self.multiply(self.add(self.negate(p) if negative_a else p, self.negate(q) if negative_b else q), x)
-
-    def _coefficient(self, a: Node) -> tuple[Node, Node]:
-        if a.operation == "mul" and not a.parameter_only:
-            first, second = a.arguments
-            if first.parameter_only:
-                return first, second
-            if second.parameter_only:
-                return second, first
-        return self.one, a
-
     def _gathered_product(self, a: Node, b: Node) -> Node | None:
         """a (p x) as (a p) x where a and p are parameter-only."""
         if not a.parameter_only or b.parameter_only or b.operation != "mul":
