@@ -1,0 +1,45 @@
+"""The report's robots under cppcheck's MISRA addon: a minute each, so not among the quick tests."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from generator.backends import c
+from generator.derivation import derive
+from generator.resources import find_robot
+from generator.robot.readers import read
+from tests.compiled import run, write
+
+ROOT = Path(__file__).resolve().parents[2]
+OPTIONS = ["--addon=misra", "--enable=all", "--std=c99", "--suppress=missingIncludeSystem", "--quiet"]
+#: Documented in prose, see docs/misra.md: names that share their first 31 characters.
+LONG_NAMES = "5.1"
+
+#: What cppcheck says of its own work, and of functions that only a user calls.
+REMARKS = {"unusedFunction", "checkersReport", "normalCheckLevelMaxBranches"}
+
+
+@pytest.mark.parametrize("name", ["kr500"])
+def test_no_rule_beyond_the_documented_ones(name: str, tmp_path: Path) -> None:
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
+    folder = write(tmp_path, c.emit(derive(read(find_robot(name)))))
+    report = run(
+        [
+            shutil.which("cppcheck", path=path) or "cppcheck",
+            *OPTIONS,
+            f"-U{name.upper()}_USE_FLOAT",
+            folder / f"{name}.c",
+        ]
+    )
+    found = set(re.findall(r"\[misra-c2012-([\d.]+)\]$", report, re.MULTILINE))
+    others = set(re.findall(r"\[([A-Za-z]\w+)\]$", report, re.MULTILINE)) - REMARKS
+    documented = set(re.findall(r"^\| (\d+\.\d+) \|", (ROOT / "docs/misra.md").read_text(), re.MULTILINE))
+    assert found
+    assert found <= documented | {LONG_NAMES}
+    assert not others
