@@ -12,7 +12,7 @@ SEEDS = (11, 12)
 #: Effects that dissipate or push without storing energy.
 LOSSES = ("Fv", "Fc", "Off")
 #: Effects that store potential energy.
-SPRINGS = ("Kr", "K0", "F0", "k")
+SPRINGS = ("Kr", "K0", "F0", "k", "ks")
 
 
 def inertia_matrix(arm: Subject, q: Vector) -> Vector:
