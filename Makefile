@@ -31,6 +31,7 @@ export CALLER := $(PWD)
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
 	@echo 'make robot=PATH.yaml        the same for a robot file of your own; out=DIR writes elsewhere than generated/'
+	@echo 'make robot=... build_in=SET the same with a parameter set as numbers in the code, into generated/<robot>_<SET>/'
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | while IFS='|' read -r name text; \
 	    do printf '%-27s %s\n' "make $$name" "$$text"; done
 
@@ -38,7 +39,7 @@ generate: $(RUNTIME)
 	@file="$$robot"; \
 	if [ -z "$$file" ]; then echo 'error: Makefile:1:1: no robot, expected make robot=NAME or robot=PATH.yaml' >&2; exit 2; fi; \
 	if [ ! -e "$$file" ] && [ -n "$$CALLER" ] && [ -e "$$CALLER/$$file" ]; then file="$$CALLER/$$file"; fi; \
-	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test
+	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test $(if $(build_in),--build-in "$(build_in)")
 
 all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
 	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test || exit $$?; done

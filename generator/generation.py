@@ -27,21 +27,24 @@ def silent(text: str) -> AbstractContextManager[None]:
     return nullcontext()
 
 
-def generate(robot_file: Path, out: Path, stage: Stage = silent, plain: bool = False) -> tuple[Path, dict[str, Any]]:
+def generate(
+    robot_file: Path, out: Path, stage: Stage = silent, plain: bool = False, parameter_set: str | None = None
+) -> tuple[Path, dict[str, Any]]:
     """Generates every backend's files for a robot file into ``out/<robot's name>``; returns that folder, the manifest.
 
-    A ``plain`` generation writes the textbook recursion. Nothing is written before everything has been derived. Raises
-    InputError for a bad robot file or a folder that cannot be written.
+    A ``plain`` generation writes the textbook recursion. With a ``parameter_set`` its values stand in the code as
+    numbers, and the folder is ``out/<robot's name>_<set>``. Nothing is written before everything has been derived.
+    Raises InputError for a bad robot file, a set that it lacks or a folder that cannot be written.
     """
     with stage(f"reading {robot_file}"):
         robot = read(robot_file)
     with stage(f"deriving the model of {robot.name}"):
-        model = derive(robot, plain=plain)
+        model = derive(robot, plain=plain, parameter_set=parameter_set)
     with stage("emitting the files"):
         files = emitted(model)
     contents = manifest(model, sorted(files))
     files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
-    folder = out / robot.name
+    folder = out / model.robot.name
     replace(folder, files)
     return folder, contents
 

@@ -34,6 +34,7 @@ def manifest(model: Model, files: Sequence[str]) -> dict[str, Any]:
         "flexible": list(robot.flexible),
         "base_parameters": [parameter.name for parameter in model.base_parameters],
         "parameters": _parameters(model.parameters),
+        "built_in": {name: float(value) for name, value in model.constants.items()},
         "standard_parameters": _parameters(model.standard_parameters),
         "parameter_sets": sorted(robot.parameter_sets),
         "groupings": model.grouping.numeric(),

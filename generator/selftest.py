@@ -46,9 +46,8 @@ def cases(model: Model) -> tuple[Case, ...]:
     """
     known = replace(model.robot, effects=tuple(use for use in model.robot.effects if use.effect in LAWS))
     complete = len(known.effects) == len(model.robot.effects)
-    absent = _acting_as_weight(model)
     values = {parameter.name: 0.0 for parameter in model.standard_parameters}
-    values |= {name: 0.0 if name in absent else value for name, value in physical_parameters(known, 1).items()}
+    values |= _constants(model) if model.constants else _physical(model, known)
     given = {name: ParameterValue(value, "") for name, value in values.items()}
     parameters = tuple(float(value) for value in parameter_vector(model, given))
     standard = tuple(values[parameter.name] for parameter in model.standard_parameters)
@@ -62,6 +61,17 @@ def cases(model: Model) -> tuple[Case, ...]:
             outputs = _outputs(model, known, function, values, inputs)
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)
+
+
+def _physical(model: Model, known: Robot) -> dict[str, float]:
+    absent = _acting_as_weight(model)
+    return {name: 0.0 if name in absent else value for name, value in physical_parameters(known, 1).items()}
+
+
+def _constants(model: Model) -> dict[str, float]:
+    """The built-in values, those of grouped parameters on the parameters that name them."""
+    heads = {base.name: base.head for base in model.grouping.base}
+    return {heads.get(name, name): float(value) for name, value in model.constants.items()}
 
 
 def _acting_as_weight(model: Model) -> set[str]:

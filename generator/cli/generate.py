@@ -14,13 +14,18 @@ from generator.resources import find_robot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """ROBOT, --out, --plain and --self-test."""
+    """ROBOT, --out, --plain, --build-in and --self-test."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("generated"), help="default: generated")
     parser.add_argument(
         "--plain",
         action="store_true",
         help="write the textbook recursion with SYMORO's names, longer, to be read beside a paper",
+    )
+    parser.add_argument(
+        "--build-in",
+        metavar="SET",
+        help="write the values of a parameter set into the code as numbers; goes to OUT/<robot>_<SET>/",
     )
     parser.add_argument(
         "--self-test",
@@ -34,7 +39,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.c_selftest import PRECISIONS, run_self_test
     from generator.generation import generate
 
-    folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage, arguments.plain)
+    folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage, arguments.plain, arguments.build_in)
     passed: dict[str, int] = {}
     if arguments.self_test:
         for precision in PRECISIONS:

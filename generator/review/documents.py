@@ -12,6 +12,7 @@ from generator.review.geometry import length_value, limits, rows
 from generator.review.groupings import alone, equations, meaning, without_effect
 from generator.review.plain import plain
 from generator.robot.description import Robot
+from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
 
 #: Characters of a formula, commands not counted, after which LaTeX goes on in a new line.
@@ -33,6 +34,7 @@ class Document:
     geometry: tuple[tuple[str, ...], ...]
     parameters: tuple[tuple[str, str, str], ...]
     base_count: int
+    built_in: tuple[tuple[str, str, str], ...]
 
 
 def markdown(model: Model) -> Document:
@@ -53,7 +55,12 @@ def markdown(model: Model) -> Document:
         _geometry(model.robot),
         tuple((parameter.name, parameter.unit, meaning(parameter, model.grouping)) for parameter in model.parameters),
         len(model.base_parameters),
+        tuple((p.name, f"{float(model.constants[p.name]):g}", p.unit) for p in _built_in(model)),
     )
+
+
+def _built_in(model: Model) -> list[Parameter]:
+    return [parameter for parameter in model.all_parameters if parameter.name in model.constants]
 
 
 def tex(model: Model, texts: Document) -> Document:
@@ -74,6 +81,7 @@ def tex(model: Model, texts: Document) -> Document:
         ),
         texts.parameters,
         texts.base_count,
+        texts.built_in,
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -32,13 +34,15 @@ class Model:
     """The symbolic model of ``robot``; ``functions`` is filled by the quantities.
 
     A ``plain`` model writes the textbook recursion throughout, with SYMORO's names, to be read beside a paper.
+    ``constants`` are parameters whose values [SI] stand in the equations as numbers (see ``symbolic.building_in``).
 
     Raises InputError where the robot's effects are not those of the library.
     """
 
-    def __init__(self, robot: Robot, plain: bool = False) -> None:
+    def __init__(self, robot: Robot, plain: bool = False, constants: Mapping[str, Fraction] | None = None) -> None:
         self.robot = robot
         self.plain = plain
+        self.constants = constants or {}
         self.program = Program((PARAMETERS,))
         self.effects = effects_of(robot)
         self.motor_effects = motor_side(robot)
@@ -108,14 +112,20 @@ class Model:
         )
 
     @cached_property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """Order of the generated parameter vector: base, motor side, torque constants, symbolic lengths."""
+    def all_parameters(self) -> tuple[Parameter, ...]:
+        """Base, motor side, torque constants, symbolic lengths."""
         return self.base_parameters + self.motor_parameters + self.torque_constants + self.symbolic_lengths
 
     @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Order of the generated parameter vector: all that are not constants."""
+        return tuple(parameter for parameter in self.all_parameters if parameter.name not in self.constants)
+
+    @cached_property
     def parameter_nodes(self) -> dict[str, Node]:
-        """The nodes of the parameter vector by name."""
-        return {p.name: self.program.input(PARAMETERS, index) for index, p in enumerate(self.parameters)}
+        """The nodes of all parameters by name."""
+        nodes = {name: self.program.constant(value) for name, value in self.constants.items()}
+        return nodes | {p.name: self.program.input(PARAMETERS, index) for index, p in enumerate(self.parameters)}
 
     def default_parameters(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
         """The parameter vector with nominal lengths and torque constants in place, zero elsewhere."""

@@ -28,12 +28,10 @@ def parameter_vector(model: Model, values: Values) -> Vector:
     Raises InputError for an unknown name, a wrong unit, and base beside standard parameters.
     """
     _, standard = _kinds(model, values)
+    known = {name: value.value for name, value in values.items()} | (_grouped(model, values) if standard else {})
     vector = model.default_parameters()
     for index, parameter in enumerate(model.parameters):
-        if parameter.name in values:
-            vector[index] = values[parameter.name].value
-    if standard:
-        vector[: len(model.base_parameters)] = _grouped(model, values)
+        vector[index] = known.get(parameter.name, vector[index])
     return vector
 
 
@@ -60,7 +58,7 @@ def resolved_sets(model: Model) -> dict[str, dict[str, float]]:
 
 def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
     """The names of ``values`` that only base and that only standard parameters have, one of the two empty."""
-    base = {parameter.name: parameter for parameter in model.parameters}
+    base = {parameter.name: parameter for parameter in model.all_parameters}
     standard = {parameter.name: parameter for parameter in model.standard_parameters}
     for name, value in values.items():
         _check(name, value, standard | base)
@@ -82,7 +80,7 @@ def _check(name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> 
         raise InputError(value.place, f"{name} is given in {value.unit}", known[name].unit)
 
 
-def _grouped(model: Model, values: Values) -> list[float]:
+def _grouped(model: Model, values: Values) -> dict[str, float]:
     """Base parameters [SI] as sums of standard ones, at the lengths of ``values`` where it has them."""
     lengths = {
         sympy.Symbol(length.name, real=True): (
@@ -90,10 +88,10 @@ def _grouped(model: Model, values: Values) -> list[float]:
         )
         for length in model.robot.lengths
     }
-    return [
-        sum(float(coefficient.subs(lengths)) * _number(values, name) for coefficient, name in base.terms)
+    return {
+        base.name: sum(float(coefficient.subs(lengths)) * _number(values, name) for coefficient, name in base.terms)
         for base in model.grouping.base
-    ]
+    }
 
 
 def _number(values: Values, name: str) -> float:

@@ -44,7 +44,7 @@ def self_tests(
         by_function.setdefault(case.function, []).append(case)
     sets: dict[tuple[float, ...], int] = {}
     tests = tuple(_self_test(f, by_function[f.name], sets) for f in functions if f.name in by_function)
-    return tests, tuple(_row(values) for values in sets)
+    return tests, tuple(_row(values) for values in sets if values)
 
 
 def _self_test(function: CFunction, cases: Sequence[Case], sets: dict[tuple[float, ...], int]) -> SelfTest:

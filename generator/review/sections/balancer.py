@@ -74,7 +74,12 @@ def _range(joint: Joint) -> tuple[float, float]:
 
 
 def _sets(model: Model, instance: Instance) -> dict[str, Vector]:
-    """Parameter vectors by the names of the sets that value the balancer alike; with none, its parameters at one."""
+    """Parameter vectors by the names of the sets that value the balancer alike; with none, its parameters at one.
+
+    A model with its parameters built in has one empty vector.
+    """
+    if model.constants:
+        return {"built in": model.default_parameters()}
     alike: dict[tuple[float, ...], list[str]] = {}
     for name, parameter_set in model.robot.parameter_sets.items():
         if all(needed in parameter_set.values for needed in instance.names):

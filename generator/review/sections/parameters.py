@@ -17,8 +17,17 @@ ORDER = 125
 
 
 def render(model: Model) -> Markup:
-    vector = _table(model.parameters, model)
     standard = _table(model.standard_parameters, model)
+    return join(
+        _built_in(model) if model.constants else _vector(model),
+        element(
+            "details", element("summary", f"Standard parameters, {len(model.standard_parameters)} entries"), standard
+        ),
+    )
+
+
+def _vector(model: Model) -> Markup:
+    vector = _table(model.parameters, model)
     return join(
         element(
             "p",
@@ -28,9 +37,20 @@ def render(model: Model) -> Markup:
         element(
             "details", element("summary", f"Parameter vector, {len(model.parameters)} entries"), vector, open="open"
         ),
-        element(
-            "details", element("summary", f"Standard parameters, {len(model.standard_parameters)} entries"), standard
-        ),
+    )
+
+
+def _built_in(model: Model) -> Markup:
+    """The values in place of a parameter vector."""
+    rows = (
+        (math(Name(p.name)), unit(p.unit), f"{float(model.constants[p.name]):g}", meaning(p, model.grouping))
+        for p in model.all_parameters
+        if model.constants[p.name]
+    )
+    values = table(("symbol", "unit", "value", "meaning"), rows, class_="numbers")
+    return join(
+        element("p", "These values stand in the generated functions as numbers; all other parameters are zero."),
+        element("details", element("summary", "Parameters built in"), values, open="open"),
     )
 
 

@@ -1,0 +1,54 @@
+"""A robot whose parameters are numbers in the equations: what one parameter set gives, and zero for what it lacks.
+
+Essential parameters (report eq. 47) make shorter equations this way: what is zero leaves them altogether.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import sympy
+
+from generator.errors import InputError
+from generator.robot.description import Length, ParameterSet, Robot
+from generator.robot.fields import nearest
+from generator.symbolic.model import Model
+from generator.symbolic.parameter_sets import parameter_vector
+
+
+def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
+    """The model of ``robot`` with the parameter set ``name`` built in; it has no parameter vector.
+
+    It is called ``<robot>_<set>``. A length or torque constant that the set lacks is the robot's own. Joints are
+    elastic where the set gives their stiffness, and rigid elsewhere.
+
+    Raises InputError if the robot has no such set or the set does not fit the robot.
+    """
+    if name not in robot.parameter_sets:
+        expected = nearest(name, robot.parameter_sets) if robot.parameter_sets else "a robot with parameter sets"
+        raise InputError(robot.place, f"no parameter set {name!r}", expected)
+    chosen = robot.parameter_sets[name]
+    numeric = replace(
+        robot,
+        name=f"{robot.name}_{name}",
+        description=f"{robot.description}; parameter set {name} built in",
+        lengths=tuple(_number(length, chosen) for length in robot.lengths),
+        flexible=tuple(joint for joint in robot.flexible if f"k{joint}" in chosen.values),
+        parameter_sets={},
+    )
+    model = Model(numeric)
+    known = {p.name for p in (*model.all_parameters, *model.standard_parameters)}
+    elsewhere = {length.name for length in robot.lengths} | {p.name for p in Model(robot).motor_parameters}
+    values = {key: value for key, value in chosen.values.items() if key in known or key not in elsewhere}
+    vector = parameter_vector(model, values)
+    constants = {p.name: Fraction(str(float(x))) for p, x in zip(model.all_parameters, vector, strict=True)}
+    return Model(numeric, plain, constants)
+
+
+def _number(length: Length, chosen: ParameterSet) -> Length:
+    if not length.symbolic:
+        return length
+    given = chosen.values.get(length.name)
+    value = length.value if given is None else sympy.Rational(str(given.value))
+    return replace(length, value=value, symbolic=False)

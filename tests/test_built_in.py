@@ -1,0 +1,89 @@
+"""A parameter set built into the equations: the same numbers as the parameter vector gives, by fewer operations."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.derivation import derive
+from generator.resources import find_robot
+from generator.robot.readers import read
+from generator.symbolic.function import PARAMETERS
+from generator.symbolic.interpret import evaluate
+from generator.symbolic.parameter_sets import parameter_vector
+from tests.commands import PENDULUM, command
+
+#: Multiplications, additions and divisions of the inverse dynamics with Table 11's essential parameters, without the
+#: balancer, and with it.
+AT_MOST, WITH_BALANCER = 288, 296
+
+
+@pytest.mark.parametrize(
+    ("robot", "parameter_set"),
+    [("kr500", "report_table_11"), ("kr500", "twin_flexible"), ("kr270", "report_table_7"), ("kr270", "twin")],
+)
+def test_built_in_values_give_what_the_parameter_vector_gives(robot: str, parameter_set: str) -> None:
+    described = read(find_robot(robot))
+    names = ["inverse_dynamics", "inertia_matrix", "bias", "gravity", "motor_current", "flexible_direct_dynamics"]
+    open_model = derive(described, names, check=False)
+    built_in = derive(described, names, check=False, parameter_set=parameter_set)
+    assert built_in.parameters == ()
+    assert ("flexible_direct_dynamics" in built_in.functions) == (parameter_set == "twin_flexible")
+    vector = parameter_vector(open_model, described.parameter_sets[parameter_set].values)
+    random = np.random.default_rng(3)
+    for name, function in built_in.functions.items():
+        inputs = {signal.name: random.uniform(-2.0, 2.0, (20, signal.size)) for signal in function.inputs}
+        expected = evaluate(open_model.functions[name], {**inputs, PARAMETERS: vector})
+        for output, value in evaluate(function, {**inputs, PARAMETERS: np.zeros(0)}).items():
+            tolerance = 1e-9 if "direct" in name else 1e-12
+            np.testing.assert_allclose(value, expected[output], rtol=0, atol=tolerance * np.abs(expected[output]).max())
+
+
+def test_essential_parameters_make_short_equations() -> None:
+    robot = read(find_robot("kr500"))
+    freely = replace(robot, effects=tuple(use for use in robot.effects if use.effect != "gas_balancer"))
+    given = freely.parameter_sets["report_table_11"]
+    values = {name: value for name, value in given.values.items() if name != "F02"}
+    freely = replace(freely, parameter_sets={given.name: replace(given, values=values)})
+    for described, most in ((freely, AT_MOST), (robot, WITH_BALANCER)):
+        model = derive(described, ["inverse_dynamics"], check=False, parameter_set="report_table_11")
+        assert model.functions["inverse_dynamics"].count.total <= most
+
+
+def test_the_library_goes_to_its_own_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    done = command(
+        "generate", tmp_path / "pendulum.yaml", "--build-in", "light", "--self-test", "--out", tmp_path, capsys=capsys
+    )
+    assert done.status == 0
+    folder = tmp_path / "pendulum_light"
+    manifest = json.loads((folder / "manifest.json").read_text())
+    assert manifest["built_in"]["Fv1"] == 0.25
+    assert manifest["parameters"] == []
+    assert "void pendulum_light_inverse_dynamics(" in (folder / "c" / "pendulum_light.h").read_text()
+    assert "R(0.25)" in (folder / "c" / "pendulum_light.c").read_text()
+    assert "| Fv1 | 0.25 | N m s/rad |" in (folder / "review" / "groupings.md").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "parameter_set", "expected"),
+    [
+        (PENDULUM, "heavy", "pendulum.yaml:1:1: no parameter set 'heavy', expected one of light"),
+        (PENDULUM.split("parameters:")[0], "light", "no parameter set 'light', expected a robot with parameter sets"),
+        (PENDULUM.replace("      ZZ1: 2 kg m2\n", ""), "light", "divides by a parameter that is zero"),
+    ],
+)
+def test_sets_that_cannot_be_built_in(
+    text: str, parameter_set: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "pendulum.yaml").write_text(text)
+    done = command(
+        "generate", tmp_path / "pendulum.yaml", "--build-in", parameter_set, "--out", tmp_path, capsys=capsys
+    )
+    assert (done.status, done.out) == (2, "")
+    assert expected in done.err.splitlines()[-1]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["pendulum.yaml"]
