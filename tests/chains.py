@@ -198,6 +198,14 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
     )
 
 
+def random_chain(draw: Random, count: int) -> Robot:
+    """A serial chain of ``count`` bodies on revolute and some prismatic joints, with drive trains."""
+    choices = _Choices(_RIGHT_ANGLES, _LENGTHS, branching=False)
+    sigmas = [draw.choice((REVOLUTE,) * 5 + (PRISMATIC,)) for _ in range(count)]
+    joints = [_random_joint(draw, number, sigma, choices) for number, sigma in enumerate(sigmas, start=1)]
+    return robot(f"chain{count}", joints, effects=on_all_joints(joints, *DRIVE_TRAIN))
+
+
 @dataclass(frozen=True)
 class _Choices:
     """What the joints of a random robot are made of."""

@@ -1,0 +1,68 @@
+"""How generation grows with the number of joints, on random chains; and one of the report's robots as a whole.
+
+Every model is derived and emitted with all functions and all backends, the self-tests' independent values included.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from benchmarks.loglog import loglog
+from benchmarks.table import table
+from generator.derivation import derive
+from generator.generation import emitted
+from generator.resources import find_robot
+from generator.robot.description import Robot
+from generator.robot.readers import read
+from tests.chains import random_chain
+
+TITLE = "Generation time"
+PICTURE = Path(__file__).parents[2] / "docs" / "images" / "growth.svg"
+
+JOINTS = (3, 6, 12, 24, 48)
+
+
+def run(build: Path) -> dict[str, Any]:
+    """Rows by chain; draws ``docs/images/growth.svg``."""
+    report = read(find_robot("kr500"))
+    _measured(report)
+    rows = [{"chain": "kr500", **_measured(report)}]
+    grown = [{"chain": f"{count} joints", **_measured(random_chain(Random(count), count))} for count in JOINTS]
+    curves = {
+        "derivation": [row["derive [s]"] for row in grown],
+        "with all backends": [row["all [s]"] for row in grown],
+    }
+    PICTURE.parent.mkdir(parents=True, exist_ok=True)
+    picture = loglog("Generation time", "joints", "seconds", JOINTS, curves, {"quadratic": 2.0})
+    PICTURE.write_text(picture + "\n", encoding="utf-8")
+    return {"rows": rows + grown, "notes": [_growth(name, values) for name, values in curves.items()]}
+
+
+def _measured(robot: Robot) -> dict[str, Any]:
+    """Seconds to derive with the grouping's check, and for everything, one process, imports done."""
+    start = time.perf_counter()
+    model = derive(robot)
+    derived = time.perf_counter() - start
+    files = emitted(model)
+    return {
+        "derive [s]": round(derived, 2),
+        "all [s]": round(time.perf_counter() - start, 2),
+        "files [MB]": round(sum(map(len, files.values())) / 1e6, 1),
+        "inverse dynamics [operations]": model.functions["inverse_dynamics"].count.total,
+    }
+
+
+def _growth(name: str, seconds: list[float]) -> str:
+    """The exponent p of seconds ~ joints^p between the three longest chains."""
+    power = math.log(seconds[-1] / seconds[-3]) / math.log(JOINTS[-1] / JOINTS[-3])
+    return f"{name}: joints^{power:.1f} from {JOINTS[-3]} to {JOINTS[-1]} joints"
+
+
+if __name__ == "__main__":
+    result = run(Path())
+    print(table(result["rows"]))
+    print("\n".join(result["notes"]))
