@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping
 from functools import cache
-from math import cos, log, sin, sqrt, tan
+from math import cos, exp, log, sin, sqrt, tan, tanh
 
 import numpy as np
 
@@ -83,6 +83,8 @@ def value(of: Formula, at: Mapping[str, float]) -> float:
         "tan": tan,
         "sqrt": sqrt,
         "log": log,
+        "exp": exp,
+        "tanh": tanh,
         "sign": np.sign,
         "abs": abs,
     }

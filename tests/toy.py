@@ -44,7 +44,7 @@ class Toy:
     def parameters(self) -> tuple[Parameter, ...]:
         return _parameters(PARAMETER_NAMES)
 
-    base_parameters = parameters
+    base_parameters = all_parameters = parameters
     grouping = SimpleNamespace(numbers={})
 
     @property
@@ -139,6 +139,8 @@ def _grown(draw: st.DrawFn, program: Program, nodes: Sequence[Node]) -> Node:
         "cos": lambda: program.function("cos", a),
         "sqrt": lambda: program.function("sqrt", positive),
         "log": lambda: program.function("log", positive),
+        "exp": lambda: program.function("exp", program.function("sin", a)),
+        "tanh": lambda: program.function("tanh", a),
         "abs": lambda: program.function("abs", a),
         "sign": lambda: program.function("sign", a),
         "pow": lambda: program.power(positive, draw(st.sampled_from([Fraction(2, 3), Fraction(-7, 5), Fraction(9)]))),
@@ -184,6 +186,8 @@ def _passed_on(operation: str, given: Sequence[tuple[float, float]], result: flo
         return abs(b * result / a) * da
     if operation in ("sqrt", "log"):
         return da / abs(2 * result if operation == "sqrt" else a)
+    if operation == "exp":
+        return result * da
     if operation == "sign":
         return math.inf if abs(a) <= da else 0.0
     return sum(error for _, error in given)
@@ -199,6 +203,8 @@ OPERATIONS: dict[str, Callable[..., float]] = {
     "cos": math.cos,
     "sqrt": math.sqrt,
     "log": math.log,
+    "exp": math.exp,
+    "tanh": math.tanh,
     "abs": abs,
     "sign": lambda a: float((a > 0) - (a < 0)),
     "pow": math.pow,

@@ -24,6 +24,8 @@ _LANGUAGE = Language(
         "cos": "ca.cos",
         "sqrt": "ca.sqrt",
         "log": "ca.log",
+        "exp": "ca.exp",
+        "tanh": "ca.tanh",
         "abs": "ca.fabs",
         "sign": "ca.sign",
         "pow": "ca.power",

@@ -17,6 +17,8 @@ _LANGUAGE = Language(
         "cos": "np.cos",
         "sqrt": "np.sqrt",
         "log": "np.log",
+        "exp": "np.exp",
+        "tanh": "np.tanh",
         "abs": "np.abs",
         "sign": "np.sign",
         "pow": "np.power",

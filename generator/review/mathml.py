@@ -27,7 +27,7 @@ from generator.review.plain import plain
 _SHORT = (Number, Name)
 
 #: Functions that are set upright.
-_OPERATORS = ("sin", "cos", "log", "sign", "diag")
+_OPERATORS = ("sin", "cos", "log", "exp", "tanh", "sign", "diag")
 
 
 def math(formula: Formula, *, display: bool = False) -> Markup:

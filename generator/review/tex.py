@@ -24,7 +24,7 @@ _LITERAL = str.maketrans(
     | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\\": r"\textbackslash{}"}
 )
 
-_OPERATORS = {"sin": r"\sin", "cos": r"\cos", "log": r"\log", "sign": r"\operatorname{sign}"}
+_OPERATORS = {name: rf"\{name}" for name in ("sin", "cos", "log", "exp", "tanh")}
 
 
 def tex(formula: Formula) -> str:

@@ -10,7 +10,15 @@ import sympy
 from generator.constants import exact_constant
 from generator.symbolic.statements import Node, Program
 
-_FUNCTIONS = {sympy.sin: "sin", sympy.cos: "cos", sympy.log: "log", sympy.Abs: "abs", sympy.sign: "sign"}
+_FUNCTIONS = {
+    sympy.sin: "sin",
+    sympy.cos: "cos",
+    sympy.log: "log",
+    sympy.exp: "exp",
+    sympy.tanh: "tanh",
+    sympy.Abs: "abs",
+    sympy.sign: "sign",
+}
 
 
 def lower(program: Program, expression: sympy.Expr, values: Mapping[sympy.Symbol, Node]) -> Node:

@@ -16,7 +16,7 @@ Number = int | Fraction
 Operand = Union["Node", int, Fraction]
 
 #: Operations of one argument that are evaluated by the mathematics library of the target language.
-FUNCTIONS = ("sin", "cos", "sqrt", "log", "abs", "sign")
+FUNCTIONS = ("sin", "cos", "sqrt", "log", "exp", "tanh", "abs", "sign")
 
 #: Denominators beyond this belong to rounded irrational constants (see ``symbolic.lowering``).
 _EXACT_DENOMINATOR = 10**30
@@ -247,7 +247,7 @@ class Program:
         return self._intern("pow", (base, self.constant(exponent)))
 
     def function(self, name: str, a: Node) -> Node:
-        """``sin``, ``cos``, ``sqrt``, ``log``, ``abs`` or ``sign`` of a node (sign(0) = 0)."""
+        """One of ``FUNCTIONS`` of a node; sign(0) = 0."""
         if name not in FUNCTIONS:
             raise ValueError(f"unknown function {name!r}")
         if a.number is not None:
@@ -255,7 +255,7 @@ class Program:
             if folded is not None:
                 return self.constant(folded)
         negative, size = self._sign_and_size(a)
-        if negative and name in ("sin", "sign"):
+        if negative and name in ("sin", "tanh", "sign"):
             return self.negate(self.function(name, size))
         if negative and name in ("cos", "abs"):
             return self.function(name, size)
@@ -332,9 +332,9 @@ def _fold(name: str, a: Fraction) -> Fraction | None:
         return abs(a)
     if name == "sign":
         return Fraction((a > 0) - (a < 0))
-    if a == 0 and name in ("sin", "sqrt"):
+    if a == 0 and name in ("sin", "sqrt", "tanh"):
         return Fraction(0)
-    if (a == 0 and name == "cos") or (a == 1 and name == "sqrt"):
+    if (a == 0 and name in ("cos", "exp")) or (a == 1 and name == "sqrt"):
         return Fraction(1)
     if a == 1 and name == "log":
         return Fraction(0)

@@ -19,7 +19,7 @@ ROBOTS = ("kr500", "kr270", "scara", "tree_two_arms")
 PRECISIONS = ("double", "float")
 
 #: What the library may ask of the target's C library: mathematics, nothing else.
-MATHEMATICS = {"sin", "cos", "sqrt", "log", "pow", "fabs"}
+MATHEMATICS = {"sin", "cos", "sqrt", "log", "exp", "tanh", "pow", "fabs"}
 
 
 @pytest.fixture(scope="module", params=ROBOTS)

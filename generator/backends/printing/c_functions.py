@@ -18,7 +18,16 @@ from generator.backends.printing.straight_line import Block, straight_line
 from generator.symbolic.function import Function, Signal
 
 #: The operations that <math.h> computes: its function for double; the one for float has an f behind.
-MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": "fabs", "pow": "pow"}
+MATHEMATICS = {
+    "sin": "sin",
+    "cos": "cos",
+    "sqrt": "sqrt",
+    "log": "log",
+    "exp": "exp",
+    "tanh": "tanh",
+    "abs": "fabs",
+    "pow": "pow",
+}
 
 #: Zeros in a row that are worth a loop.
 _RUN = 4
