@@ -10,6 +10,8 @@ from random import Random
 import sympy
 from sympy import Integer, Rational, pi
 
+from generator.effects.effect import Effect, Shape
+from generator.effects.library import library
 from generator.errors import Place
 from generator.robot.description import (
     FIXED,
@@ -186,7 +188,7 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
     if draw.random() < 0.7:
         joints.append(_random_joint(draw, count + 1, FIXED, choices, tool=True))
     moving = [j for j in joints if j.sigma != FIXED]
-    return robot(
+    made = robot(
         "random",
         joints,
         gravity=_random_gravity(draw),
@@ -196,6 +198,7 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
         drives=_random_drives(draw, len(moving)),
         flexible=[j.number for j in moving if draw.random() < 0.5],
     )
+    return replace(made, effects=(*made.effects, *more_effects(draw, made, 0.15)))
 
 
 def random_chain(draw: Random, count: int) -> Robot:
@@ -257,6 +260,40 @@ def _random_effects(draw: Random, moving: Sequence[Joint]) -> list[EffectUse]:
     if turning and draw.random() < 0.5:
         uses.append(draw.choice([gas_balancer, spring_balancer])((draw.choice(turning).number,), draw))
     return uses
+
+
+def any_effect(draw: Random, effect: Effect, joint: Joint) -> EffectUse:
+    """An effect of the library on one joint, its values within their bounds."""
+    if effect.id == "gas_balancer":
+        return gas_balancer((joint.number,), draw)
+    values = {
+        shape.name: Quantity(_within(draw, shape), shape.unit_on(joint))
+        for shape in effect.shapes
+        if shape.default is None or draw.random() < 0.5
+    }
+    return EffectUse(effect.id, (joint.number,), values)
+
+
+def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, ...]:
+    """Effects of the library that ``robot`` has not on a joint yet, each with probability ``often``."""
+    there = {(use.effect, number) for use in robot.effects for number in use.joints}
+    return tuple(
+        any_effect(draw, effect, joint)
+        for effect in library().values()
+        for joint in robot.moving
+        if "qe" not in effect.needs
+        and joint.sigma in effect.kinds
+        and (robot.drives or "motor" not in effect.needs)
+        and (effect.id, joint.number) not in there
+        and draw.random() < often
+    )
+
+
+def _within(draw: Random, shape: Shape) -> sympy.Expr:
+    lower = Fraction(-1) if shape.lower is None else Fraction(shape.lower)
+    upper = lower + 3 if shape.upper is None else Fraction(shape.upper)
+    value = lower + (upper - lower) * Fraction(draw.randint(1, 19), 20)
+    return Rational(value.numerator, value.denominator)
 
 
 def _crank(draw: Random) -> dict[str, Quantity]:

@@ -11,6 +11,7 @@ import sympy
 from numpy.typing import ArrayLike, NDArray
 
 from generator.derivation import derive
+from generator.effects.library import library
 from generator.reference import sample
 from generator.reference.matter import INERTIAL
 from generator.reference.quantities import reference
@@ -33,6 +34,17 @@ _SCALES = {
     "tau_r": 20.0,
     "current": 20.0,
 }
+#: Stems of the parameters of effects that store potential energy, that store none of either kind, and that rub.
+SPRINGS = tuple(p.stem for effect in library().values() if effect.potential_energy for p in effect.parameters)
+LOSSES = tuple(
+    p.stem
+    for effect in library().values()
+    if not effect.potential_energy and not effect.kinetic_energy
+    for p in effect.parameters
+)
+#: Stems of the parameters of effects that follow a motor, many periods to a turn of the joint.
+FAST = tuple(p.stem for effect in library().values() if "motor" in effect.needs for p in effect.parameters)
+FRICTION = tuple(p.stem for effect in library().values() if effect.dissipates for p in effect.parameters)
 #: Elongation of an elastic drive train [rad or m].
 _ELONGATION = 0.1
 

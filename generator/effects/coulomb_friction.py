@@ -21,5 +21,6 @@ EFFECT = Effect(
     assumptions="stands for moving joints only; at rest friction takes any value between -Fc and Fc",
     source="report eq. 5",
     drive_train=True,
+    dissipates=True,
     rank=30,
 )

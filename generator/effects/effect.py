@@ -35,7 +35,10 @@ class LinearParameter:
 
 @dataclass(frozen=True)
 class Shape:
-    """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any."""
+    """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any.
+
+    ``prismatic`` is the unit on a prismatic joint, where it is another one.
+    """
 
     name: str
     unit: str
@@ -43,17 +46,23 @@ class Shape:
     lower: float | None = None
     upper: float | None = None
     default: sympy.Expr | None = None
+    prismatic: str | None = None
+
+    def unit_on(self, joint: Joint) -> str:
+        return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit
 
 
 @dataclass(frozen=True)
 class Site:
     """Where an effect sits: the joint, its motion as symbols, and the shape values [SI].
 
-    ``elongation`` is the flexible coordinate q_e of the joint (report eq. 7), used by elastic effects only.
+    ``elongation`` is the flexible coordinate q_e of the joint (report eq. 7), used by elastic effects only. ``ratios``
+    is the row of the joint's motor in N, by joint number, for effects that need it: its position in terms of theirs.
     """
 
     joint: Joint
     values: Mapping[str, sympy.Expr] = field(default_factory=dict)
+    ratios: Mapping[int, sympy.Rational] = field(default_factory=dict)
 
     @property
     def q(self) -> sympy.Symbol:
@@ -71,9 +80,19 @@ class Site:
     def elongation(self) -> sympy.Symbol:
         return sympy.Symbol(f"qe{self.joint.number}", real=True)
 
+    @property
+    def motor(self) -> sympy.Expr:
+        """Position of the joint's motor [rad]."""
+        return sympy.Add(*(ratio * sympy.Symbol(f"q{j}", real=True) for j, ratio in self.ratios.items()))
+
     def on_joint(self, torque: sympy.Expr) -> Column:
         """The column of a torque that acts on this joint alone."""
         return {self.joint.number: torque}
+
+    def on_motor(self, torque: sympy.Expr) -> Column:
+        """The column of a torque of the motor, times its gear ratio: coupled joints share it by equal power."""
+        own = self.ratios[self.joint.number]
+        return {j: torque * ratio / own for j, ratio in self.ratios.items()}
 
 
 @dataclass(frozen=True)
@@ -84,8 +103,10 @@ class Effect:
     ``potential_energy`` return the energy per unit of each parameter [J/unit], where the effect stores any;
     a potential is zero at q = 0 where it is finite there. ``positive`` names lengths that must stay positive over
     the joint's limits, by the shape value to blame. ``observables`` names further outputs worth emitting, each an
-    expression that may contain the parameters' symbols (named by their stems), with its unit. ``drive_train``
-    effects sit on the motor side of an elastic joint. ``kinds`` are the kinds of joint (sigma) it can sit on.
+    expression that may contain the parameters' symbols (named by their stems), with its unit. ``needs`` says what the
+    columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives). ``drive_train``
+    effects sit on the motor side of an elastic joint. ``dissipates`` tells that the effect never gives power to the
+    robot while its parameters are not below their bounds. ``kinds`` are the kinds of joint (sigma) it can sit on.
     ``rank`` orders the parameters of one joint.
     """
 
@@ -103,5 +124,6 @@ class Effect:
     positive: Callable[[Site], Mapping[str, sympy.Expr]] | None = None
     observables: Callable[[Site], Mapping[str, tuple[sympy.Expr, str, str]]] | None = None
     drive_train: bool = False
+    dissipates: bool = False
     kinds: tuple[int, ...] = (REVOLUTE, PRISMATIC)
     rank: int = 100

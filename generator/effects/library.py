@@ -72,7 +72,7 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
                 raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
             if joint.sigma not in effect.kinds:
                 raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
-            site = Site(joint, _values(use, effect))
+            site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
     _check_names(robot, list(instances.values()))
@@ -125,33 +125,44 @@ def _effect(use: EffectUse) -> Effect:
     return effect
 
 
-def _values(use: EffectUse, effect: Effect) -> dict[str, sympy.Expr]:
+def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[int, sympy.Rational]:
+    """The row of the joint's motor in N, without its zeros, for an effect that needs it."""
+    if "motor" not in effect.needs:
+        return {}
+    if robot.drives is None:
+        raise InputError(use.place, f"effect {effect.id} needs the motor's position", "drives with gear_ratios")
+    row = robot.drives.coupling[robot.moving.index(joint)]
+    pairs = zip(robot.moving, row, strict=True)
+    return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}
+
+
+def _values(use: EffectUse, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:
     shapes = {shape.name: shape for shape in effect.shapes}
     for name, quantity in use.values.items():
         if name not in shapes:
             known = _one_of(name, list(shapes)) if shapes else "none"
             raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
-    return {name: _value(use, effect, shape) for name, shape in shapes.items()}
+    return {name: _value(use, effect, shape, shape.unit_on(joint)) for name, shape in shapes.items()}
 
 
-def _value(use: EffectUse, effect: Effect, shape: Shape) -> sympy.Expr:
+def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str) -> sympy.Expr:
     quantity = use.values.get(shape.name)
     if quantity is None:
         if shape.default is None:
             problem = f"effect {effect.id} lacks its value {shape.name}"
-            raise InputError(use.place, problem, f"{shape.meaning} [{shape.unit}]")
+            raise InputError(use.place, problem, f"{shape.meaning} [{unit}]")
         return shape.default
-    if quantity.unit != shape.unit:
-        raise InputError(quantity.place, f"{shape.name} is given in {quantity.unit or '1'}", f"a value in {shape.unit}")
-    _check_bounds(quantity.place, shape, quantity.value)
+    if quantity.unit != unit:
+        raise InputError(quantity.place, f"{shape.name} is given in {quantity.unit or '1'}", f"a value in {unit}")
+    _check_bounds(quantity.place, shape, unit, quantity.value)
     return quantity.value
 
 
-def _check_bounds(place: Place, shape: Shape, value: sympy.Expr) -> None:
+def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> None:
     if shape.lower is not None and not value > shape.lower:
-        raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {shape.unit}")
+        raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
     if shape.upper is not None and not value < shape.upper:
-        raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {shape.unit}")
+        raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {unit}")
 
 
 def _one_of(name: str, known: list[str]) -> str:

@@ -18,5 +18,6 @@ EFFECT = Effect(
     sign_convention="the motor supplies Fv qd against the friction",
     source="report eq. 5",
     drive_train=True,
+    dissipates=True,
     rank=20,
 )

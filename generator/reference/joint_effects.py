@@ -1,53 +1,41 @@
-"""Torques of the effects on their joints, per unit of each parameter, and the energies that they store."""
+"""Torques of the effects on the joints, per unit of each parameter, and the energies that they store."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
-from generator.reference import balancers
-from generator.reference.arithmetic import exact, sign
+import numpy as np
+
+from generator.reference import balancers, friction, ripple
+from generator.reference.arithmetic import Array, decimals, exact, sign, zeros
+from generator.reference.law import At, Law, Values
 from generator.robot.description import EffectUse, Robot
 
-Values = Mapping[str, Decimal]
-Columns = tuple[Decimal, ...]
-
-
-def _none(*_: object) -> Columns:
-    return ()
-
-
-@dataclass(frozen=True)
-class Law:
-    """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies."""
-
-    stems: tuple[str, ...]
-    torque: Callable[[Values, Decimal, Decimal, Decimal], Columns]
-    pull: Callable[[Values, Decimal], Columns] = _none
-    potential: Callable[[Values, Decimal], Columns] = _none
-    kinetic: Callable[[Decimal], Columns] = _none
-
-
-def _balancer(
-    stems: tuple[str, ...], pull: Callable[[Values, Decimal], Columns], energy: Callable[[Values, Decimal], Columns]
-) -> Law:
-    def torque(shape: Values, q: Decimal, qd: Decimal, qdd: Decimal) -> Columns:
-        arm = balancers.lever_arm(shape, q)
-        return tuple(arm * force for force in pull(shape, q))
-
-    return Law(stems, torque, pull, energy)
-
-
-#: Report eq. 5 (rotor, friction), eq. 4 (offset), eq. 19-38 (balancers); sign(0) = 0.
+#: Report eq. 5 (rotor, friction), eq. 4 (offset), eq. 19-38 (balancers), and the laws of the other files; sign(0) = 0.
 LAWS: Mapping[str, Law] = {
-    "rotor_inertia": Law(("Ia",), lambda shape, q, qd, qdd: (qdd,), kinetic=lambda qd: (qd * qd / 2,)),
-    "viscous_friction": Law(("Fv",), lambda shape, q, qd, qdd: (qd,)),
-    "coulomb_friction": Law(("Fc",), lambda shape, q, qd, qdd: (sign(qd),)),
-    "offset": Law(("Off",), lambda shape, q, qd, qdd: (Decimal(1),)),
-    "joint_spring": Law(("ks",), lambda shape, q, qd, qdd: (q,), potential=lambda shape, q: (q * q / 2,)),
-    "spring_balancer": _balancer(("Kr", "K0"), balancers.spring_forces, balancers.spring_energies),
-    "gas_balancer": _balancer(("F0",), balancers.gas_forces, balancers.gas_energies),
+    "rotor_inertia": Law(("Ia",), lambda at: (at.qdd,), kinetic=lambda at: (at.qd * at.qd / 2,)),
+    "offset": Law(("Off",), lambda at: (Decimal(1),)),
+    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,)),
+    "cable_spring": Law(
+        ("kc",),
+        lambda at: (at.q - at.shape["neutral"],),
+        potential=lambda at: (((at.q - at.shape["neutral"]) ** 2 - at.shape["neutral"] ** 2) / 2,),
+    ),
+    **friction.LAWS,
+    **ripple.LAWS,
+    **balancers.LAWS,
+}
+
+#: What the robot file may leave out.
+_DEFAULTS: Mapping[str, Mapping[str, Decimal]] = {
+    "gas_balancer": {"exponent": Decimal(1)},
+    "power_friction": {"v": Decimal(1), "exponent": Decimal(2)},
+    "stribeck_friction": {"exponent": Decimal(2)},
+    "position_friction": {"order": Decimal(1)},
+    "motor_ripple": {"order": Decimal(1)},
+    "wave_generator_ripple": {"order": Decimal(2)},
 }
 
 
@@ -55,31 +43,54 @@ LAWS: Mapping[str, Law] = {
 class Acting:
     """An effect on one joint: ``number`` the joint, ``coordinate`` its place in q, ``shape`` the fixed values.
 
-    The methods give values by parameter name, each per unit of that parameter; none where the effect has none.
+    It acts along ``shares`` @ q (n): a joint, or a motor over its own ``ratio``. ``direction`` stands for the sign of
+    the joint's speed where it is given. The methods give values by parameter name, each per unit of that parameter;
+    none where the effect has none.
     """
 
     law: Law
     number: int
     coordinate: int
     shape: Values
+    shares: Array
+    ratio: Decimal = Decimal(1)
+    direction: Decimal | None = None
 
-    def torques(self, q: Decimal, qd: Decimal, qdd: Decimal) -> dict[str, Decimal]:
-        """What the effect adds to the inverse dynamic model."""
-        return self._named(self.law.torque(self.shape, q, qd, qdd))
+    def sliding(self, direction: Decimal) -> Acting:
+        """The same with ``direction`` for sign(qd)."""
+        return replace(self, direction=direction)
 
-    def pulls(self, q: Decimal) -> dict[str, Decimal]:
+    def torques(self, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
+        """What the effect adds to the inverse dynamic model (n each)."""
+        columns = self.law.torque(self._at(q, qd, qdd))
+        return {name: column * self.shares for name, column in self._named(columns).items()}
+
+    def pulls(self, q: Array) -> dict[str, Decimal]:
         """Force F1 with which a balancer pulls its pivots together."""
-        return self._named(self.law.pull(self.shape, q))
+        return self._named(self.law.pull(self._at(q)))
 
-    def potential(self, q: Decimal) -> dict[str, Decimal]:
+    def potential(self, q: Array) -> dict[str, Decimal]:
         """Energy stored since q = 0."""
-        return self._named(self.law.potential(self.shape, q))
+        return self._named(self.law.potential(self._at(q)))
 
-    def kinetic(self, qd: Decimal) -> dict[str, Decimal]:
+    def kinetic(self, qd: Array) -> dict[str, Decimal]:
         """Energy of motion."""
-        return self._named(self.law.kinetic(qd))
+        return self._named(self.law.kinetic(self._at(0 * qd, qd)))
 
-    def _named(self, columns: Columns) -> dict[str, Decimal]:
+    def inertia(self) -> dict[str, Decimal]:
+        """Inertia along ``shares``: the energy is quadratic in the speed there."""
+        one = At(self.shape, Decimal(0), Decimal(1), Decimal(0), Decimal(1), self.ratio)
+        return self._named(tuple(2 * energy for energy in self.law.kinetic(one)))
+
+    def _at(self, q: Array, qd: Array | None = None, qdd: Array | None = None) -> At:
+        position, speed, acceleration = (self._along(x) for x in (q, qd, qdd))
+        direction = sign(speed) if self.direction is None else self.direction
+        return At(self.shape, position, speed, acceleration, direction, self.ratio)
+
+    def _along(self, x: Array | None) -> Decimal:
+        return Decimal(0) if x is None else sum(self.shares * x, Decimal(0))
+
+    def _named(self, columns: tuple[Decimal, ...]) -> dict[str, Decimal]:
         return {f"{stem}{self.number}": column for stem, column in zip(self.law.stems, columns, strict=False)}
 
 
@@ -87,10 +98,27 @@ def acting(robot: Robot) -> Iterator[Acting]:
     """The effects of ``robot`` in its file's order; raises KeyError for one that has no law here."""
     coordinate = {joint.number: k for k, joint in enumerate(robot.moving)}
     for use in robot.effects:
+        law = LAWS[use.effect]
         for number in use.joints:
-            yield Acting(LAWS[use.effect], number, coordinate[number], _shape(use))
+            k = coordinate[number]
+            shares, ratio = _of_motor(robot, k) if law.of_motor else (_of_joint(robot, k), Decimal(1))
+            yield Acting(law, number, k, _shape(use), shares, ratio)
+
+
+def _of_joint(robot: Robot, k: int) -> Array:
+    shares = zeros(len(robot.moving))
+    shares[k] = Decimal(1)
+    return shares
+
+
+def _of_motor(robot: Robot, k: int) -> tuple[Array, Decimal]:
+    """The motor's row of N over its own ratio, and that ratio."""
+    assert robot.drives is not None
+    row = decimals([n.numerator for n in robot.drives.coupling[k]])
+    row = row / np.array([Decimal(n.denominator) for n in robot.drives.coupling[k]], dtype=object)
+    return row / row[k], row[k]
 
 
 def _shape(use: EffectUse) -> Values:
-    """The fixed values; a gas without exponent is isothermal."""
-    return {"exponent": Decimal(1)} | {name: exact(given.value) for name, given in use.values.items()}
+    """The fixed values, those that the file leaves out included."""
+    return {**_DEFAULTS.get(use.effect, {}), **{name: exact(given.value) for name, given in use.values.items()}}

@@ -35,8 +35,7 @@ class Rigid:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
         tau = lagrange.torque(self.chain, self.matter, q, qd, qdd)
         for effect in self.effects:
-            k = effect.coordinate
-            tau[k] += self._weighted(effect.torques(q[k], qd[k], qdd[k]))
+            tau = tau + self._torque(effect.torques(q, qd, qdd))
         return tau
 
     def bias(self, q: Array, qd: Array) -> Array:
@@ -51,8 +50,7 @@ class Rigid:
         """M(q) (n x n), the rotors' inertias on its diagonal."""
         M = lagrange.inertia_matrix(self.chain, self.matter, q)
         for effect in self.effects:
-            k = effect.coordinate
-            M[k, k] += 2 * self._weighted(effect.kinetic(Decimal(1)))
+            M = M + self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares)
         return M
 
     def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
@@ -69,21 +67,21 @@ class Rigid:
 
     def kinetic_energy(self, q: Array, qd: Array) -> Decimal:
         """Of bodies and rotors [J]."""
-        of_rotors = (self._weighted(effect.kinetic(qd[effect.coordinate])) for effect in self.effects)
+        of_rotors = (self._weighted(effect.kinetic(qd)) for effect in self.effects)
         return sum(of_rotors, lagrange.kinetic_energy(self.chain, self.matter, q, qd))
 
     def potential_energy(self, q: Array) -> Decimal:
         """Of weight and balancers [J]; zero at q = 0."""
         start = lagrange.potential_energy(self.chain, self.matter, zeros(self.chain.dof))
-        of_effects = (self._weighted(effect.potential(q[effect.coordinate])) for effect in self.effects)
+        of_effects = (self._weighted(effect.potential(q)) for effect in self.effects)
         return sum(of_effects, lagrange.potential_energy(self.chain, self.matter, q) - start)
 
     def balancers(self, q: Array) -> dict[int, tuple[Decimal, Decimal, Decimal]]:
         """By joint number: distance r24 of its balancer's pivots [m], force F1 [N] and torque [N m]."""
         result = {}
         for effect in self.effects:
-            x = q[effect.coordinate]
-            if pulls := effect.pulls(x):
+            if pulls := effect.pulls(q):
+                x = q[effect.coordinate]
                 force, arm = self._weighted(pulls), balancers.lever_arm(effect.shape, x)
                 result[effect.number] = balancers.length(effect.shape, x), force, force * arm
         return result
@@ -99,15 +97,19 @@ class Rigid:
         for j in self.matter:
             known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
         for effect in self.effects:
-            k = effect.coordinate
-            for name, torque in effect.torques(q[k], qd[k], qdd[k]).items():
-                known[name] = zeros(self.chain.dof)
-                known[name][k] = torque
+            known |= effect.torques(q, qd, qdd)
         return {name: known[name] for name in names}
 
     def body_columns(self, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
         """Torques (n) per unit of the inertial parameters of a body in frame ``number``, by their stems."""
         return lagrange.columns(self.chain, number, q, qd, qdd)
+
+    def _torque(self, columns: Mapping[str, Array]) -> Array:
+        """The sum (n) of the parameters times their columns; absent parameters are zero."""
+        return sum(
+            (self.values[name] * column for name, column in columns.items() if name in self.values),
+            zeros(self.chain.dof),
+        )
 
     def _weighted(self, columns: Mapping[str, Decimal]) -> Decimal:
         """The sum of the parameters times their columns; absent parameters are zero."""

@@ -15,9 +15,11 @@ def torque(instance: Instance, index: str) -> list[Equation]:
     """The torque on each joint that the effect acts on; ``index`` is the joint's number or a letter that stands for it.
 
     An effect on the motor side of an elastic joint (parameters suffixed m) reads the motor's coordinate q_m, the
-    elasticity itself the elongation q_e.
+    elasticity itself the elongation q_e. N stands for the motor's own ratio; its row of N may couple other joints in.
     """
     site = _by_name(instance)
+    if site.ratios:
+        site = replace(site, ratios={instance.joint.number: sympy.Symbol(_indexed("N", index), real=True)})
     totals: dict[int, sympy.Expr] = {}
     for parameter, column in zip(instance.effect.parameters, instance.effect.columns(site), strict=True):
         symbol = sympy.Symbol(_indexed(f"{parameter.stem}{instance.suffix}", index), real=True)

@@ -21,18 +21,20 @@ _DIGITS = 12
 
 
 def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]]) -> Grouping:
-    """The grouping with those of the parameters ``effects`` grouped that the others make too.
+    """The grouping with those of the parameters ``effects`` grouped that the others, and those before them, make too.
 
     ``w`` holds the column of each standard parameter over random states.
     """
+    heads = [base.head for base in grouping.base]
+    kept = [head for head in heads if head not in effects]
     for name in effects:
-        heads = [base.head for base in grouping.base]
         if name not in heads:
             continue
-        others = [head for head in heads if head != name]
-        coefficients = _coefficients(w[name], np.stack([w[head] for head in others], axis=1))
-        if coefficients is not None:
-            grouping = _grouped(grouping, name, dict(zip(others, coefficients, strict=True)))
+        coefficients = _coefficients(w[name], np.stack([w[head] for head in kept], axis=1)) if kept else None
+        if coefficients is None:
+            kept.append(name)
+        else:
+            grouping = _grouped(grouping, name, dict(zip(kept, coefficients, strict=True)))
     return grouping
 
 
@@ -55,7 +57,7 @@ def _grouped(grouping: Grouping, name: str, coefficients: Mapping[str, sympy.Rat
         if parameter.head == name:
             continue
         terms = dict(grouping.numbers[parameter.name])
-        coefficient = coefficients[parameter.head]
+        coefficient = coefficients.get(parameter.head)
         if coefficient:
             title = parameter.name if not parameter.alone else f"{parameter.name}R"
             titles[parameter.name] = title

@@ -64,7 +64,7 @@ def _parameter(instance: Instance, k: int, index: str) -> list[Content]:
 def _values(instance: Instance) -> Markup:
     values = instance.site.values
     rows = [
-        (math(Name(shape.name)), _quantity(values[shape.name], shape.unit), shape.meaning)
+        (math(Name(shape.name)), _quantity(values[shape.name], shape.unit_on(instance.joint)), shape.meaning)
         for shape in instance.effect.shapes
     ]
     return table(("value", f"on joint {instance.joint.number}", "meaning"), rows)

@@ -1,0 +1,40 @@
+"""Torque that repeats with a cycloidal gear: with its pins and lobes, whose number is the order."""
+
+from __future__ import annotations
+
+import sympy
+
+from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.laws import ripple
+from generator.robot.description import REVOLUTE
+
+
+def _phase(at: Site) -> sympy.Expr:
+    return at.values["order"] * at.q
+
+
+def _columns(at: Site) -> tuple[Column, ...]:
+    cosine, sine = ripple.torque_columns(_phase(at))
+    return at.on_joint(cosine), at.on_joint(sine)
+
+
+EFFECT = Effect(
+    id="cycloid_ripple",
+    title="torque ripple of the cycloid",
+    parameters=(
+        LinearParameter("Ryc", ("N m", "N"), "cosine part of the cycloid's ripple, on the joint side"),
+        LinearParameter("Rys", ("N m", "N"), "sine part of the cycloid's ripple, on the joint side"),
+    ),
+    columns=_columns,
+    potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"]),
+    shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0),),
+    kinds=(REVOLUTE,),
+    needs=("q",),
+    sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q)",
+    assumptions="no dependence on the load",
+    source=(
+        "Blanche and Yang, Cycloid drives with machining tolerances, Journal of Mechanisms, Transmissions and "
+        "Automation in Design 111, 1989"
+    ),
+    rank=81,
+)

@@ -1,0 +1,40 @@
+"""Torque that repeats with a harmonic drive's wave generator, which turns with the motor: twice a turn, most of all."""
+
+from __future__ import annotations
+
+import sympy
+
+from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.laws import ripple
+from generator.robot.description import REVOLUTE
+
+
+def _phase(at: Site) -> sympy.Expr:
+    return at.values["order"] * at.motor
+
+
+def _columns(at: Site) -> tuple[Column, ...]:
+    cosine, sine = ripple.torque_columns(_phase(at))
+    return at.on_motor(cosine), at.on_motor(sine)
+
+
+EFFECT = Effect(
+    id="wave_generator_ripple",
+    title="torque ripple of the wave generator",
+    parameters=(
+        LinearParameter("Rwc", ("N m", "N"), "cosine part of the wave generator's ripple, on the joint side"),
+        LinearParameter("Rws", ("N m", "N"), "sine part of the wave generator's ripple, on the joint side"),
+    ),
+    columns=_columns,
+    potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"] * at.ratios[at.joint.number]),
+    shapes=(Shape("order", "1", "periods per turn of the wave generator", lower=0.0, default=sympy.Integer(2)),),
+    kinds=(REVOLUTE,),
+    needs=("motor",),
+    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r), q_r = N q its position",
+    assumptions="the wave generator sits on the motor; no dependence on the load",
+    source=(
+        "Tuttle and Seering, A nonlinear model of a harmonic drive gear transmission, IEEE Transactions on Robotics "
+        "and Automation 12, 1996"
+    ),
+    rank=82,
+)

@@ -1,0 +1,52 @@
+"""Laws of friction, direction by direction: what the motor supplies against it, per unit of each parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from decimal import Decimal
+
+from generator.reference.arithmetic import cosine, sine
+from generator.reference.law import At, Columns, Law
+
+
+def _asymmetric_viscous(at: At) -> Columns:
+    return (at.qd, Decimal(0)) if at.qd > 0 else (Decimal(0), at.qd)
+
+
+def _asymmetric_coulomb(at: At) -> Columns:
+    forward = (1 + at.direction) / 2
+    return forward, forward - 1
+
+
+def _power(at: At) -> Columns:
+    speed = abs(at.qd)
+    return (at.direction * (speed / at.shape["v"]) ** at.shape["exponent"] if speed else Decimal(0),)
+
+
+def _stribeck(at: At) -> Columns:
+    speed = abs(at.qd)
+    film = (speed / at.shape["vs"]) ** at.shape["exponent"] if speed else Decimal(0)
+    return (at.direction / film.exp(),)
+
+
+def _gradual(at: At) -> Columns:
+    grown, shrunk = (at.qd / at.shape["v0"]).exp(), (-at.qd / at.shape["v0"]).exp()
+    return ((grown - shrunk) / (grown + shrunk),)
+
+
+def _of_position(at: At) -> Columns:
+    phase = at.shape["order"] * at.q
+    return at.direction * cosine(phase), at.direction * sine(phase)
+
+
+#: By the effects' ids; sources as in ``generator.effects``.
+LAWS: Mapping[str, Law] = {
+    "viscous_friction": Law(("Fv",), lambda at: (at.qd,)),
+    "coulomb_friction": Law(("Fc",), lambda at: (at.direction,)),
+    "asymmetric_viscous": Law(("Fvp", "Fvn"), _asymmetric_viscous),
+    "asymmetric_coulomb": Law(("Fcp", "Fcn"), _asymmetric_coulomb),
+    "power_friction": Law(("Fp",), _power),
+    "stribeck_friction": Law(("Fst",), _stribeck),
+    "gradual_friction": Law(("Fg",), _gradual),
+    "position_friction": Law(("Fqc", "Fqs"), _of_position),
+}

@@ -1,0 +1,44 @@
+"""What the law of an effect is made of: the state that it sees, and what it answers per unit of each parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+
+Values = Mapping[str, Decimal]
+Columns = tuple[Decimal, ...]
+
+
+@dataclass(frozen=True)
+class At:
+    """The motion that an effect acts along, and the fixed values ``shape``.
+
+    ``direction`` stands for sign(qd). Along a motor, q, qd, qdd are its motion over its own gear ratio ``ratio``.
+    """
+
+    shape: Values
+    q: Decimal
+    qd: Decimal
+    qdd: Decimal
+    direction: Decimal
+    ratio: Decimal
+
+
+def _none(_: At) -> Columns:
+    return ()
+
+
+@dataclass(frozen=True)
+class Law:
+    """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies.
+
+    ``of_motor`` tells that it acts along the motor, whose torque coupled joints share by equal power.
+    """
+
+    stems: tuple[str, ...]
+    torque: Callable[[At], Columns]
+    pull: Callable[[At], Columns] = _none
+    potential: Callable[[At], Columns] = _none
+    kinetic: Callable[[At], Columns] = _none
+    of_motor: bool = False
