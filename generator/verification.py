@@ -62,6 +62,6 @@ def _coefficients(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
 
 def _observation_matrix(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
     """The standard regressor over random states, one under the other."""
-    parameters = {PARAMETERS: model.default_parameters()}
-    columns = sampled(model.program, standard_columns(model), model.dof, parameters)
+    given = model.sampling_inputs({PARAMETERS: model.default_parameters()})
+    columns = sampled(model.program, standard_columns(model), model.dof, given)
     return np.stack([columns[name] for name in names], axis=1)

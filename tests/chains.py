@@ -264,8 +264,6 @@ def _random_effects(draw: Random, moving: Sequence[Joint]) -> list[EffectUse]:
 
 def any_effect(draw: Random, effect: Effect, joint: Joint) -> EffectUse:
     """An effect of the library on one joint, its values within their bounds."""
-    if effect.id == "gas_balancer":
-        return gas_balancer((joint.number,), draw)
     values = {
         shape.name: Quantity(_within(draw, shape), shape.unit_on(joint))
         for shape in effect.shapes
@@ -275,7 +273,7 @@ def any_effect(draw: Random, effect: Effect, joint: Joint) -> EffectUse:
 
 
 def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, ...]:
-    """Effects of the library that ``robot`` has not on a joint yet, each with probability ``often``."""
+    """Effects of the library that ``robot`` has not on a joint yet, balancers apart, each with probability ``often``."""
     there = {(use.effect, number) for use in robot.effects for number in use.joints}
     return tuple(
         any_effect(draw, effect, joint)
@@ -284,7 +282,9 @@ def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, .
         if "qe" not in effect.needs
         and joint.sigma in effect.kinds
         and (robot.drives or "motor" not in effect.needs)
+        and (joint.sigma == REVOLUTE or "load" not in effect.needs)  # the load of a slide may be constant
         and (effect.id, joint.number) not in there
+        and not effect.observables
         and draw.random() < often
     )
 

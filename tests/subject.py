@@ -33,6 +33,8 @@ _SCALES = {
     "qrd": 300.0,
     "tau_r": 20.0,
     "current": 20.0,
+    "states": 1.0,
+    "warmth": 1.0,
 }
 #: Stems of the parameters of effects that store potential energy, that store none of either kind, and that rub.
 SPRINGS = tuple(p.stem for effect in library().values() if effect.potential_energy for p in effect.parameters)
@@ -44,6 +46,8 @@ LOSSES = tuple(
 )
 #: Stems of the parameters of effects that follow a motor, many periods to a turn of the joint.
 FAST = tuple(p.stem for effect in library().values() if "motor" in effect.needs for p in effect.parameters)
+#: Stems of the parameters whose torque depends on the load, and so on all that is grouped with it.
+LOADED = tuple(p.stem for effect in library().values() if "load" in effect.needs for p in effect.parameters)
 FRICTION = tuple(p.stem for effect in library().values() if effect.dissipates for p in effect.parameters)
 #: Elongation of an elastic drive train [rad or m].
 _ELONGATION = 0.1
@@ -98,6 +102,11 @@ class Subject:
         """
         mixed = (base for base in self.model.grouping.base if len(base.terms) > 1)
         return any(self._stems[name] in stems for base in mixed for _, name in base.terms)
+
+    @property
+    def loaded(self) -> bool:
+        """Whether a torque depends on the load."""
+        return any(self._stems[name] in LOADED for name in self.standard)
 
     @cached_property
     def rigid(self) -> Rigid:

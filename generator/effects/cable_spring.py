@@ -17,6 +17,7 @@ EFFECT = Effect(
     potential_energy=lambda at: (at.q * (at.q / 2 - at.values["neutral"]),),
     shapes=(Shape("neutral", "rad", "position where nothing pulls", prismatic="m"),),
     needs=("q",),
+    on_link=True,
     sign_convention="the motor supplies kc (q - neutral) against the pull",
     assumptions="linear, massless, without friction of its own",
     source="Hooke's law",

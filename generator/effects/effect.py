@@ -1,7 +1,8 @@
 """What an effect is: anything that adds torque to the rigid chain, stated in one file of its own.
 
 The torque is linear in the effect's parameters: on joint i it is the sum over its parameters p of p * column[p][i].
-What enters otherwise (a length, an exponent, a speed) is a shape value, fixed in the robot file.
+What enters otherwise (a length, an exponent, a speed) is a shape value, fixed in the robot file. A column may also read
+the load of the joint, the warmth of its drive and states of the effect itself, whose rates the effect then states.
 """
 
 from __future__ import annotations
@@ -53,6 +54,21 @@ class Shape:
 
 
 @dataclass(frozen=True)
+class State:
+    """A state inside an effect, such as the deflection of a bristle: its name is ``stem`` and the joint's number.
+
+    ``units`` are those on a revolute and on a prismatic joint.
+    """
+
+    stem: str
+    units: tuple[str, str]
+    meaning: str
+
+    def unit(self, joint: Joint) -> str:
+        return self.units[joint.sigma == PRISMATIC]
+
+
+@dataclass(frozen=True)
 class Site:
     """Where an effect sits: the joint, its motion as symbols, and the shape values [SI].
 
@@ -81,6 +97,20 @@ class Site:
         return sympy.Symbol(f"qe{self.joint.number}", real=True)
 
     @property
+    def load(self) -> sympy.Symbol:
+        """Static load of the transmission: torque of weight, balancers and springs, and of the tool's wrench."""
+        return sympy.Symbol(f"load{self.joint.number}", real=True)
+
+    @property
+    def warmth(self) -> sympy.Symbol:
+        """How warm the joint's drive is: 0 where the parameters hold as they are stated, 1 where the drift is whole."""
+        return sympy.Symbol(f"warmth{self.joint.number}", real=True)
+
+    def state(self, stem: str) -> sympy.Symbol:
+        """One of the effect's own states."""
+        return sympy.Symbol(f"{stem}{self.joint.number}", real=True)
+
+    @property
     def motor(self) -> sympy.Expr:
         """Position of the joint's motor [rad]."""
         return sympy.Add(*(ratio * sympy.Symbol(f"q{j}", real=True) for j, ratio in self.ratios.items()))
@@ -104,10 +134,12 @@ class Effect:
     a potential is zero at q = 0 where it is finite there. ``positive`` names lengths that must stay positive over
     the joint's limits, by the shape value to blame. ``observables`` names further outputs worth emitting, each an
     expression that may contain the parameters' symbols (named by their stems), with its unit. ``needs`` says what the
-    columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives). ``drive_train``
-    effects sit on the motor side of an elastic joint. ``dissipates`` tells that the effect never gives power to the
-    robot while its parameters are not below their bounds. ``kinds`` are the kinds of joint (sigma) it can sit on.
-    ``rank`` orders the parameters of one joint.
+    columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives), load, warmth, state.
+    ``rates`` are the time derivatives of ``states``, in their order. ``drive_train`` effects sit on the motor side of
+    an elastic joint. ``on_link`` effects act on the link past the transmission, whose load they are part of; they
+    depend on q alone. ``dissipates`` tells that the effect never gives power to the robot while its parameters are
+    not below their bounds. ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of
+    one joint.
     """
 
     id: str
@@ -123,7 +155,10 @@ class Effect:
     potential_energy: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
     positive: Callable[[Site], Mapping[str, sympy.Expr]] | None = None
     observables: Callable[[Site], Mapping[str, tuple[sympy.Expr, str, str]]] | None = None
+    states: tuple[State, ...] = ()
+    rates: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
     drive_train: bool = False
+    on_link: bool = False
     dissipates: bool = False
     kinds: tuple[int, ...] = (REVOLUTE, PRISMATIC)
     rank: int = 100

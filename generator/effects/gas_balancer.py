@@ -53,6 +53,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("q",),
+    on_link=True,
     sign_convention="F1 > 0 pulls the pivots together; F1 dr24/dq adds to the inverse dynamic model",
     assumptions="ideal gas in a closed chamber of constant cross-section; massless; the pivots do not rub",
     source="report eq. 33-38",

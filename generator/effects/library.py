@@ -44,6 +44,10 @@ class Instance:
             for name, p in zip(self.names, self.effect.parameters, strict=True)
         )
 
+    @property
+    def states(self) -> tuple[str, ...]:
+        return tuple(f"{state.stem}{self.joint.number}" for state in self.effect.states)
+
     def columns(self) -> tuple[Column, ...]:
         return self.effect.columns(self.site)
 
@@ -72,6 +76,9 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
                 raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
             if joint.sigma not in effect.kinds:
                 raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
+            balancers = [one for (j, _), one in instances.items() if j == number and one.effect.observables]
+            if balancers and effect.observables:
+                raise InputError(use.place, f"joint {number} has two balancers", "one, whose outputs carry its number")
             site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)

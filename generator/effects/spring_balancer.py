@@ -44,6 +44,7 @@ EFFECT = Effect(
     shapes=crank.SHAPES,
     kinds=(REVOLUTE,),
     needs=("q",),
+    on_link=True,
     sign_convention="F1 > 0 pulls the pivots together; F1 dr24/dq adds to the inverse dynamic model",
     assumptions="massless; the pivots do not rub",
     source="report eq. 19-32",

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from generator.quantities import signals
 from generator.symbolic.factoring import factored
 from generator.symbolic.function import Function, Output, Signal, Sparsity
 from generator.symbolic.model import Model
@@ -22,7 +23,8 @@ def always(model: Model) -> bool:
 class Quantity:
     """A function that every backend emits.
 
-    ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); ``build`` returns the output
+    ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); what effects read beside the
+    motion (their states, warmth) follows the inputs where the outputs depend on it. ``build`` returns the output
     arrays, one per output signal, of nodes. ``applies`` tells for which models it exists. ``sparsity`` gives the
     structure of a packed output.
     """
@@ -47,9 +49,19 @@ class Quantity:
         if not model.plain:
             outputs = _factored(model, outputs)
         sparsity = self.sparsity(model) if self.sparsity else None
-        return Function(
-            self.name, self.summary, self.details, tuple(self.inputs(model)), tuple(outputs), model.program, sparsity
-        )
+        inputs = (*self.inputs(model), *_further(model, self.inputs(model), outputs))
+        return Function(self.name, self.summary, self.details, inputs, tuple(outputs), model.program, sparsity)
+
+
+def _further(model: Model, inputs: Sequence[Signal], outputs: Sequence[Output]) -> list[Signal]:
+    """What effects read beside the motion, where the outputs depend on it."""
+    given = {signal.name for signal in inputs}
+    candidates = [signal for signal in signals.of_effects(model) if signal.name not in given]
+    if not candidates:
+        return []
+    nodes = model.program.reachable(node for output in outputs for node in output.nodes)
+    read = {node.source[0] for node in nodes if node.operation == "input"}
+    return [signal for signal in candidates if signal.name in read]
 
 
 def _factored(model: Model, outputs: Sequence[Output]) -> list[Output]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from generator.robot.description import PRISMATIC
 from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.function import Signal
 from generator.symbolic.model import STANDARD, Model
 
@@ -58,6 +59,23 @@ def payload(model: Model) -> Signal:
 def standard_parameters(model: Model) -> Signal:
     units = tuple(parameter.unit for parameter in model.standard_parameters)
     return Signal(STANDARD, (len(units),), units, "standard parameters, in their order")
+
+
+def states(model: Model) -> Signal:
+    units = tuple(state.unit for state in model.effect_states)
+    names = " ".join(state.name for state in model.effect_states)
+    return Signal(STATES, (len(units),), units, f"states of the effects: {names}")
+
+
+def warmth(model: Model) -> Signal:
+    return Signal(WARMTH, (model.dof,), ("1",), "warmth of the drives, 0 where the parameters hold as stated")
+
+
+def of_effects(model: Model) -> tuple[Signal, ...]:
+    """The signals that effects of the robot may read beside the motion."""
+    found = [states(model)] if model.effect_states else []
+    found += [warmth(model)] if reads(model.effects, "warmth") else []
+    return (*found, standard_parameters(model)) if reads(model.effects, "load") else tuple(found)
 
 
 def flexible_q(model: Model) -> Signal:

@@ -48,5 +48,6 @@ LAWS: Mapping[str, Law] = {
     "power_friction": Law(("Fp",), _power),
     "stribeck_friction": Law(("Fst",), _stribeck),
     "gradual_friction": Law(("Fg",), _gradual),
+    "load_friction": Law(("Fl",), lambda at: (at.direction * abs(at.load),)),
     "position_friction": Law(("Fqc", "Fqs"), _of_position),
 }

@@ -17,11 +17,12 @@ from generator.robot.description import EffectUse, Robot
 LAWS: Mapping[str, Law] = {
     "rotor_inertia": Law(("Ia",), lambda at: (at.qdd,), kinetic=lambda at: (at.qd * at.qd / 2,)),
     "offset": Law(("Off",), lambda at: (Decimal(1),)),
-    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,)),
+    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), on_link=True),
     "cable_spring": Law(
         ("kc",),
         lambda at: (at.q - at.shape["neutral"],),
         potential=lambda at: (((at.q - at.shape["neutral"]) ** 2 - at.shape["neutral"] ** 2) / 2,),
+        on_link=True,
     ),
     **friction.LAWS,
     **ripple.LAWS,
@@ -37,6 +38,15 @@ _DEFAULTS: Mapping[str, Mapping[str, Decimal]] = {
     "motor_ripple": {"order": Decimal(1)},
     "wave_generator_ripple": {"order": Decimal(2)},
 }
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What effects see beside the motion: ``load`` and ``warmth`` of each joint (n), their ``states`` by name."""
+
+    load: Array
+    warmth: Array
+    states: Values
 
 
 @dataclass(frozen=True)
@@ -60,10 +70,14 @@ class Acting:
         """The same with ``direction`` for sign(qd)."""
         return replace(self, direction=direction)
 
-    def torques(self, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
+    def torques(self, q: Array, qd: Array, qdd: Array, beside: Beside | None = None) -> dict[str, Array]:
         """What the effect adds to the inverse dynamic model (n each)."""
-        columns = self.law.torque(self._at(q, qd, qdd))
+        columns = self.law.torque(self._at(q, qd, qdd, beside))
         return {name: column * self.shares for name, column in self._named(columns).items()}
+
+    def rates(self, q: Array, qd: Array, beside: Beside) -> tuple[Decimal, ...]:
+        """Time derivatives of its states."""
+        return self.law.rates(self._at(q, qd, None, beside))
 
     def pulls(self, q: Array) -> dict[str, Decimal]:
         """Force F1 with which a balancer pulls its pivots together."""
@@ -82,10 +96,15 @@ class Acting:
         one = At(self.shape, Decimal(0), Decimal(1), Decimal(0), Decimal(1), self.ratio)
         return self._named(tuple(2 * energy for energy in self.law.kinetic(one)))
 
-    def _at(self, q: Array, qd: Array | None = None, qdd: Array | None = None) -> At:
+    def _at(self, q: Array, qd: Array | None = None, qdd: Array | None = None, beside: Beside | None = None) -> At:
         position, speed, acceleration = (self._along(x) for x in (q, qd, qdd))
         direction = sign(speed) if self.direction is None else self.direction
-        return At(self.shape, position, speed, acceleration, direction, self.ratio)
+        at = At(self.shape, position, speed, acceleration, direction, self.ratio)
+        if beside is None:
+            return at
+        k = self.coordinate
+        states = tuple(beside.states[f"{stem}{self.number}"] for stem in self.law.states)
+        return replace(at, load=beside.load[k], warmth=beside.warmth[k], states=states)
 
     def _along(self, x: Array | None) -> Decimal:
         return Decimal(0) if x is None else sum(self.shares * x, Decimal(0))

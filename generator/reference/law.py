@@ -15,6 +15,7 @@ class At:
     """The motion that an effect acts along, and the fixed values ``shape``.
 
     ``direction`` stands for sign(qd). Along a motor, q, qd, qdd are its motion over its own gear ratio ``ratio``.
+    ``load`` is the static load of the joint's transmission, ``warmth`` that of its drive, ``states`` the effect's own.
     """
 
     shape: Values
@@ -23,6 +24,9 @@ class At:
     qdd: Decimal
     direction: Decimal
     ratio: Decimal
+    load: Decimal = Decimal(0)
+    warmth: Decimal = Decimal(0)
+    states: Columns = ()
 
 
 def _none(_: At) -> Columns:
@@ -33,7 +37,8 @@ def _none(_: At) -> Columns:
 class Law:
     """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies.
 
-    ``of_motor`` tells that it acts along the motor, whose torque coupled joints share by equal power.
+    ``states`` are the stems of its states, ``rates`` their derivatives. ``of_motor`` tells that it acts along the
+    motor, whose torque coupled joints share by equal power; ``on_link`` that it is part of the transmission's load.
     """
 
     stems: tuple[str, ...]
@@ -41,4 +46,7 @@ class Law:
     pull: Callable[[At], Columns] = _none
     potential: Callable[[At], Columns] = _none
     kinetic: Callable[[At], Columns] = _none
+    states: tuple[str, ...] = ()
+    rates: Callable[[At], Columns] = _none
     of_motor: bool = False
+    on_link: bool = False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import localcontext
 
 import numpy as np
@@ -42,11 +42,13 @@ class Case:
 
     @property
     def rigid(self) -> Rigid:
-        return rigid(self.robot, self.values)
+        robot = rigid(self.robot, self.values)
+        states, warmth = self.signals.get("states", ()), self.signals.get("warmth", robot.warmth)
+        return replace(robot, states=tuple(states), warmth=warmth)
 
     @property
     def loaded(self) -> Rigid:
-        return self.rigid.loaded(self["payload"])
+        return self.rigid.loaded(self["payload"]).holding(_held(self))
 
     @property
     def flexible(self) -> Flexible:
@@ -112,11 +114,11 @@ def _dynamics(case: Case) -> Results:
 
 
 def _inverse_dynamics_loaded(case: Case) -> Results:
-    return {"tau": case.loaded.inverse_dynamics(*case.motion) + _held(case)}
+    return {"tau": case.loaded.inverse_dynamics(*case.motion)}
 
 
 def _direct_dynamics_loaded(case: Case) -> Results:
-    return {"qdd": case.loaded.direct_dynamics(*case.state, case["tau"] - _held(case))}
+    return {"qdd": case.loaded.direct_dynamics(*case.state, case["tau"])}
 
 
 def _held(case: Case) -> Array:
@@ -163,6 +165,7 @@ _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "wrench_torque": lambda case: {"tau": _held(case)},
     "inertia_matrix": lambda case: {"M": case.rigid.inertia_matrix(case["q"])},
     "bias": lambda case: {"H": case.rigid.bias(*case.state)},
+    "effect_rates": lambda case: {"rates": case.rigid.effect_rates(*case.state)},
     "gravity": lambda case: {"Q": case.rigid.gravity(case["q"])},
     "direct_dynamics": lambda case: {"qdd": case.rigid.direct_dynamics(*case.state, case["tau"])},
     "direct_dynamics_loaded": _direct_dynamics_loaded,

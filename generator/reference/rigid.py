@@ -11,7 +11,7 @@ import numpy as np
 from generator.reference import balancers, lagrange
 from generator.reference.arithmetic import Array, decimals, solve, zeros
 from generator.reference.chain import Chain, build
-from generator.reference.joint_effects import Acting, acting
+from generator.reference.joint_effects import Acting, Beside, acting
 from generator.reference.matter import INERTIAL, of_body, pseudo_inertia
 from generator.reference.motion import jacobian, poses
 from generator.robot.description import Robot
@@ -19,12 +19,23 @@ from generator.robot.description import Robot
 
 @dataclass(frozen=True)
 class Rigid:
-    """A robot with ``values`` of its standard parameters by name; ``matter`` is its pseudo-inertias by frame number."""
+    """A robot with ``values`` of its standard parameters by name; ``matter`` is its pseudo-inertias by frame number.
+
+    ``held`` is the torque (n) of a wrench that the tool exerts, ``warmth`` that of the drives (n), ``states`` those of
+    the effects, in the order of ``effects``.
+    """
 
     chain: Chain
     matter: Mapping[int, Array]
     effects: tuple[Acting, ...]
     values: Mapping[str, Decimal]
+    held: Array
+    warmth: Array
+    states: tuple[Decimal, ...] = ()
+
+    def holding(self, held: Array) -> Rigid:
+        """The same robot while its tool exerts a wrench, whose torques (n) are ``held``."""
+        return replace(self, held=held)
 
     def loaded(self, payload: Array) -> Rigid:
         """The same robot with a payload, ten inertial parameters in the tool frame (report eq. 50)."""
@@ -33,10 +44,23 @@ class Rigid:
 
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
-        tau = lagrange.torque(self.chain, self.matter, q, qd, qdd)
+        tau, beside = lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held, self._beside(q)
         for effect in self.effects:
-            tau = tau + self._torque(effect.torques(q, qd, qdd))
+            tau = tau + self._torque(effect.torques(q, qd, qdd, beside))
         return tau
+
+    def effect_rates(self, q: Array, qd: Array) -> Array:
+        """Time derivatives of the effects' states."""
+        beside = self._beside(q)
+        return np.array([rate for effect in self.effects for rate in effect.rates(q, qd, beside)], dtype=object)
+
+    def static_load(self, q: Array) -> Array:
+        """What the transmissions carry at rest (n): weight, balancers, springs on the joints, the tool's wrench."""
+        load, still = lagrange.gravity(self.chain, self.matter, q) + self.held, zeros(self.chain.dof)
+        for effect in self.effects:
+            if effect.law.on_link:
+                load = load + self._torque(effect.torques(q, still, still))
+        return load
 
     def bias(self, q: Array, qd: Array) -> Array:
         """H(q, qd) (n): everything but the accelerations."""
@@ -96,13 +120,18 @@ class Rigid:
         known: dict[str, Array] = {}
         for j in self.matter:
             known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
+        beside = self._beside(q)
         for effect in self.effects:
-            known |= effect.torques(q, qd, qdd)
+            known |= effect.torques(q, qd, qdd, beside)
         return {name: known[name] for name in names}
 
     def body_columns(self, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
         """Torques (n) per unit of the inertial parameters of a body in frame ``number``, by their stems."""
         return lagrange.columns(self.chain, number, q, qd, qdd)
+
+    def _beside(self, q: Array) -> Beside:
+        names = [f"{stem}{effect.number}" for effect in self.effects for stem in effect.law.states]
+        return Beside(self.static_load(q), self.warmth, dict(zip(names, self.states, strict=False)))
 
     def _torque(self, columns: Mapping[str, Array]) -> Array:
         """The sum (n) of the parameters times their columns; absent parameters are zero."""
@@ -120,4 +149,5 @@ def rigid(robot: Robot, values: Mapping[str, float]) -> Rigid:
     """``robot`` with standard parameters and lengths by name; absent parameters are zero, absent lengths nominal."""
     given = dict(zip(values, decimals(list(values.values())), strict=True))
     matter = {body.number: of_body(body.number, given) for body in robot.bodies}
-    return Rigid(build(robot, given), matter, tuple(acting(robot)), given)
+    rest = zeros(len(robot.moving))
+    return Rigid(build(robot, given), matter, tuple(acting(robot)), given, rest, rest)

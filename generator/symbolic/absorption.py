@@ -13,6 +13,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from generator.errors import InputError, Place
 from generator.grouping.grouping import BaseParameter, Eliminated, Grouping
 
 #: What is left of a column of unit length, below which it is a sum of the others.
@@ -20,19 +21,34 @@ _TOLERANCE = 1e-9
 _DIGITS = 12
 
 
-def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]]) -> Grouping:
+def absorbed(
+    grouping: Grouping,
+    effects: Sequence[str],
+    w: Mapping[str, NDArray[np.float64]],
+    loaded: Mapping[str, Place],
+) -> Grouping:
     """The grouping with those of the parameters ``effects`` grouped that the others, and those before them, make too.
 
-    ``w`` holds the column of each standard parameter over random states.
+    ``w`` holds the column of each standard parameter over random states. ``loaded`` are those among the parameters
+    whose columns depend on the load, with where the file asks for them: no constant coefficient groups them.
+
+    Raises InputError for one of them that other parameters imitate.
     """
     heads = [base.head for base in grouping.base]
     kept = [head for head in heads if head not in effects]
+    nothing = _TOLERANCE * max(float(np.linalg.norm(w[head])) for head in heads)
     for name in effects:
         if name not in heads:
+            continue
+        if name in loaded and np.linalg.norm(w[name]) <= nothing:
+            grouping = _grouped(grouping, name, {})
             continue
         coefficients = _coefficients(w[name], np.stack([w[head] for head in kept], axis=1)) if kept else None
         if coefficients is None:
             kept.append(name)
+        elif name in loaded:
+            problem = f"the load of {name} is constant: other friction of the joint cannot be told from it"
+            raise InputError(loaded[name], problem, "a joint whose load changes, or Coulomb friction alone")
         else:
             grouping = _grouped(grouping, name, dict(zip(kept, coefficients, strict=True)))
     return grouping
@@ -67,5 +83,5 @@ def _grouped(grouping: Grouping, name: str, coefficients: Mapping[str, sympy.Rat
         numbers[parameter.name] = terms
     gone = [replace(one, into=tuple(titles.get(title, title) for title in one.into)) for one in grouping.eliminated]
     into = tuple(titles.values())
-    rule = f"its torque is one that {' and '.join(into)} make too"
+    rule = f"its torque is one that {' and '.join(into)} make too" if into else "nothing loads the joint"
     return Grouping(tuple(base), (*gone, Eliminated(name, rule, into)), numbers)

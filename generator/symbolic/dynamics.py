@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from generator.effects.library import Instance
 from generator.symbolic import effect_torques, lean_newton_euler, newton_euler, strategy
 from generator.symbolic.bodies import INERTIAL, Body, bodies
@@ -53,9 +55,28 @@ class Dynamics:
     def still(self) -> list[Node]:
         return [self.chain.program.zero] * self.chain.dof
 
-    def joint_motion(self, qd: Nodes, qdd: Nodes) -> JointMotion:
-        q = [self.chain.values[joint.variable] for joint in self.chain.robot.moving]
-        return JointMotion(q, qd, qdd, {})
+    def joint_motion(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None = None) -> JointMotion:
+        """What the effects see, the load of each joint included where one of them depends on it."""
+        others = effect_torques.inputs(self.chain, self.effects)
+        if effect_torques.reads(self.effects, "load"):
+            load = self.static_load(wrench)
+            others |= {f"load{joint.number}": load[k] for k, joint in enumerate(self.chain.robot.moving)}
+        return JointMotion(self._positions, qd, qdd, {}, others)
+
+    def static_load(self, wrench: Wrench | None = None) -> Array:
+        """Torque (n) that the transmissions carry at rest: weight, balancers, springs, and a wrench of the tool."""
+        if wrench is None:
+            of_bodies = self.gravity
+        else:
+            motion = newton_euler.motions(self.chain, self.still, self.still)
+            of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
+        on_links = [instance for instance in self.effects if instance.effect.on_link]
+        at_rest = JointMotion(self._positions, self.still, self.still, {})
+        return of_bodies + effect_torques.torques(self.chain, on_links, at_rest, self.parameters)
+
+    @property
+    def _positions(self) -> list[Node]:
+        return [self.chain.values[joint.variable] for joint in self.chain.robot.moving]
 
     def inverse_dynamics(self, wrench: Wrench | None = None) -> Array:
         """tau = M(q) qdd + H(q, qd) (report eq. 2), and the torque that holds a wrench of the tool (eq. 73)."""
@@ -82,6 +103,12 @@ class Dynamics:
         """qdd from tau (report eq. 6)."""
         held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
         return solve(self.inertia_matrix, tau - held)
+
+    @cached_property
+    def effect_rates(self) -> Array:
+        """Time derivatives of the effects' states."""
+        motion = self.joint_motion(self.qd, self.still)
+        return np.array(effect_torques.rates(self.chain, self.effects, motion), dtype=object)
 
     @cached_property
     def kinetic_energy(self) -> Node:
@@ -144,7 +171,8 @@ class Dynamics:
         else:
             motion = newton_euler.motions(self.chain, qd, qdd)
             of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
-        return of_bodies + effect_torques.torques(self.chain, self.effects, self.joint_motion(qd, qdd), self.parameters)
+        seen = self.joint_motion(qd, qdd, wrench)
+        return of_bodies + effect_torques.torques(self.chain, self.effects, seen, self.parameters)
 
     def _moment_at_base(self) -> Array:
         """First moment of all matter about O_0, in frame 0 [kg m]."""

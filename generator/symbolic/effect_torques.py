@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy
 
@@ -14,15 +14,22 @@ from generator.symbolic.lowering import lower
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, Nodes, zeros
 
+#: Input signals of what effects read beside the motion.
+STATES, WARMTH = "states", "warmth"
+
 
 @dataclass(frozen=True)
 class JointMotion:
-    """Nodes of the joints' positions, speeds and accelerations (n each), and elastic coordinates by joint number."""
+    """Nodes of the joints' positions, speeds and accelerations (n each), and elastic coordinates by joint number.
+
+    ``others`` are further symbols that effects read, by name: loads, warmth, their own states.
+    """
 
     q: Nodes
     qd: Nodes
     qdd: Nodes
     elongation: Mapping[int, Node]
+    others: Mapping[str, Node] = field(default_factory=dict)
 
     def symbols(self, chain: Chain) -> dict[sympy.Symbol, Node]:
         """The effects' symbols q1, qd1, qdd1, qe1 ... with their nodes."""
@@ -32,7 +39,33 @@ class JointMotion:
                 values[sympy.Symbol(f"{stem}{joint.number}", real=True)] = signal[index]
         for number, node in self.elongation.items():
             values[sympy.Symbol(f"qe{number}", real=True)] = node
-        return values
+        return values | {sympy.Symbol(name, real=True): node for name, node in self.others.items()}
+
+
+def reads(instances: Iterable[Instance], what: str) -> bool:
+    """Whether an effect needs ``what``: load, warmth, state."""
+    return any(what in instance.effect.needs for instance in instances)
+
+
+def inputs(chain: Chain, instances: Iterable[Instance]) -> dict[str, Node]:
+    """What effects read beside the motion, as inputs of the functions: their states in order, warmth joint by joint."""
+    states = [name for instance in instances for name in instance.states]
+    result = {name: chain.program.input(STATES, k) for k, name in enumerate(states)}
+    if reads(instances, "warmth"):
+        for k, joint in enumerate(chain.robot.moving):
+            result[f"warmth{joint.number}"] = chain.program.input(WARMTH, k)
+    return result
+
+
+def rates(chain: Chain, instances: Iterable[Instance], motion: JointMotion) -> list[Node]:
+    """Time derivatives of the effects' states, in their order."""
+    values = motion.symbols(chain)
+    return [
+        lower(chain.program, rate, values)
+        for instance in instances
+        if instance.effect.rates is not None
+        for rate in instance.effect.rates(instance.site)
+    ]
 
 
 def columns(chain: Chain, instances: Iterable[Instance], motion: JointMotion) -> dict[str, dict[int, Node]]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 import sympy
@@ -17,6 +18,7 @@ from generator.robot.parameters import Parameter, inertial_parameters
 from generator.symbolic.absorption import absorbed
 from generator.symbolic.bodies import INERTIAL, Body, body
 from generator.symbolic.dynamics import Dynamics
+from generator.symbolic.effect_torques import STATES, WARMTH
 from generator.symbolic.flexible import FlexibleDynamics
 from generator.symbolic.frames import Chain, build_chain
 from generator.symbolic.function import PARAMETERS, Function
@@ -25,6 +27,8 @@ from generator.symbolic.sparse import sampled
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.strategy import TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
+
+Vector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.float64]]
 
 #: Input signal of the standard parameters; unlike ``parameters`` it may change at every call.
 STANDARD = "standard_parameters"
@@ -73,7 +77,21 @@ class Model:
         lengths = tuple(replace(length, symbolic=False) for length in self.robot.lengths)
         numeric = Model(replace(self.robot, lengths=lengths))
         columns = numeric.standard.regressor_columns(names)
-        return absorbed(exact, others, sampled(numeric.program, columns, self.dof, {}))
+        w = sampled(numeric.program, columns, self.dof, numeric.sampling_inputs({}))
+        places = {use.effect: use.place for use in self.robot.effects}
+        loaded = {
+            name: places[instance.effect.id]
+            for instance in self.effects
+            if "load" in instance.effect.needs
+            for name in instance.names
+        }
+        return absorbed(exact, others, w, loaded)
+
+    def sampling_inputs(self, parameters: Mapping[str, Vector]) -> dict[str, Vector]:
+        """``parameters`` and random values of all that standard columns read beside the motion."""
+        random = np.random.default_rng(1)
+        sizes = {STATES: len(self.effect_states), WARMTH: self.dof, STANDARD: len(self.standard_parameters)}
+        return {**parameters, **{name: random.uniform(0.3, 3.0, size) for name, size in sizes.items()}}
 
     @cached_property
     def base_parameters(self) -> tuple[Parameter, ...]:
@@ -127,7 +145,7 @@ class Model:
         nodes = {name: self.program.constant(value) for name, value in self.constants.items()}
         return nodes | {p.name: self.program.input(PARAMETERS, index) for index, p in enumerate(self.parameters)}
 
-    def default_parameters(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    def default_parameters(self) -> Vector:
         """The parameter vector with nominal lengths and torque constants in place, zero elsewhere."""
         known: dict[str, float] = {length.name: float(length.value) for length in self.robot.lengths}
         drives = self.robot.drives
@@ -135,6 +153,15 @@ class Model:
             constants = drives.torque_constants[drives.torque_constant]
             known |= {p.name: float(kt) for p, kt in zip(self.torque_constants, constants, strict=True)}
         return np.array([known.get(parameter.name, 0.0) for parameter in self.parameters])
+
+    @cached_property
+    def effect_states(self) -> tuple[Parameter, ...]:
+        """The states inside the effects, in the order of the signal ``states``."""
+        return tuple(
+            Parameter(name, state.unit(instance.joint), instance.joint.number, state.meaning)
+            for instance in self.effects
+            for name, state in zip(instance.states, instance.effect.states, strict=True)
+        )
 
     # -- signals --------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,32 @@
+"""Friction that grows with the torque that a transmission carries."""
+
+from __future__ import annotations
+
+import sympy
+
+from generator.effects.effect import Column, Effect, LinearParameter, Site
+
+
+def _columns(at: Site) -> tuple[Column, ...]:
+    return (at.on_joint(sympy.sign(at.qd) * sympy.Abs(at.load)),)
+
+
+EFFECT = Effect(
+    id="load_friction",
+    title="friction that grows with the load",
+    parameters=(LinearParameter("Fl", ("1", "1"), "friction per torque that the transmission carries", 0.0),),
+    columns=_columns,
+    needs=("qd", "load"),
+    sign_convention="the motor supplies Fl sign(qd) |load| against the friction; sign(0) = 0",
+    assumptions=(
+        "the load is the static one: weight, balancers and springs on the joint, and the tool's wrench; a load that "
+        "counted the acceleration would make M(q) depend on the direction of motion. The same in both directions of "
+        "the power"
+    ),
+    source=(
+        "Hamon, Gautier and Garrec, Dynamic identification of robots with a dry friction model depending on load and "
+        "velocity, IROS 2010"
+    ),
+    dissipates=True,
+    rank=75,
+)
