@@ -273,7 +273,7 @@ def any_effect(draw: Random, effect: Effect, joint: Joint) -> EffectUse:
 
 
 def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, ...]:
-    """Effects of the library that ``robot`` has not on a joint yet, balancers apart, each with probability ``often``."""
+    """Effects of the library that a joint of ``robot`` has not yet, balancers apart: each with probability ``often``."""
     there = {(use.effect, number) for use in robot.effects for number in use.joints}
     return tuple(
         any_effect(draw, effect, joint)

@@ -143,7 +143,8 @@ class Subject:
 
     def generated(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:
         """Outputs of a generated function."""
-        return evaluate(self.model.functions[name], {**inputs, "parameters": self.parameters})
+        given = {"states": np.zeros(len(self.model.effect_states)), "warmth": np.zeros(self.dof), **inputs}
+        return evaluate(self.model.functions[name], {**given, "parameters": self.parameters})
 
     def expected(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:
         """Outputs of the same quantity by the reference."""

@@ -16,7 +16,7 @@ from generator.symbolic.function import Signal
 _WORD = re.compile(r"[^\s,]+")
 
 #: Inputs that stand for nothing being there when they are not given.
-_ZERO_IF_ABSENT = ("wrench", "payload")
+_ZERO_IF_ABSENT = ("wrench", "payload", "states", "warmth")
 
 
 def split(words: Sequence[str], command: str) -> dict[str, str]:
@@ -44,8 +44,8 @@ def split(words: Sequence[str], command: str) -> dict[str, str]:
 def value(signal: Signal, given: dict[str, str], command: str) -> NDArray[np.float64]:
     """The numbers given for an input signal, shape (size,), in the signal's units.
 
-    A wrench or payload that is not given is zero. Raises InputError for a signal that is missing, for a wrong count and
-    for a word that is no number.
+    A wrench, a payload, states and warmth that are not given are zero. Raises InputError for a signal that is missing,
+    for a wrong count and for a word that is no number.
     """
     if signal.name not in given:
         if signal.name in _ZERO_IF_ABSENT:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -11,7 +11,7 @@ import sympy
 
 import generator.effects
 from generator.discovery import modules
-from generator.effects.effect import Column, Effect, Shape, Site
+from generator.effects.effect import Column, Effect, Shape, Site, State
 from generator.errors import InputError, Place
 from generator.robot.description import FIXED, EffectUse, Joint, Robot
 from generator.robot.parameters import Parameter
@@ -44,12 +44,32 @@ class Instance:
             for name, p in zip(self.names, self.effect.parameters, strict=True)
         )
 
-    @property
-    def states(self) -> tuple[str, ...]:
-        return tuple(f"{state.stem}{self.joint.number}" for state in self.effect.states)
-
     def columns(self) -> tuple[Column, ...]:
         return self.effect.columns(self.site)
+
+
+@dataclass(frozen=True)
+class StateUse:
+    """A state of an effect on one joint, its symbol's name, and its rate of change."""
+
+    state: State
+    joint: Joint
+    rate: sympy.Expr
+
+    @property
+    def name(self) -> str:
+        return f"{self.state.stem}{self.joint.number}"
+
+
+def states_of(instances: Iterable[Instance]) -> tuple[StateUse, ...]:
+    """The states inside effects: joint by joint, in alphabetical order of their stems on each."""
+    found = [
+        StateUse(state, instance.joint, rate)
+        for instance in instances
+        if instance.effect.rates is not None
+        for state, rate in zip(instance.effect.states, instance.effect.rates(instance.site), strict=True)
+    ]
+    return tuple(sorted(found, key=lambda one: (one.joint.number, one.state.stem)))
 
 
 @cache

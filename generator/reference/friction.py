@@ -49,5 +49,6 @@ LAWS: Mapping[str, Law] = {
     "stribeck_friction": Law(("Fst",), _stribeck),
     "gradual_friction": Law(("Fg",), _gradual),
     "load_friction": Law(("Fl",), lambda at: (at.direction * abs(at.load),)),
+    "warm_friction": Law(("Fvw", "Fcw"), lambda at: (at.warmth * at.qd, at.warmth * at.direction)),
     "position_friction": Law(("Fqc", "Fqs"), _of_position),
 }

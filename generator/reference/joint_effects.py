@@ -8,7 +8,7 @@ from decimal import Decimal
 
 import numpy as np
 
-from generator.reference import balancers, friction, ripple
+from generator.reference import balancers, friction, presliding, ripple
 from generator.reference.arithmetic import Array, decimals, exact, sign, zeros
 from generator.reference.law import At, Law, Values
 from generator.robot.description import EffectUse, Robot
@@ -25,6 +25,7 @@ LAWS: Mapping[str, Law] = {
         on_link=True,
     ),
     **friction.LAWS,
+    **presliding.LAWS,
     **ripple.LAWS,
     **balancers.LAWS,
 }
@@ -35,6 +36,7 @@ _DEFAULTS: Mapping[str, Mapping[str, Decimal]] = {
     "power_friction": {"v": Decimal(1), "exponent": Decimal(2)},
     "stribeck_friction": {"exponent": Decimal(2)},
     "position_friction": {"order": Decimal(1)},
+    "hysteresis": {"exponent": Decimal(2)},
     "motor_ripple": {"order": Decimal(1)},
     "wave_generator_ripple": {"order": Decimal(2)},
 }
@@ -75,9 +77,10 @@ class Acting:
         columns = self.law.torque(self._at(q, qd, qdd, beside))
         return {name: column * self.shares for name, column in self._named(columns).items()}
 
-    def rates(self, q: Array, qd: Array, beside: Beside) -> tuple[Decimal, ...]:
-        """Time derivatives of its states."""
-        return self.law.rates(self._at(q, qd, None, beside))
+    def rates(self, q: Array, qd: Array, beside: Beside) -> dict[str, Decimal]:
+        """Time derivatives of its states by their names."""
+        rates = self.law.rates(self._at(q, qd, None, beside))
+        return {f"{stem}{self.number}": rate for stem, rate in zip(self.law.states, rates, strict=True)}
 
     def pulls(self, q: Array) -> dict[str, Decimal]:
         """Force F1 with which a balancer pulls its pivots together."""

@@ -22,7 +22,7 @@ class Rigid:
     """A robot with ``values`` of its standard parameters by name; ``matter`` is its pseudo-inertias by frame number.
 
     ``held`` is the torque (n) of a wrench that the tool exerts, ``warmth`` that of the drives (n), ``states`` those of
-    the effects, in the order of ``effects``.
+    the effects, joint by joint in alphabetical order, zero if there are none.
     """
 
     chain: Chain
@@ -52,7 +52,8 @@ class Rigid:
     def effect_rates(self, q: Array, qd: Array) -> Array:
         """Time derivatives of the effects' states."""
         beside = self._beside(q)
-        return np.array([rate for effect in self.effects for rate in effect.rates(q, qd, beside)], dtype=object)
+        rates = {name: rate for effect in self.effects for name, rate in effect.rates(q, qd, beside).items()}
+        return np.array([rates[name] for name in self._state_names], dtype=object)
 
     def static_load(self, q: Array) -> Array:
         """What the transmissions carry at rest (n): weight, balancers, springs on the joints, the tool's wrench."""
@@ -130,8 +131,14 @@ class Rigid:
         return lagrange.columns(self.chain, number, q, qd, qdd)
 
     def _beside(self, q: Array) -> Beside:
-        names = [f"{stem}{effect.number}" for effect in self.effects for stem in effect.law.states]
-        return Beside(self.static_load(q), self.warmth, dict(zip(names, self.states, strict=False)))
+        states = self.states or (Decimal(0),) * len(self._state_names)
+        return Beside(self.static_load(q), self.warmth, dict(zip(self._state_names, states, strict=True)))
+
+    @property
+    def _state_names(self) -> list[str]:
+        """Joint by joint, in alphabetical order on each."""
+        found = [(effect.number, stem) for effect in self.effects for stem in effect.law.states]
+        return [f"{stem}{number}" for number, stem in sorted(found)]
 
     def _torque(self, columns: Mapping[str, Array]) -> Array:
         """The sum (n) of the parameters times their columns; absent parameters are zero."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import sympy
 
 from generator.effects.effect import Column
-from generator.effects.library import Instance
+from generator.effects.library import Instance, states_of
 from generator.symbolic.frames import Chain
 from generator.symbolic.lowering import lower
 from generator.symbolic.statements import Node
@@ -49,8 +49,7 @@ def reads(instances: Iterable[Instance], what: str) -> bool:
 
 def inputs(chain: Chain, instances: Iterable[Instance]) -> dict[str, Node]:
     """What effects read beside the motion, as inputs of the functions: their states in order, warmth joint by joint."""
-    states = [name for instance in instances for name in instance.states]
-    result = {name: chain.program.input(STATES, k) for k, name in enumerate(states)}
+    result = {one.name: chain.program.input(STATES, k) for k, one in enumerate(states_of(instances))}
     if reads(instances, "warmth"):
         for k, joint in enumerate(chain.robot.moving):
             result[f"warmth{joint.number}"] = chain.program.input(WARMTH, k)
@@ -60,12 +59,7 @@ def inputs(chain: Chain, instances: Iterable[Instance]) -> dict[str, Node]:
 def rates(chain: Chain, instances: Iterable[Instance], motion: JointMotion) -> list[Node]:
     """Time derivatives of the effects' states, in their order."""
     values = motion.symbols(chain)
-    return [
-        lower(chain.program, rate, values)
-        for instance in instances
-        if instance.effect.rates is not None
-        for rate in instance.effect.rates(instance.site)
-    ]
+    return [lower(chain.program, one.rate, values) for one in states_of(instances)]
 
 
 def columns(chain: Chain, instances: Iterable[Instance], motion: JointMotion) -> dict[str, dict[int, Node]]:

@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 import sympy
 
-from generator.effects.library import effects_of, motor_side
+from generator.effects.library import effects_of, motor_side, states_of
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
@@ -158,9 +158,8 @@ class Model:
     def effect_states(self) -> tuple[Parameter, ...]:
         """The states inside the effects, in the order of the signal ``states``."""
         return tuple(
-            Parameter(name, state.unit(instance.joint), instance.joint.number, state.meaning)
-            for instance in self.effects
-            for name, state in zip(instance.states, instance.effect.states, strict=True)
+            Parameter(one.name, one.state.unit(one.joint), one.joint.number, one.state.meaning)
+            for one in states_of(self.effects)
         )
 
     # -- signals --------------------------------------------------------------------------------------------------
