@@ -262,21 +262,46 @@ def _random_effects(draw: Random, moving: Sequence[Joint]) -> list[EffectUse]:
     return uses
 
 
-def any_effect(draw: Random, effect: Effect, joint: Joint) -> EffectUse:
+def every_effect() -> Robot:
+    """Two turning joints and a slide, coupled motors, an elastic joint: with every effect of the library somewhere."""
+    draw = Random(7)
+    joints = (
+        joint(1, REVOLUTE, r=Rational(1, 2)),
+        joint(2, REVOLUTE, pi / 3, d=Rational(3, 10)),
+        joint(3, PRISMATIC, -pi / 2, d=Rational(1, 4)),
+        joint(4, FIXED, r=Rational(1, 5), tool=True),
+    )
+    drives = Drives(
+        (Fraction(60), Fraction(-165, 4), Fraction(80)),
+        (
+            (Fraction(60), Fraction(0), Fraction(0)),
+            (Fraction(5, 4), Fraction(-165, 4), Fraction(0)),
+            (Fraction(0), Fraction(0), Fraction(80)),
+        ),
+        {"cold": (Fraction(1), Fraction(6, 5), Fraction(4, 5))},
+        "cold",
+    )
+    balancers = (spring_balancer((1,), draw), gas_balancer((2,), draw))
+    made = robot("every_effect", joints, effects=balancers, drives=drives, flexible=(2,))
+    return replace(made, effects=(*balancers, *more_effects(draw, made, 1.0)))
+
+
+def any_effect(draw: Random, effect: Effect, joint: Joint, others: Sequence[int]) -> EffectUse:
     """An effect of the library on one joint, its values within their bounds."""
     values = {
         shape.name: Quantity(_within(draw, shape), shape.unit_on(joint))
         for shape in effect.shapes
         if shape.default is None or draw.random() < 0.5
     }
+    values |= {shape.name: Quantity(Integer(draw.choice(others)), "1") for shape in effect.shapes if shape.joint}
     return EffectUse(effect.id, (joint.number,), values)
 
 
 def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, ...]:
-    """Effects of the library that a joint of ``robot`` has not yet, balancers apart: each with probability ``often``."""
+    """Effects that a joint of ``robot`` has not yet, balancers apart, each with probability ``often``."""
     there = {(use.effect, number) for use in robot.effects for number in use.joints}
     return tuple(
-        any_effect(draw, effect, joint)
+        any_effect(draw, effect, joint, [other.number for other in robot.moving if other is not joint])
         for effect in library().values()
         for joint in robot.moving
         if "qe" not in effect.needs
@@ -285,6 +310,7 @@ def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, .
         and (joint.sigma == REVOLUTE or "load" not in effect.needs)  # the load of a slide may be constant
         and (effect.id, joint.number) not in there
         and not effect.observables
+        and (len(robot.moving) > 1 or not any(shape.joint for shape in effect.shapes))
         and draw.random() < often
     )
 

@@ -11,10 +11,11 @@ from hypothesis import HealthCheck, settings
 
 from generator.resources import robots
 from generator.robot.readers import read
-from tests.chains import random_robot
+from tests.chains import every_effect, random_robot
 from tests.subject import Subject, subject
 
 FILES = {path.stem: path for path in robots()}
+EVERY = "every_effect"
 CHAINS = {f"chain{seed}": seed for seed in range(12)}
 
 # The suite must say the same twice; HYPOTHESIS_PROFILE=explore looks for new chains.
@@ -30,18 +31,27 @@ def _file(name: str) -> Subject:
 
 
 @cache
+def _every_effect() -> Subject:
+    return subject(every_effect())
+
+
+@cache
 def _chain(name: str) -> Subject:
     return subject(random_robot(Random(CHAINS[name])))
 
 
-@pytest.fixture(scope="session", params=[*FILES, *CHAINS])
+@pytest.fixture(scope="session", params=[*FILES, EVERY, *CHAINS])
 def arm(request: pytest.FixtureRequest) -> Subject:
-    """Each robot file and each random chain, derived."""
+    """Each robot file, the robot with every effect and each random chain, derived."""
     name = request.param
-    return _file(name) if name in FILES else _chain(name)
+    return _robot(name) if name in (*FILES, EVERY) else _chain(name)
 
 
-@pytest.fixture(scope="session", params=[*FILES])
+@pytest.fixture(scope="session", params=[*FILES, EVERY])
 def robot_arm(request: pytest.FixtureRequest) -> Subject:
-    """Each robot file, derived."""
-    return _file(request.param)
+    """Each robot file and the robot with every effect, derived."""
+    return _robot(request.param)
+
+
+def _robot(name: str) -> Subject:
+    return _every_effect() if name == EVERY else _file(name)

@@ -36,13 +36,13 @@ _SCALES = {
     "states": 1.0,
     "warmth": 1.0,
 }
-#: Stems of the parameters of effects that store potential energy, that store none of either kind, and that rub.
+#: Stems of the parameters of effects that store potential energy, that store none of any kind, and that rub.
 SPRINGS = tuple(p.stem for effect in library().values() if effect.potential_energy for p in effect.parameters)
 LOSSES = tuple(
     p.stem
     for effect in library().values()
-    if not effect.potential_energy and not effect.kinetic_energy
     for p in effect.parameters
+    if p.stem not in SPRINGS and p.stem not in ("Ia", "Iar")
 )
 #: Stems of the parameters of effects that follow a motor, many periods to a turn of the joint.
 FAST = tuple(p.stem for effect in library().values() if "motor" in effect.needs for p in effect.parameters)
@@ -142,8 +142,13 @@ class Subject:
         return self.only(*INERTIAL)
 
     def generated(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:
-        """Outputs of a generated function."""
-        given = {"states": np.zeros(len(self.model.effect_states)), "warmth": np.zeros(self.dof), **inputs}
+        """Outputs of a generated function; what effects read beside the motion is zero, loads the arm's, if not given."""
+        beside = {
+            "states": np.zeros(len(self.model.effect_states)),
+            "warmth": np.zeros(self.dof),
+            "standard_parameters": [self.values.get(name, 0.0) for name in self.standard],
+        }
+        given = {**beside, **inputs}
         return evaluate(self.model.functions[name], {**given, "parameters": self.parameters})
 
     def expected(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:

@@ -38,7 +38,8 @@ class LinearParameter:
 class Shape:
     """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any.
 
-    ``prismatic`` is the unit on a prismatic joint, where it is another one.
+    ``prismatic`` is the unit on a prismatic joint, where it is another one. ``joint`` tells that it is the number of
+    another moving joint.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Shape:
     upper: float | None = None
     default: sympy.Expr | None = None
     prismatic: str | None = None
+    joint: bool = False
 
     def unit_on(self, joint: Joint) -> str:
         return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit

@@ -99,6 +99,7 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
             balancers = [one for (j, _), one in instances.items() if j == number and one.effect.observables]
             if balancers and effect.observables:
                 raise InputError(use.place, f"joint {number} has two balancers", "one, whose outputs carry its number")
+            _check_others(use, effect, robot, joint)
             site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
@@ -183,6 +184,16 @@ def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str) -> sympy.Exp
         raise InputError(quantity.place, f"{shape.name} is given in {quantity.unit or '1'}", f"a value in {unit}")
     _check_bounds(quantity.place, shape, unit, quantity.value)
     return quantity.value
+
+
+def _check_others(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> None:
+    """What must be the number of another moving joint is one."""
+    others = [other.number for other in robot.moving if other is not joint]
+    for shape in effect.shapes:
+        given = use.values.get(shape.name)
+        if shape.joint and given is not None and given.value not in others:
+            expected = f"another moving joint, one of {', '.join(map(str, others))}" if others else "a second joint"
+            raise InputError(given.place, f"{shape.name} of joint {joint.number} is {given.value}", expected)
 
 
 def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> None:

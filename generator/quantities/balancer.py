@@ -27,9 +27,10 @@ def _observables(instance: Instance) -> Mapping[str, tuple[sympy.Expr, str, str]
 
 def _signals(model: Model) -> tuple[Signal, ...]:
     instances = _observed(model)
+    several = sum(one.effect.observables is not None for one in model.effects) > 1
     result = []
     for instance in instances:
-        suffix = f"_{instance.joint.number}" if len(instances) > 1 else ""
+        suffix = f"_{instance.joint.number}" if several else ""
         for name, (_, unit, meaning) in _observables(instance).items():
             result.append(signals.scalar(name + suffix, unit, f"{meaning}, joint {instance.joint.number}"))
     return tuple(result)

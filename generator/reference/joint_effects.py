@@ -16,6 +16,12 @@ from generator.robot.description import EffectUse, Robot
 #: Report eq. 5 (rotor, friction), eq. 4 (offset), eq. 19-38 (balancers), and the laws of the other files; sign(0) = 0.
 LAWS: Mapping[str, Law] = {
     "rotor_inertia": Law(("Ia",), lambda at: (at.qdd,), kinetic=lambda at: (at.qd * at.qd / 2,)),
+    "coupled_rotor": Law(
+        ("Iar", "Fvr", "Fcr"),
+        lambda at: (at.qdd, at.qd, at.direction),
+        kinetic=lambda at: (at.qd * at.qd / 2, Decimal(0), Decimal(0)),
+        along="pair",
+    ),
     "offset": Law(("Off",), lambda at: (Decimal(1),)),
     "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), on_link=True),
     "cable_spring": Law(
@@ -123,14 +129,14 @@ def acting(robot: Robot) -> Iterator[Acting]:
         law = LAWS[use.effect]
         for number in use.joints:
             k = coordinate[number]
-            shares, ratio = _of_motor(robot, k) if law.of_motor else (_of_joint(robot, k), Decimal(1))
-            yield Acting(law, number, k, _shape(use), shares, ratio)
-
-
-def _of_joint(robot: Robot, k: int) -> Array:
-    shares = zeros(len(robot.moving))
-    shares[k] = Decimal(1)
-    return shares
+            shape = _shape(use)
+            shares, ratio = zeros(len(robot.moving)), Decimal(1)
+            shares[k] = Decimal(1)
+            if law.along == "motor":
+                shares, ratio = _of_motor(robot, k)
+            elif law.along == "pair":
+                shares[coordinate[int(shape["other"])]] = shape["ratio"]
+            yield Acting(law, number, k, shape, shares, ratio)
 
 
 def _of_motor(robot: Robot, k: int) -> tuple[Array, Decimal]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
+from typing import Literal
 
 Values = Mapping[str, Decimal]
 Columns = tuple[Decimal, ...]
@@ -37,8 +38,9 @@ def _none(_: At) -> Columns:
 class Law:
     """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies.
 
-    ``states`` are the stems of its states, ``rates`` their derivatives. ``of_motor`` tells that it acts along the
-    motor, whose torque coupled joints share by equal power; ``on_link`` that it is part of the transmission's load.
+    ``states`` are the stems of its states, ``rates`` their derivatives. ``along`` is "joint", "motor" or
+    "pair" (of joints that turn a rotor together): motor and pair share the torque by equal power. ``on_link`` tells
+    that it is part of the transmission's load.
     """
 
     stems: tuple[str, ...]
@@ -48,5 +50,5 @@ class Law:
     kinetic: Callable[[At], Columns] = _none
     states: tuple[str, ...] = ()
     rates: Callable[[At], Columns] = _none
-    of_motor: bool = False
+    along: Literal["joint", "motor", "pair"] = "joint"
     on_link: bool = False

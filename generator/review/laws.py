@@ -32,6 +32,9 @@ def torque(instance: Instance, index: str) -> list[Equation]:
         site.qd: _indexed("qd", side),
         site.qdd: _indexed("qdd", side),
         site.elongation: f"q_e,{index}",
+        site.load: _indexed("load", index),
+        site.warmth: _indexed("warmth", index),
+        **{site.state(state.stem): _indexed(state.stem, index) for state in instance.effect.states},
     }
     symbols = {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
     return [
