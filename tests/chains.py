@@ -280,6 +280,7 @@ def every_effect() -> Robot:
         ),
         {"cold": (Fraction(1), Fraction(6, 5), Fraction(4, 5))},
         "cold",
+        (Fraction(-3, 50), Fraction(0), Fraction(1, 100)),
     )
     balancers = (spring_balancer((1,), draw), gas_balancer((2,), draw))
     made = robot("every_effect", joints, effects=balancers, drives=drives, flexible=(2,))

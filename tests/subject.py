@@ -142,7 +142,7 @@ class Subject:
         return self.only(*INERTIAL)
 
     def generated(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:
-        """Outputs of a generated function; what effects read beside the motion is zero, loads the arm's, if not given."""
+        """Outputs of a generated function; states and warmth are zero, standard parameters the arm's, if not given."""
         beside = {
             "states": np.zeros(len(self.model.effect_states)),
             "warmth": np.zeros(self.dof),

@@ -8,6 +8,7 @@ from fractions import Fraction
 import sympy
 
 from generator.quantities.quantity import Quantity
+from generator.symbolic.effect_torques import WARMTH
 from generator.symbolic.function import Signal
 from generator.symbolic.model import Model
 from generator.symbolic.statements import Node
@@ -38,8 +39,13 @@ def apply(model: Model, matrix: Rationals, vector: Array) -> Array:
 
 
 def torque_constants(model: Model) -> list[Node]:
-    """kt of each motor [N m/A], parameters of the model."""
-    return [model.parameter_nodes[parameter.name] for parameter in model.torque_constants]
+    """kt of each motor [N m/A], parameters of the model, times 1 + drift warmth where the file gives a drift."""
+    constants = [model.parameter_nodes[parameter.name] for parameter in model.torque_constants]
+    drift = model.robot.drives.torque_drift if model.robot.drives else ()
+    if not drift:
+        return constants
+    warmth = model.signal(WARMTH, model.dof)
+    return [kt * (1 + d * w) for kt, d, w in zip(constants, drift, warmth, strict=True)]
 
 
 def drive_map(

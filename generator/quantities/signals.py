@@ -74,7 +74,8 @@ def warmth(model: Model) -> Signal:
 def of_effects(model: Model) -> tuple[Signal, ...]:
     """The signals that effects of the robot may read beside the motion."""
     found = [states(model)] if model.effect_states else []
-    found += [warmth(model)] if reads(model.effects, "warmth") else []
+    drives = model.robot.drives
+    found += [warmth(model)] if reads(model.effects, "warmth") or (drives and drives.torque_drift) else []
     return (*found, standard_parameters(model)) if reads(model.effects, "load") else tuple(found)
 
 

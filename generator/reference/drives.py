@@ -54,8 +54,11 @@ class DriveTrain:
         return self.kt
 
 
-def drive_train(robot: Robot, values: Mapping[str, float]) -> DriveTrain:
-    """The drives of ``robot``; a torque constant is taken from ``values`` as ``kt<joint>`` if it is there."""
+def drive_train(robot: Robot, values: Mapping[str, float], warmth: Array) -> DriveTrain:
+    """The drives of ``robot``; a torque constant is taken from ``values`` as ``kt<joint>`` if it is there.
+
+    The constants are those at the ``warmth`` of the drives (n).
+    """
     if robot.drives is None:
         raise ValueError("the robot has no drives")
     N = decimals([[_quotient(entry) for entry in row] for row in robot.drives.coupling])
@@ -64,7 +67,8 @@ def drive_train(robot: Robot, values: Mapping[str, float]) -> DriveTrain:
         return DriveTrain(N, None)
     given = {joint.number: values.get(f"kt{joint.number}") for joint in robot.moving}
     kt = [default if (value := given[j]) is None else value for j, default in zip(given, nominal, strict=True)]
-    return DriveTrain(N, decimals(kt))
+    drift = [_quotient(part) for part in robot.drives.torque_drift] or [0] * len(kt)
+    return DriveTrain(N, decimals(kt) * (1 + np.array(drift, dtype=object) * warmth))
 
 
 def _nominal(drives: Drives) -> Array | None:

@@ -56,7 +56,7 @@ class Case:
 
     @property
     def drives(self) -> DriveTrain:
-        return drive_train(self.robot, self.values)
+        return drive_train(self.robot, self.values, self.rigid.warmth)
 
 
 def reference(

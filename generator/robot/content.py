@@ -13,9 +13,10 @@ from generator.robot.sections.effects import effects, flexible
 from generator.robot.sections.geometry import base, gravity, lengths
 from generator.robot.sections.joints import joints
 from generator.robot.sections.parameter_sets import parameter_sets
+from generator.robot.sections.signals import signals
 
 _REQUIRED = ("name", "gravity", "joints")
-_OPTIONAL = ("description", "source", "base", "geometry", "drives", "effects", "flexible", "parameters")
+_OPTIONAL = ("description", "source", "base", "geometry", "drives", "effects", "flexible", "signals", "parameters")
 
 
 def robot_from(node: Node) -> Robot:
@@ -38,6 +39,7 @@ def robot_from(node: Node) -> Robot:
         parameter_sets=parameter_sets(keys.get("parameters")),
         place=node.place,
         digest=digest(node),
+        signals=signals(keys.get("signals"), all_joints),
     )
 
 

@@ -84,13 +84,31 @@ class Drives:
     """Drive train: motor speed = N joint speed (report eq. 14-15), in exact rationals.
 
     ``coupling`` is the matrix N, row i the motor i, column j the moving joint j. ``torque_constants`` [N m/A] by name
-    ("cold", "warm"), one per motor; ``torque_constant`` names the one in use.
+    ("cold", "warm"), one per motor; ``torque_constant`` names the one in use. ``torque_drift`` is the relative change
+    of each constant at warmth 1, empty where there is none.
     """
 
     ratios: tuple[Fraction, ...]
     coupling: tuple[tuple[Fraction, ...], ...]
     torque_constants: Mapping[str, tuple[Fraction, ...]] = field(default_factory=dict)
     torque_constant: str = ""
+    torque_drift: tuple[Fraction, ...] = ()
+
+
+@dataclass(frozen=True)
+class Signals:
+    """How recorded signals differ from the model's, one exact value per moving joint; empty where they do not.
+
+    True position = recorded + ``position_offset`` [rad, m]; true motor torque = recorded times ``torque_gain``. What is
+    recorded as motor torque or current was true ``torque_delay`` [s] before, as link-side position ``link_delay`` [s]
+    before. Currents saturate at ``current_limit`` [A] either way. Nothing of it is in the generated functions.
+    """
+
+    position_offset: tuple[sympy.Expr, ...] = ()
+    torque_gain: tuple[sympy.Expr, ...] = ()
+    torque_delay: tuple[sympy.Expr, ...] = ()
+    link_delay: tuple[sympy.Expr, ...] = ()
+    current_limit: tuple[sympy.Expr, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -143,6 +161,7 @@ class Robot:
     parameter_sets: Mapping[str, ParameterSet]
     place: Place
     digest: str
+    signals: Signals = Signals()
 
     @property
     def moving(self) -> tuple[Joint, ...]:

@@ -27,10 +27,14 @@ def render(model: Model) -> Markup | None:
     ]
     if drives.torque_constants:
         laws.append(Equation(Name("tau"), Product((transposed, Call("diag", Name("kt")), Name("I")))))
+    drift = ", ".join(str(_shown(part, 4)) for part in drives.torque_drift)
     return join(
         element("p", "Motor speeds, torques and currents; index r is the rotor's side."),
         element("p", [[math(law), " "] for law in laws], class_="laws"),
         _table(model, drives),
+        element("p", f"Relative change of the torque constants at warmth 1, motor by motor: {drift}.")
+        if drift
+        else None,
         element("h3", "Coupling matrix"),
         _coupling("=", [[exact(entry) for entry in row] for row in drives.coupling]),
         _coupling("≈", [[_rounded(entry) for entry in row] for row in drives.coupling]),

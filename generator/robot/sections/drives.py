@@ -25,16 +25,33 @@ def drives(entry: Entry | None, joints: Sequence[Joint]) -> Drives | None:
     """The drive train, exact; None where the file has none.
 
     Raises InputError for a ratio that is zero or not rational, a list that does not have one value per moving joint, a
-    coupling element that is not below the diagonal, a torque constant that is not positive.
+    coupling element that is not below the diagonal, a torque constant that is not positive, a drift that is not within
+    -1 and 1.
     """
     if entry is None:
         return None
-    keys = fields.table(entry.value, "drives", ("gear_ratios",), ("coupling", "torque_constants"))
+    keys = fields.table(entry.value, "drives", ("gear_ratios",), ("coupling", "torque_constants", "torque_drift"))
     moving = [joint.number for joint in joints if joint.sigma != FIXED]
     ratios = _ratios(keys["gear_ratios"].value, moving)
     coupling = _coupling(keys.get("coupling"), ratios, moving)
     constants, in_use = _torque_constants(keys.get("torque_constants"), moving)
-    return Drives(ratios, coupling, constants, in_use)
+    return Drives(ratios, coupling, constants, in_use, _torque_drift(keys.get("torque_drift"), constants, moving))
+
+
+def _torque_drift(entry: Entry | None, constants: object, moving: Sequence[int]) -> tuple[Fraction, ...]:
+    if entry is None:
+        return ()
+    if not constants:
+        raise InputError(entry.key, "torque_drift without torque_constants", "both")
+    drift = []
+    for number, item in zip(moving, fields.items(entry.value, "torque_drift", len(moving)), strict=True):
+        value = _fraction(item, f"torque_drift of joint {number}")
+        if not -1 < value < 1:
+            raise InputError(
+                item.place, f"torque_drift of joint {number} is {float(value):g}", "more than -1, less than 1"
+            )
+        drift.append(value)
+    return tuple(drift)
 
 
 def _ratios(node: Node, moving: Sequence[int]) -> tuple[Fraction, ...]:

@@ -1,0 +1,72 @@
+"""Section ``signals``: how what is recorded differs from what the model means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import sympy
+
+from generator.errors import InputError, Place
+from generator.robot import fields
+from generator.robot.description import FIXED, PRISMATIC, Joint, Signals
+from generator.robot.document import Entry, Items, Node
+
+#: A value beyond this is a mistake of its unit: no drive answers so late, no torque is known so badly.
+_LONGEST_DELAY = sympy.Rational(1, 10)
+_LARGEST_GAIN = 2
+
+Check = Callable[[Place, str, sympy.Expr], None]
+
+
+def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
+    """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
+
+    Raises InputError for another number of values, another unit, a delay that is negative or over 0.1 s, a gain that
+    is not between 1/2 and 2, a limit that is not positive.
+    """
+    if entry is None:
+        return Signals()
+    moving = [joint for joint in joints if joint.sigma != FIXED]
+    position = ["m" if joint.sigma == PRISMATIC else "rad" for joint in moving]
+    kinds: dict[str, tuple[Sequence[str], Check]] = {
+        "position_offset": (position, _any),
+        "torque_gain": (["1"] * len(moving), _gain),
+        "torque_delay": (["s"] * len(moving), _delay),
+        "link_delay": (["s"] * len(moving), _delay),
+        "current_limit": (["A"] * len(moving), _limit),
+    }
+    keys = fields.table(entry.value, "signals", (), tuple(kinds))
+    found = {key: _values(one.value, key, moving, *kinds[key]) for key, one in keys.items()}
+    return Signals(**found)
+
+
+def _values(
+    node: Node, key: str, moving: Sequence[Joint], units: Sequence[str], check: Check
+) -> tuple[sympy.Expr, ...]:
+    nodes = fields.items(node, key, len(moving)) if isinstance(node, Items) else (node,) * len(moving)
+    result = []
+    for joint, item, unit in zip(moving, nodes, units, strict=True):
+        what = f"{key} of joint {joint.number}"
+        value = fields.number(item, what) if unit == "1" else fields.quantity(item, what, unit).value
+        check(item.place, what, value)
+        result.append(value)
+    return tuple(result)
+
+
+def _any(place: Place, what: str, value: sympy.Expr) -> None:
+    """Every value is possible."""
+
+
+def _gain(place: Place, what: str, value: sympy.Expr) -> None:
+    if not sympy.Rational(1, _LARGEST_GAIN) <= value <= _LARGEST_GAIN:
+        raise InputError(place, f"{what} is {float(value):g}", "a factor from 0.5 to 2")
+
+
+def _delay(place: Place, what: str, value: sympy.Expr) -> None:
+    if not 0 <= value <= _LONGEST_DELAY:
+        raise InputError(place, f"{what} is {float(value):g} s", "a time from 0 to 0.1 s")
+
+
+def _limit(place: Place, what: str, value: sympy.Expr) -> None:
+    if value <= 0:
+        raise InputError(place, f"{what} is {float(value):g} A", "a positive current")

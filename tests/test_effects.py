@@ -1,0 +1,279 @@
+"""The laws of the effects: closed forms, limits, passivity, what they ask of a robot file; every one, in every way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sympy import Integer, Rational
+
+from generator.derivation import derive
+from generator.effects.library import effects_of, library
+from generator.errors import InputError
+from generator.reference.joint_effects import LAWS
+from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, ParameterValue, Robot
+from generator.robot.readers import read
+from generator.symbolic.interpret import evaluate
+from generator.symbolic.model import Model
+from generator.symbolic.parameter_sets import parameter_vector
+from generator.units import Quantity
+from tests.chains import STANDARD_GRAVITY, every_effect, joint, robot
+from tests.subject import Vector
+
+#: An arm that hangs on a horizontal axis: x is across gravity at q = 0.
+ARM = """
+name: arm
+gravity: [0 m/s2, 0 m/s2, -10 m/s2]
+joints:
+  - {{j: 1, sigma: 0, alpha: pi/2, d: 0, theta: q1, r: 0}}
+  - {{j: 2, sigma: 2, alpha: 0, d: 0.5 m, theta: 0, r: 0, tool: true}}
+drives: {{gear_ratios: [50]}}
+effects:
+  - {{effect: {effect}, joint: 1, values: {{{values}}}}}
+"""
+
+
+def arm(tmp_path: Path, effect: str, values: str = "") -> Model:
+    """A pendulum with one effect, its inverse dynamics and the effect's rates."""
+    path = tmp_path / "arm.yaml"
+    path.write_text(ARM.format(effect=effect, values=values))
+    return derive(read(path), ("inverse_dynamics", "inverse_dynamics_loaded", "direct_dynamics", "effect_rates"))
+
+
+def call(model: Model, name: str, parameters: Mapping[str, float], **inputs: object) -> Vector:
+    """The output of a function of an arm whose parameters, but for the effect's, are given too or zero."""
+    given = {key: ParameterValue(value, "") for key, value in parameters.items()}
+    n = len(np.atleast_1d(inputs["qd"]))  # type: ignore[arg-type]
+    zero = {"q": 0.0, "qdd": 0.0, "states": 0.0, "warmth": 0.0}
+    signals = {key: np.broadcast_to(inputs.get(key, value), n)[:, None] for key, value in zero.items()}
+    signals["qd"] = np.atleast_1d(inputs["qd"])[:, None]  # type: ignore[call-overload]
+    signals |= {key: np.atleast_2d(value) for key, value in inputs.items() if key not in signals}
+    (result,) = evaluate(model.functions[name], {**signals, "parameters": parameter_vector(model, given)}).values()
+    return result[:, 0]
+
+
+def torque(model: Model, parameters: Mapping[str, float], **inputs: object) -> Vector:
+    return call(model, "inverse_dynamics", parameters, **inputs)
+
+
+SPEEDS = np.array([-2.0, -0.1, 0.0, 0.3, 5.0])
+
+
+def test_every_effect_has_a_second_law_and_is_on_the_robot_that_has_all() -> None:
+    emitted = {effect.id for effect in library().values() if "qe" not in effect.needs}
+    assert emitted == set(LAWS)
+    assert emitted == {use.effect for use in every_effect().effects}
+
+
+def test_every_effect_is_stated_completely() -> None:
+    for effect in library().values():
+        assert effect.sign_convention, effect.id
+        assert effect.source, effect.id
+        assert len(effect.states) == 0 or effect.rates is not None, effect.id
+        assert ("state" in effect.needs) == bool(effect.states), effect.id
+        for parameter in effect.parameters:
+            assert parameter.meaning, effect.id
+
+
+def test_stems_are_no_others_and_end_in_no_digit_but_the_reports() -> None:
+    stems = [p.stem for effect in library().values() for p in effect.parameters]
+    stems += [state.stem for effect in library().values() for state in effect.states]
+    assert len(stems) == len(set(stems))
+    assert {stem for stem in stems if stem[-1].isdigit()} == {"K0", "F0"}
+
+
+def test_asymmetric_friction(tmp_path: Path) -> None:
+    viscous = torque(arm(tmp_path, "asymmetric_viscous"), {"Fvp1": 3, "Fvn1": 7}, qd=SPEEDS)
+    assert viscous == pytest.approx([-14, -0.7, 0, 0.9, 15])
+    coulomb = torque(arm(tmp_path, "asymmetric_coulomb"), {"Fcp1": 3, "Fcn1": 7}, qd=SPEEDS)
+    assert coulomb == pytest.approx([-7, -7, -2, 3, 3])
+
+
+@pytest.mark.parametrize(("exponent", "expected"), [("2", 12 * 4), ("1", 12 * 2), ("1/2", 12 * 2**0.5)])
+def test_power_friction(tmp_path: Path, exponent: str, expected: float) -> None:
+    model = arm(tmp_path, "power_friction", f"v: 0.5 rad/s, exponent: {exponent}")
+    assert torque(model, {"Fp1": 12}, qd=[-1, 0, 0.5, 1]) == pytest.approx([-expected, 0, 12, expected])
+
+
+def test_stribeck_friction_falls_from_rest(tmp_path: Path) -> None:
+    model = arm(tmp_path, "stribeck_friction", "vs: 0.1 rad/s")
+    assert torque(model, {"Fst1": 5}, qd=[0, 1e-9, 0.1, -0.1, 3]) == pytest.approx(
+        [0, 5, 5 / np.e, -5 / np.e, 0], abs=1e-12
+    )
+    tustin = torque(arm(tmp_path, "stribeck_friction", "vs: 0.1 rad/s, exponent: 1"), {"Fst1": 5}, qd=[0.2])
+    assert tustin == pytest.approx(5 * np.exp(-2))
+
+
+def test_gradual_friction_rises_from_rest(tmp_path: Path) -> None:
+    model = arm(tmp_path, "gradual_friction", "v0: 0.01 rad/s")
+    assert torque(model, {"Fg1": 5}, qd=[0, 1e-4, 0.01, 1, -1]) == pytest.approx(
+        [0, 5 * np.tanh(0.01), 5 * np.tanh(1), 5, -5]
+    )
+
+
+def test_load_friction_is_a_part_of_the_static_load(tmp_path: Path) -> None:
+    model = arm(tmp_path, "load_friction")
+    weight = {"MX1": 3, "ZZ1": 2}
+    q = np.array([0, 0, np.pi / 3, np.pi, 0])
+    load = 10 * 3 * np.cos(q)
+    without = torque(model, weight, q=q, qd=SPEEDS, qdd=4)
+    rubbing = torque(model, {**weight, "Fl1": 0.1}, q=q, qd=SPEEDS, qdd=4) - without
+    assert without == pytest.approx(load + 2 * 4)
+    assert rubbing == pytest.approx(0.1 * np.sign(SPEEDS) * np.abs(load))
+    # A wrench and a payload of the tool load the transmission too; here they take the whole load away.
+    nothing = {"wrench": [0, -60, 0, 0, 0, 0], "payload": np.zeros(10)}
+    held = call(model, "inverse_dynamics_loaded", {**weight, "Fl1": 0.1}, qd=[1.0], **nothing)
+    assert held == pytest.approx(0, abs=1e-9)
+    hung = {"wrench": np.zeros(6), "payload": [0, 0, 0, 0, 0, 0, 0, 0, 0, 2]}
+    held = call(model, "inverse_dynamics_loaded", {**weight, "Fl1": 0.1}, qd=[1.0], **hung)
+    assert held == pytest.approx(1.1 * 10 * (3 + 2 * 0.5))
+
+
+def one_slide(*effects: EffectUse) -> Robot:
+    return robot("slide", (joint(1, PRISMATIC),), gravity=STANDARD_GRAVITY, effects=effects)
+
+
+def test_a_load_that_never_changes_is_no_effect_of_its_own() -> None:
+    alone = Model(one_slide(EffectUse("load_friction", (1,))))
+    assert [parameter.name for parameter in alone.base_parameters] == ["M1", "Fl1"]
+    both = one_slide(EffectUse("coulomb_friction", (1,)), EffectUse("load_friction", (1,)))
+    with pytest.raises(InputError, match="the load of Fl1 is constant"):
+        _ = Model(both).base_parameters
+
+
+def test_what_nothing_loads_rubs_not() -> None:
+    upright = robot("turntable", (joint(1, REVOLUTE),), effects=(EffectUse("load_friction", (1,)),))
+    (gone,) = (one for one in Model(upright).grouping.eliminated if one.name == "Fl1")
+    assert (gone.rule, gone.into) == ("nothing loads the joint", ())
+
+
+def test_position_friction(tmp_path: Path) -> None:
+    model = arm(tmp_path, "position_friction", "order: 2")
+    q = np.array([0.3, 0.3, 0.3, 0.8, 0.8])
+    expected = np.sign(SPEEDS) * (2 * np.cos(2 * q) - 3 * np.sin(2 * q))
+    assert torque(model, {"Fqc1": 2, "Fqs1": -3}, q=q, qd=SPEEDS) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("effect", "stem", "order"), [("motor_ripple", "Rm", 50), ("wave_generator_ripple", "Rw", 100)]
+)
+def test_ripple_follows_the_motor(tmp_path: Path, effect: str, stem: str, order: int) -> None:
+    q = np.linspace(-1, 1, 5)
+    expected = 2 * np.cos(order * q) - 3 * np.sin(order * q)
+    found = torque(arm(tmp_path, effect), {f"{stem}c1": 2, f"{stem}s1": -3}, q=q, qd=SPEEDS)
+    assert found == pytest.approx(expected, abs=1e-12)
+
+
+def test_coupled_motors_share_their_ripple_by_equal_power() -> None:
+    made = every_effect()
+    (wrist,) = (one for one in effects_of(made) if one.effect.id == "motor_ripple" and one.joint.number == 2)
+    cosine, _ = wrist.columns()
+    assert set(cosine) == {1, 2}
+    assert (cosine[1] / cosine[2]).equals(Rational(5, 4) / Rational(-165, 4))
+
+
+def test_ripple_of_a_motor_needs_drives(tmp_path: Path) -> None:
+    path = tmp_path / "arm.yaml"
+    path.write_text(ARM.format(effect="motor_ripple", values="").replace("drives: {gear_ratios: [50]}\n", ""))
+    with pytest.raises(InputError, match=r":8:14: effect motor_ripple needs the motor's position"):
+        derive(read(path), ())
+
+
+def test_a_value_has_the_unit_of_its_joint() -> None:
+    speed = {"vs": Quantity(Rational(1, 10), "rad/s")}
+    with pytest.raises(InputError, match="vs is given in rad/s, expected a value in m/s"):
+        effects_of(one_slide(EffectUse("stribeck_friction", (1,), speed)))
+
+
+@pytest.mark.parametrize("other", [1, 2, 7])
+def test_the_other_joint_of_a_rotor_is_another_that_moves(other: int) -> None:
+    values = {"other": Quantity(Integer(other), "1"), "ratio": Quantity(Integer(1), "1")}
+    with pytest.raises(InputError, match=f"other of joint 1 is {other}, expected a second joint"):
+        effects_of(one_slide(EffectUse("coupled_rotor", (1,), values)))
+
+
+def test_a_joint_has_one_balancer() -> None:
+    made = every_effect()
+    doubled = replace(made, effects=(*made.effects, replace(made.effects[0], joints=(2,))))
+    with pytest.raises(InputError, match="joint 2 has two balancers"):
+        effects_of(doubled)
+
+
+def test_warm_friction_drifts_with_the_warmth(tmp_path: Path) -> None:
+    model = arm(tmp_path, "warm_friction")
+    found = torque(model, {"Fvw1": -2, "Fcw1": -3}, qd=SPEEDS, warmth=[0, 0.5, 1, 1, 0.5])
+    assert found == pytest.approx([0, 0.5 * (0.2 + 3), 0, -0.6 - 3, 0.5 * (-10 - 3)])
+
+
+# -- states -----------------------------------------------------------------------------------------------------------
+
+#: Values of the effects with a state: presliding within 0.01 rad.
+STATEFUL = {
+    "dahl_friction": ("xs: 0.01 rad", {"Fd1": 8.0}),
+    "lugre_friction": ("xs: 0.01 rad, excess: 0.5, vs: 0.2 rad/s", {"Fz1": 8.0}),
+    "hysteresis": ("xs: 0.01 rad", {"Fh1": 8.0}),
+}
+
+
+def test_every_effect_with_a_state_is_integrated_here() -> None:
+    assert {effect.id for effect in library().values() if effect.states} == set(STATEFUL)
+
+
+def pushed(model: Model, parameters: Mapping[str, float], speeds: Vector, dt: float) -> tuple[Vector, Vector]:
+    """State and torque along a motion of given speeds, the state from zero by Heun's rule."""
+    state, states, torques = 0.0, [], []
+    for qd in speeds:
+        rate = call(model, "effect_rates", {}, qd=[qd], states=state)[0]
+        ahead = call(model, "effect_rates", {}, qd=[qd], states=state + rate * dt)[0]
+        state += (rate + ahead) / 2 * dt
+        states.append(state)
+        torques.append(torque(model, parameters, qd=[qd], states=state)[0])
+    return np.array(states), np.array(torques)
+
+
+@pytest.mark.parametrize("effect", STATEFUL)
+def test_a_long_motion_ends_at_coulombs_friction(tmp_path: Path, effect: str) -> None:
+    values, parameters = STATEFUL[effect]
+    model = arm(tmp_path, effect, values)
+    for direction in (1, -1):
+        _, torques = pushed(model, parameters, np.full(200, direction * 1.0), 0.001)
+        assert torques[-1] == pytest.approx(8.0 * direction, rel=1e-3)
+
+
+@pytest.mark.parametrize("effect", STATEFUL)
+def test_a_small_push_is_a_spring(tmp_path: Path, effect: str) -> None:
+    values, parameters = STATEFUL[effect]
+    _, torques = pushed(arm(tmp_path, effect, values), parameters, np.full(10, 1e-3), 0.001)
+    assert torques[-1] == pytest.approx(8.0 / 0.01 * 1e-5, rel=1e-2)
+
+
+@pytest.mark.parametrize("effect", STATEFUL)
+def test_a_cycle_takes_work_and_no_part_of_it_gives_any(tmp_path: Path, effect: str) -> None:
+    values, parameters = STATEFUL[effect]
+    t = np.linspace(0, 2, 801)
+    speeds = 0.05 * np.cos(2 * np.pi * t)
+    states, torques = pushed(arm(tmp_path, effect, values), parameters, speeds, t[1])
+    stored = 8.0 * 0.01 * states**2 / 2
+    spent = np.cumsum(torques * speeds) * t[1]
+    assert np.diff(spent - stored).min() > -1e-6
+    assert (spent - stored)[-1] > 0.01
+
+
+def test_bristles_stick_better_at_rest_than_they_slide(tmp_path: Path) -> None:
+    values, parameters = STATEFUL["lugre_friction"]
+    model = arm(tmp_path, "lugre_friction", values)
+    _, slow = pushed(model, parameters, np.full(400, 0.004), 0.1)
+    assert slow[-1] == pytest.approx(8.0 * 1.5, rel=1e-3)
+    damped = torque(model, {"Dz1": 3}, qd=[0.4], states=0.0)
+    assert damped == pytest.approx(3 * 0.4)
+
+
+def test_states_are_in_the_manifest_and_only_where_they_are_read(tmp_path: Path) -> None:
+    model = arm(tmp_path, "dahl_friction", "xs: 1 mrad")
+    inputs = {name: [signal.name for signal in f.inputs] for name, f in model.functions.items()}
+    assert inputs["inverse_dynamics"] == ["q", "qd", "qdd", "states"]
+    assert inputs["effect_rates"] == ["q", "qd", "states"]
+    assert [state.name for state in model.effect_states] == ["zd1"]
