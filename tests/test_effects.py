@@ -21,6 +21,7 @@ from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import parameter_vector
 from generator.units import Quantity
 from tests.chains import STANDARD_GRAVITY, every_effect, joint, robot
+from tests.effects_page import PATH, with_library
 from tests.subject import Vector
 
 #: An arm that hangs on a horizontal axis: x is across gravity at q = 0.
@@ -66,6 +67,11 @@ def test_every_effect_has_a_second_law_and_is_on_the_robot_that_has_all() -> Non
     emitted = {effect.id for effect in library().values() if "qe" not in effect.needs}
     assert emitted == set(LAWS)
     assert emitted == {use.effect for use in every_effect().effects}
+
+
+def test_the_page_of_the_library_is_that_of_today() -> None:
+    text = PATH.read_text(encoding="utf-8")
+    assert with_library(text) == text, "`python -m tests.effects_page` rewrites it"
 
 
 def test_every_effect_is_stated_completely() -> None:

@@ -25,22 +25,22 @@ def torque(instance: Instance, index: str) -> list[Equation]:
         symbol = sympy.Symbol(_indexed(f"{parameter.stem}{instance.suffix}", index), real=True)
         for number, per_unit in column.items():
             totals[number] = totals.get(number, sympy.Integer(0)) + symbol * per_unit
-    motor = instance.suffix == "m" or "qe" in instance.effect.needs
-    here, side = instance.joint.number, f"m,{index}" if motor else index
-    renamed = {
-        site.q: _indexed("q", side),
-        site.qd: _indexed("qd", side),
-        site.qdd: _indexed("qdd", side),
-        site.elongation: f"q_e,{index}",
-        site.load: _indexed("load", index),
-        site.warmth: _indexed("warmth", index),
-        **{site.state(state.stem): _indexed(state.stem, index) for state in instance.effect.states},
-    }
-    symbols = {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
+    side, symbols = _side(instance, index), _symbols(instance, site, index)
+    here = instance.joint.number
     return [
         Equation(Name(_indexed("tau", side) if number == here else f"tau{number}"), formula(total.subs(symbols)))
         for number, total in totals.items()
     ]
+
+
+def rates(instance: Instance, index: str) -> list[Equation]:
+    """The time derivatives of the effect's states, named with a dash."""
+    if instance.effect.rates is None:
+        return []
+    site = _by_name(instance)
+    symbols = _symbols(instance, site, index)
+    pairs = zip(instance.effect.states, instance.effect.rates(site), strict=True)
+    return [Equation(Name(f"{_indexed(state.stem, index)}'"), formula(rate.subs(symbols))) for state, rate in pairs]
 
 
 def observables(instance: Instance) -> list[Equation]:
@@ -61,6 +61,26 @@ def observables(instance: Instance) -> list[Equation]:
             expression.subs(site.q, 0): sympy.Function(name)(sympy.Integer(0)),
         } | known
     return equations
+
+
+def _side(instance: Instance, index: str) -> str:
+    """What stands below a coordinate: the joint, or its motor."""
+    return f"m,{index}" if instance.suffix == "m" or "qe" in instance.effect.needs else index
+
+
+def _symbols(instance: Instance, site: Site, index: str) -> dict[sympy.Symbol, sympy.Symbol]:
+    """The symbols that the effect's expressions hold, and how they are written."""
+    side = _side(instance, index)
+    renamed = {
+        site.q: _indexed("q", side),
+        site.qd: _indexed("qd", side),
+        site.qdd: _indexed("qdd", side),
+        site.elongation: f"q_e,{index}",
+        site.load: _indexed("load", index),
+        site.warmth: _indexed("warmth", index),
+        **{site.state(state.stem): _indexed(state.stem, index) for state in instance.effect.states},
+    }
+    return {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
 
 
 def _by_name(instance: Instance) -> Site:

@@ -7,7 +7,7 @@ import sympy
 from generator.effects.library import Instance
 from generator.review.decimals import constant, decimal
 from generator.review.formula import Name
-from generator.review.laws import observables, torque
+from generator.review.laws import observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.words import minus, ranges, unit
@@ -31,7 +31,7 @@ def _effect(instances: list[Instance]) -> Markup:
     first, effect = instances[0], instances[0].effect
     index = str(first.joint.number) if len(instances) == 1 else "j"
     told = observables(first)
-    equations = told if told else torque(first, index)
+    equations = [*(told or torque(first, index)), *rates(first, index)]
     joints = ranges(instance.joint.number for instance in instances)
     return element(
         "article",
