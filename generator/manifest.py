@@ -33,7 +33,7 @@ def manifest(model: Model, files: Sequence[str]) -> dict[str, Any]:
         "effects": _effects(model),
         "effect_states": [state.name for state in model.effect_states],
         "flexible": list(robot.flexible),
-        "signals": {name: [float(value) for value in values] for name, values in vars(robot.signals).items()},
+        "signals": {name: [float(value) for value in values] for name, values in vars(robot.signals).items() if values},
         "base_parameters": [parameter.name for parameter in model.base_parameters],
         "parameters": _parameters(model.parameters),
         "built_in": {name: float(value) for name, value in model.constants.items()},

@@ -75,8 +75,8 @@ class Acting:
     direction: Decimal | None = None
 
     def sliding(self, direction: Decimal) -> Acting:
-        """The same with ``direction`` for sign(qd)."""
-        return replace(self, direction=direction)
+        """The same with ``direction`` for sign(qd); what a pair of joints turns has no joint's direction."""
+        return self if self.law.along == "pair" else replace(self, direction=direction)
 
     def torques(self, q: Array, qd: Array, qdd: Array, beside: Beside | None = None) -> dict[str, Array]:
         """What the effect adds to the inverse dynamic model (n each)."""

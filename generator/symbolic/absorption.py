@@ -36,33 +36,44 @@ def absorbed(
     """
     heads = [base.head for base in grouping.base]
     kept = [head for head in heads if head not in effects]
+    span = _orthonormal(w, kept)
     nothing = _TOLERANCE * max(float(np.linalg.norm(w[head])) for head in heads)
     for name in effects:
+        size = float(np.linalg.norm(w[name]))
         if name not in heads:
             continue
-        if name in loaded and np.linalg.norm(w[name]) <= nothing:
+        if name in loaded and size <= nothing:
             grouping = _grouped(grouping, name, {})
             continue
-        coefficients = _coefficients(w[name], np.stack([w[head] for head in kept], axis=1)) if kept else None
-        if coefficients is None:
+        rest = w[name] / size
+        for _ in range(2):  # once more, for what rounding leaves of the first
+            rest = rest - span @ (span.T @ rest)
+        if np.linalg.norm(rest) > _TOLERANCE:
             kept.append(name)
+            span = np.column_stack([span, rest / np.linalg.norm(rest)])
         elif name in loaded:
             problem = f"the load of {name} is constant: other friction of the joint cannot be told from it"
             raise InputError(loaded[name], problem, "a joint whose load changes, or Coulomb friction alone")
         else:
-            grouping = _grouped(grouping, name, dict(zip(kept, coefficients, strict=True)))
+            grouping = _grouped(grouping, name, _coefficients(w, name, kept))
     return grouping
 
 
-def _coefficients(column: NDArray[np.float64], others: NDArray[np.float64]) -> list[sympy.Rational] | None:
-    """The column as a sum of the others, None if it is none."""
-    scale = np.linalg.norm(others, axis=0)
-    size = np.linalg.norm(column)
-    solution = np.linalg.lstsq(others / scale, column / size, rcond=None)[0]
-    if np.linalg.norm(others / scale @ solution - column / size) > _TOLERANCE:
-        return None
+def _orthonormal(w: Mapping[str, NDArray[np.float64]], names: Sequence[str]) -> NDArray[np.float64]:
+    """An orthonormal basis of independent columns."""
+    columns = [w[name] / np.linalg.norm(w[name]) for name in names]
+    return np.linalg.qr(np.column_stack(columns))[0] if columns else np.zeros((len(next(iter(w.values()))), 0))
+
+
+def _coefficients(w: Mapping[str, NDArray[np.float64]], name: str, others: Sequence[str]) -> dict[str, sympy.Rational]:
+    """The column of ``name`` as a sum of the others, which it is."""
+    size = np.linalg.norm(w[name])
+    scale = np.array([np.linalg.norm(w[other]) for other in others])
+    columns = np.column_stack([w[other] for other in others]) / scale
+    solution = np.linalg.lstsq(columns, w[name] / size, rcond=None)[0]
     solution[np.abs(solution) < _TOLERANCE] = 0.0
-    return [sympy.Rational(f"{value:.{_DIGITS}g}") for value in solution * size / scale]
+    exact = (sympy.Rational(f"{value:.{_DIGITS}g}") for value in solution * size / scale)
+    return dict(zip(others, exact, strict=True))
 
 
 def _grouped(grouping: Grouping, name: str, coefficients: Mapping[str, sympy.Rational]) -> Grouping:
