@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from generator.quantities.regressors import standard_columns
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.model import Model
-from generator.symbolic.sparse import sampled
 
 #: Singular values below this part of the largest are zero; the columns are scaled to unit length before.
 _RANK_TOLERANCE = 1e-9
@@ -62,6 +61,5 @@ def _coefficients(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
 
 def _observation_matrix(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
     """The standard regressor over random states, one under the other."""
-    given = model.sampling_inputs({PARAMETERS: model.default_parameters()})
-    columns = sampled(model.program, standard_columns(model), model.dof, given)
+    columns = model.sampled_columns(standard_columns(model), {PARAMETERS: model.default_parameters()})
     return np.stack([columns[name] for name in names], axis=1)

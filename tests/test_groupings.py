@@ -226,7 +226,12 @@ def states(arm: Subject, columns: int) -> Iterator[tuple[Vector, Vector, Vector]
 
 def observed(arm: Subject, names: Sequence[str]) -> Vector:
     """The reference's regressor of the named standard parameters over random states."""
-    rows = [arm.rigid.regressor(names, *map(decimals, state)) for state in states(arm, len(names))]
+    random = Random(1)
+    rows = []
+    for state in states(arm, len(names)):
+        beside = [[random.uniform(-1, 1) for _ in range(n)] for n in (len(arm.model.effect_states), arm.dof)]
+        robot = replace(arm.rigid, states=tuple(decimals(beside[0])), warmth=decimals(beside[1]))
+        rows.append(robot.regressor(names, *map(decimals, state)))
     return np.concatenate(rows).astype(float)
 
 

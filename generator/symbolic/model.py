@@ -23,7 +23,7 @@ from generator.symbolic.flexible import FlexibleDynamics
 from generator.symbolic.frames import Chain, build_chain
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.lowering import lower
-from generator.symbolic.sparse import sampled
+from generator.symbolic.sparse import Columns, sampled
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.strategy import TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
@@ -77,7 +77,7 @@ class Model:
         lengths = tuple(replace(length, symbolic=False) for length in self.robot.lengths)
         numeric = Model(replace(self.robot, lengths=lengths))
         columns = numeric.standard.regressor_columns(names)
-        w = sampled(numeric.program, columns, self.dof, numeric.sampling_inputs({}))
+        w = numeric.sampled_columns(columns, {})
         places = {use.effect: use.place for use in self.robot.effects}
         loaded = {
             name: places[instance.effect.id]
@@ -87,11 +87,15 @@ class Model:
         }
         return absorbed(exact, others, w, loaded)
 
-    def sampling_inputs(self, parameters: Mapping[str, Vector]) -> dict[str, Vector]:
-        """``parameters`` and random values of all that standard columns read beside the motion."""
-        random = np.random.default_rng(1)
-        sizes = {STATES: len(self.effect_states), WARMTH: self.dof, STANDARD: len(self.standard_parameters)}
-        return {**parameters, **{name: random.uniform(0.3, 3.0, size) for name, size in sizes.items()}}
+    def sampled_columns(self, columns: Columns, parameters: Mapping[str, Vector]) -> dict[str, Vector]:
+        """Columns of the standard regressor over random states, one after the other.
+
+        ``parameters`` are the signals of parameters that the columns read; what effects read beside the motion is
+        random, and so are the standard parameters behind a load.
+        """
+        loads = np.random.default_rng(1).uniform(0.3, 3.0, len(self.standard_parameters))
+        varying = {STATES: len(self.effect_states), WARMTH: self.dof}
+        return sampled(self.program, columns, self.dof, {STANDARD: loads, **parameters}, varying)
 
     @cached_property
     def base_parameters(self) -> tuple[Parameter, ...]:

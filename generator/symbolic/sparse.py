@@ -33,15 +33,22 @@ def sparsity(program: Program, columns: Columns, rows: int) -> Sparsity:
 
 
 def sampled(
-    program: Program, columns: Columns, dof: int, given: Mapping[str, NDArray[np.float64]]
+    program: Program,
+    columns: Columns,
+    dof: int,
+    given: Mapping[str, NDArray[np.float64]],
+    varying: Mapping[str, int],
 ) -> dict[str, NDArray[np.float64]]:
-    """Each column over random states, the rows of each state together; ``given`` are further input signals.
+    """Each column over random states, the rows of each state together.
+
+    ``given`` are further input signals, the same in all states; ``varying`` the sizes of those that vary as the motion.
 
     States where an effect is not defined (a gas chamber pressed beyond its end) are left out.
     """
     samples = 3 * (12 + len(columns) // max(dof, 1))
     random = np.random.default_rng(0)
-    inputs = {name: random.uniform(-3.0, 3.0, (samples, dof)) for name in ("q", "qd", "qdd")}
+    sizes = {**dict.fromkeys(("q", "qd", "qdd"), dof), **varying}
+    inputs = {name: random.uniform(-3.0, 3.0, (samples, size)) for name, size in sizes.items()}
     nodes = [entry for column in columns.values() for entry in column.values()]
     with np.errstate(all="ignore"):
         values = evaluate_nodes(program.reachable(nodes), {**inputs, **given})
