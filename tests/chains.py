@@ -311,9 +311,14 @@ def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, .
         and (joint.sigma == REVOLUTE or "load" not in effect.needs)  # the load of a slide may be constant
         and (effect.id, joint.number) not in there
         and not effect.observables
-        and (len(robot.moving) > 1 or not any(shape.joint for shape in effect.shapes))
+        and (_may_turn_with_another(robot) or not any(shape.joint for shape in effect.shapes))
         and draw.random() < often
     )
+
+
+def _may_turn_with_another(robot: Robot) -> bool:
+    """Where a second joint moves; its groupings with the bodies must not depend on symbolic lengths."""
+    return len(robot.moving) > 1 and not any(length.symbolic for length in robot.lengths)
 
 
 def _within(draw: Random, shape: Shape) -> sympy.Expr:

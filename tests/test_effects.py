@@ -8,19 +8,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sympy import Integer, Rational
+from sympy import Integer, Rational, pi
 
 from generator.derivation import derive
 from generator.effects.library import effects_of, library
 from generator.errors import InputError
 from generator.reference.joint_effects import LAWS
-from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, ParameterValue, Robot
+from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, Length, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import parameter_vector
 from generator.units import Quantity
-from tests.chains import STANDARD_GRAVITY, every_effect, joint, robot
+from tests.chains import STANDARD_GRAVITY, every_effect, joint, robot, symbol
 from tests.effects_page import PATH, with_library
 from tests.subject import Vector
 
@@ -199,6 +199,17 @@ def test_the_other_joint_of_a_rotor_is_another_that_moves(other: int) -> None:
     values = {"other": Quantity(Integer(other), "1"), "ratio": Quantity(Integer(1), "1")}
     with pytest.raises(InputError, match=f"other of joint 1 is {other}, expected a second joint"):
         effects_of(one_slide(EffectUse("coupled_rotor", (1,), values)))
+
+
+def test_a_rotor_that_bodies_imitate_by_symbolic_lengths_is_refused() -> None:
+    values = {"other": Quantity(Integer(1), "1"), "ratio": Quantity(Rational(4, 5), "1")}
+    joints = (joint(1, REVOLUTE), joint(2, PRISMATIC, pi / 2, d=symbol("a1")))
+    uses = (EffectUse("coupled_rotor", (2,), values), EffectUse("rotor_inertia", (1, 2)))
+    made = robot("jib", joints, effects=uses, lengths=[Length("a1", Rational(1, 4))])
+    assert any(Model(made).grouping.coefficients("Iar2"))
+    symbolic = replace(made, lengths=(Length("a1", Rational(1, 4), symbolic=True),))
+    with pytest.raises(InputError, match="Iar2 is grouped with other parameters by symbolic lengths"):
+        _ = Model(symbolic).grouping
 
 
 def test_a_joint_has_one_balancer() -> None:

@@ -58,6 +58,10 @@ class Grouping:
         """Base parameter -> {standard parameter: coefficient at the robot's lengths}."""
         return {name: dict(terms) for name, terms in self.numbers.items()}
 
+    def coefficients(self, standard: str) -> list[float]:
+        """How much of a standard parameter each base parameter holds, at the robot's lengths."""
+        return [terms.get(standard, 0.0) for terms in self.numbers.values()]
+
 
 def group(robot: Robot, standard: tuple[str, ...]) -> Grouping:
     """The groupings of ``robot`` for the standard parameters named in ``standard`` (those that are none of the twelve

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -12,6 +12,7 @@ import numpy as np
 import sympy
 
 from generator.effects.library import effects_of, motor_side, states_of
+from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
@@ -40,7 +41,8 @@ class Model:
     A ``plain`` model writes the textbook recursion throughout, with SYMORO's names, to be read beside a paper.
     ``constants`` are parameters whose values [SI] stand in the equations as numbers (see ``symbolic.building_in``).
 
-    Raises InputError where the robot's effects are not those of the library.
+    Raises InputError where the robot's effects are not those of the library; reading the groupings raises it where they
+    cannot be told from other parameters by constant coefficients.
     """
 
     def __init__(self, robot: Robot, plain: bool = False, constants: Mapping[str, Fraction] | None = None) -> None:
@@ -74,18 +76,33 @@ class Model:
         others = [name for instance in self.effects if not instance.effect.drive_train for name in instance.names]
         if not others:
             return exact
-        lengths = tuple(replace(length, symbolic=False) for length in self.robot.lengths)
+        nominal = self._absorbed(exact, others, sympy.Integer(0))
+        if any(length.symbolic for length in self.robot.lengths):
+            moved = self._absorbed(exact, others, sympy.Rational(1, 7))
+            for name in others:
+                here, there = nominal.coefficients(name), moved.coefficients(name)
+                if len(here) != len(there) or not np.allclose(here, there, rtol=1e-8, atol=1e-8):
+                    problem = f"{name} is grouped with other parameters by symbolic lengths"
+                    raise InputError(self._places[name], problem, "lengths that are numbers")
+        return nominal
+
+    def _absorbed(self, exact: Grouping, others: Sequence[str], moved: sympy.Rational) -> Grouping:
+        """The grouping at lengths that are numbers, symbolic ones changed by their places times ``moved``."""
+        names = [parameter.name for parameter in self.standard_parameters]
+        lengths = tuple(
+            replace(one, symbolic=False, value=one.value * (1 + (k + 1) * moved * int(one.symbolic)))
+            for k, one in enumerate(self.robot.lengths)
+        )
         numeric = Model(replace(self.robot, lengths=lengths))
-        columns = numeric.standard.regressor_columns(names)
-        w = numeric.sampled_columns(columns, {})
-        places = {use.effect: use.place for use in self.robot.effects}
-        loaded = {
-            name: places[instance.effect.id]
-            for instance in self.effects
-            if "load" in instance.effect.needs
-            for name in instance.names
-        }
+        w = numeric.sampled_columns(numeric.standard.regressor_columns(names), {})
+        loaded = {name: self._places[name] for one in self.effects if "load" in one.effect.needs for name in one.names}
         return absorbed(exact, others, w, loaded)
+
+    @property
+    def _places(self) -> dict[str, Place]:
+        """Where the file asks for the effect of each parameter."""
+        places = {use.effect: use.place for use in self.robot.effects}
+        return {name: places[one.effect.id] for one in self.effects for name in one.names}
 
     def sampled_columns(self, columns: Columns, parameters: Mapping[str, Vector]) -> dict[str, Vector]:
         """Columns of the standard regressor over random states, one after the other.
