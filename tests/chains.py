@@ -284,7 +284,8 @@ def every_effect() -> Robot:
     )
     balancers = (spring_balancer((1,), draw), gas_balancer((2,), draw))
     made = robot("every_effect", joints, effects=balancers, drives=drives, flexible=(2,))
-    return replace(made, effects=(*balancers, *more_effects(draw, made, 1.0)))
+    loose = EffectUse("joint_elasticity", (2,), {"gap": Quantity(Rational(1, 100), "rad")})
+    return replace(made, effects=(*balancers, *more_effects(draw, made, 1.0), loose))
 
 
 def any_effect(draw: Random, effect: Effect, joint: Joint, others: Sequence[int]) -> EffectUse:

@@ -64,9 +64,7 @@ SPEEDS = np.array([-2.0, -0.1, 0.0, 0.3, 5.0])
 
 
 def test_every_effect_has_a_second_law_and_is_on_the_robot_that_has_all() -> None:
-    emitted = {effect.id for effect in library().values() if "qe" not in effect.needs}
-    assert emitted == set(LAWS)
-    assert emitted == {use.effect for use in every_effect().effects}
+    assert set(library()) == set(LAWS) == {use.effect for use in every_effect().effects}
 
 
 def test_the_page_of_the_library_is_that_of_today() -> None:
@@ -294,3 +292,36 @@ def test_states_are_in_the_manifest_and_only_where_they_are_read(tmp_path: Path)
     assert inputs["inverse_dynamics"] == ["q", "qd", "qdd", "states"]
     assert inputs["effect_rates"] == ["q", "qd", "states"]
     assert [state.name for state in model.effect_states] == ["zd1"]
+
+
+# -- backlash ---------------------------------------------------------------------------------------------------------
+
+LOOSE = ARM.replace("effects:", "flexible: all\neffects:")
+
+
+def test_a_spring_pulls_beyond_its_gap_alone(tmp_path: Path) -> None:
+    path = tmp_path / "loose.yaml"
+    path.write_text(LOOSE.format(effect="joint_elasticity", values="gap: 2 mrad"))
+    model = derive(read(path), ("flexible_inverse_dynamics",))
+    parameters = parameter_vector(model, {"k1": ParameterValue(1e4, "")})
+    elongations = np.array([-5e-3, -1e-3, -2e-4, 0, 1e-3, 1.5e-3])
+    q = np.stack([np.full(6, 0.3), elongations], axis=1)
+    inputs = {"q": q, "qd": 0 * q, "qdd": 0 * q, "parameters": parameters}
+    found = evaluate(model.functions["flexible_inverse_dynamics"], inputs)["tau_mdi"][:, 0]
+    assert found == pytest.approx([40, 0, 0, 0, 0, -5], abs=1e-9)
+
+
+def test_backlash_needs_an_elastic_drive_train(tmp_path: Path) -> None:
+    path = tmp_path / "stiff.yaml"
+    path.write_text(ARM.format(effect="joint_elasticity", values="gap: 2 mrad"))
+    with pytest.raises(
+        InputError, match=":9:14: the drive train of joint 1 is not elastic, expected a joint of flexible"
+    ):
+        derive(read(path), ())
+
+
+def test_a_gap_is_not_negative(tmp_path: Path) -> None:
+    path = tmp_path / "loose.yaml"
+    path.write_text(LOOSE.format(effect="joint_elasticity", values="gap: -2 mrad"))
+    with pytest.raises(InputError, match="gap is -1/500"):
+        derive(read(path), ())

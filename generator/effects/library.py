@@ -80,7 +80,7 @@ def library() -> Mapping[str, Effect]:
 
 
 def effects_of(robot: Robot) -> tuple[Instance, ...]:
-    """The effects of a robot's rigid model, joint by joint in the order of the library.
+    """The effects of a robot's rigid model, joint by joint in the order of the library; elasticity is not one of them.
 
     Raises InputError for an unknown effect or value, a value with the wrong unit or out of its bounds, an effect given
     twice on a joint or on a joint that cannot carry it.
@@ -96,6 +96,8 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
                 raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
             if joint.sigma not in effect.kinds:
                 raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
+            if "qe" in effect.needs and number not in robot.flexible:
+                raise InputError(use.place, f"the drive train of joint {number} is not elastic", "a joint of flexible")
             balancers = [one for (j, _), one in instances.items() if j == number and one.effect.observables]
             if balancers and effect.observables:
                 raise InputError(use.place, f"joint {number} has two balancers", "one, whose outputs carry its number")
@@ -103,9 +105,10 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
             site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
-    _check_names(robot, list(instances.values()))
+    rigid = {key: one for key, one in instances.items() if "qe" not in one.effect.needs}
+    _check_names(robot, list(rigid.values()))
     order = list(library())
-    return tuple(instances[key] for key in sorted(instances, key=lambda key: (key[0], order.index(key[1]))))
+    return tuple(rigid[key] for key in sorted(rigid, key=lambda key: (key[0], order.index(key[1]))))
 
 
 def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:
@@ -141,15 +144,21 @@ def motor_side(robot: Robot) -> tuple[Instance, ...]:
         for effect in library().values():
             if effect.drive_train:
                 suffix = "" if "qe" in effect.needs else "m"
-                sides.append(Instance(effect, Site(robot.joints[number - 1]), suffix))
+                joint = robot.joints[number - 1]
+                sides.append(Instance(effect, Site(joint, _motor_values(robot, effect, joint)), suffix))
     return tuple(sides)
+
+
+def _motor_values(robot: Robot, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:
+    """The values of a drive train's effect: those that the file gives on the joint, else the defaults."""
+    uses = [use for use in robot.effects if use.effect == effect.id and joint.number in use.joints]
+    return _values(uses[0] if uses else EffectUse(effect.id, (joint.number,)), effect, joint)
 
 
 def _effect(use: EffectUse) -> Effect:
     effect = library().get(use.effect)
-    if effect is None or "qe" in effect.needs:
-        known = [name for name, one in library().items() if "qe" not in one.needs]
-        raise InputError(use.place, f"unknown effect {use.effect!r}", _one_of(use.effect, known))
+    if effect is None:
+        raise InputError(use.place, f"unknown effect {use.effect!r}", _one_of(use.effect, list(library())))
     return effect
 
 

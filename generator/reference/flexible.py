@@ -5,13 +5,13 @@ The link side is the rigid robot at q_a = q_m + q_e; an elastic joint's motor ha
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
 import numpy as np
 
-from generator.reference.arithmetic import Array, sign, solve, zeros
+from generator.reference.arithmetic import Array, exact, sign, solve, zeros
 from generator.reference.rigid import Rigid
 from generator.robot.description import Robot
 
@@ -21,10 +21,14 @@ MOTOR_SIDE = ("Iam", "Fvm", "Fcm", "Offm", "k")
 
 @dataclass(frozen=True)
 class Flexible:
-    """``link`` is the robot behind the springs; ``elastic`` maps each elastic joint's coordinate to its number."""
+    """``link`` is the robot behind the springs; ``elastic`` maps each elastic joint's coordinate to its number.
+
+    ``gaps`` are the backlashes by joint number, where there are any.
+    """
 
     link: Rigid
     elastic: dict[int, int]
+    gaps: Mapping[int, Decimal]
 
     @property
     def dof(self) -> int:
@@ -41,7 +45,7 @@ class Flexible:
         of_links = self.link.inverse_dynamics(self.at_links(q), self.at_links(qd), self.at_links(qdd))
         tau = of_links.copy()
         for e, (i, number) in enumerate(self.elastic.items()):
-            columns = _columns(q[self.dof + e], qd[i], qdd[i])
+            columns = _columns(self.wound(number, q[self.dof + e]), qd[i], qdd[i])
             tau[i] = sum((self.value(stem, number) * column for stem, column in columns.items()), Decimal(0))
         return tau, of_links[list(self.elastic)]
 
@@ -56,7 +60,7 @@ class Flexible:
         right[:n] = tau - at_rest
         for e, (i, number) in enumerate(self.elastic.items()):
             left[n + e] = left[i]
-            right[n + e] = -self.value("k", number) * q[n + e] - of_links[e]
+            right[n + e] = -self.value("k", number) * self.wound(number, q[n + e]) - of_links[e]
             left[i] = zeros(size)
             left[i, i] = self.value("Iam", number)
         return solve(left, right)
@@ -69,7 +73,7 @@ class Flexible:
         n = self.dof
         known: dict[str, Array] = {}
         for e, (i, number) in enumerate(self.elastic.items()):
-            for stem, torque in _columns(q[n + e], qd[i], qdd[i]).items():
+            for stem, torque in _columns(self.wound(number, q[n + e]), qd[i], qdd[i]).items():
                 column = known[f"{stem}{number}"] = zeros(n + len(self.elastic))
                 column[i] = torque
                 if stem == "k":
@@ -80,6 +84,11 @@ class Flexible:
             column = known[name] = np.concatenate([torques, torques[list(self.elastic)]])
             column[list(self.elastic)] = Decimal(0)
         return np.stack([known[name] for name in columns], axis=1)
+
+    def wound(self, number: int, qe: Decimal) -> Decimal:
+        """What is left of the elongation beyond the backlash, half of it either way."""
+        half = self.gaps.get(number, Decimal(0)) / 2
+        return qe - half if qe > half else qe + half if qe < -half else Decimal(0)
 
     def value(self, stem: str, number: int) -> Decimal:
         """A motor-side parameter; zero if it was not given."""
@@ -94,4 +103,6 @@ def _columns(qe: Decimal, qmd: Decimal, qmdd: Decimal) -> dict[str, Decimal]:
 def flexible(robot: Robot, link: Rigid) -> Flexible:
     """``robot`` with springs on its elastic joints; ``link`` is the same robot, rigid."""
     elastic = {i: joint.number for i, joint in enumerate(robot.moving) if joint.number in robot.flexible}
-    return Flexible(link, elastic)
+    uses = [use for use in robot.effects if use.effect == "joint_elasticity" and "gap" in use.values]
+    gaps = {number: exact(use.values["gap"].value) for use in uses for number in use.joints}
+    return Flexible(link, elastic, gaps)

@@ -22,6 +22,8 @@ LAWS: Mapping[str, Law] = {
         kinetic=lambda at: (at.qd * at.qd / 2, Decimal(0), Decimal(0)),
         along="pair",
     ),
+    # Of the flexible robot alone, with its own parameters: see ``flexible``.
+    "joint_elasticity": Law((), lambda at: ()),
     "offset": Law(("Off",), lambda at: (Decimal(1),)),
     "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), on_link=True),
     "cable_spring": Law(
