@@ -84,10 +84,11 @@ def _symbols(instance: Instance, site: Site, index: str) -> dict[sympy.Symbol, s
 
 
 def _by_name(instance: Instance) -> Site:
-    """The effect's site with its values as symbols; pure numbers such as an exponent stay numbers."""
+    """The effect's site with its values as symbols; zeros and pure numbers such as an exponent stay numbers."""
     kept = {shape.name for shape in instance.effect.shapes if shape.unit == "1"}
     values = {
-        name: value if name in kept else sympy.Symbol(name, real=True) for name, value in instance.site.values.items()
+        name: value if name in kept or value == 0 else sympy.Symbol(name, real=True)
+        for name, value in instance.site.values.items()
     }
     return replace(instance.site, values=values)
 
