@@ -55,7 +55,7 @@ def libraries(model: Model, parameters: Array, folder: Path, flags: Sequence[str
     sources[-1].write_text(_wrapper(robot, model.functions))
     data = write(parameters, folder / "parameters.bin")
     libm = f"{robot.upper()}_USE_LIBM"
-    variants = {WITH_LIBM: (f"-D{libm}",)}
+    variants: dict[str, tuple[str, ...]] = {WITH_LIBM: (f"-D{libm}",)}
     if any(libm in path.read_text() for path in sources):
         variants = {NAME: (), **variants}
     result = []

@@ -96,7 +96,8 @@ class Subject:
     def grouping(self) -> Array:
         """The coefficients (base x standard) of the standard parameters in the base parameters."""
         of = self.model.grouping.numeric()
-        return np.array([[of[base].get(name, 0.0) for name in self.standard] for base in self.base])
+        rows = ([of[base].get(name, 0.0) for name in self.standard] for base in self.base)
+        return np.array(list(rows), dtype=float)
 
     @cached_property
     def links(self) -> tuple[Link, ...]:
@@ -106,7 +107,8 @@ class Subject:
     def states(self) -> Array:
         """Q, qd, qdd and tau (states x 4 x n): any position, moderate speeds, accelerations and torques."""
         scale = np.array([3.1, 2.0, 5.0, 500.0])
-        return np.random.default_rng(1).uniform(-1.0, 1.0, (STATES, 4, self.dof)) * scale[:, None]
+        states: Array = np.random.default_rng(1).uniform(-1.0, 1.0, (STATES, 4, self.dof)) * scale[:, None]
+        return states
 
     def body(self, link: Link) -> list[float]:
         """The dynamic parameters of a link's body, in the order of ``DYNAMIC``."""

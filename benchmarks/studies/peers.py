@@ -6,6 +6,7 @@ for scale. ``python -m benchmarks.studies.peers`` prints the table.
 
 from __future__ import annotations
 
+import sys
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -65,8 +66,11 @@ def _measured(subject: Subject, folder: Path, absent: dict[str, str]) -> list[Ti
         try:
             return list(peer.build(subject, folder))
         except Missing as missing:
-            absent[peer.NAME] = str(missing)
-            return []
+            absent[peer.NAME] = f"{missing} is missing"
+        except RuntimeError as error:
+            print(error, file=sys.stderr)
+            absent[peer.NAME] = "its build fails here"
+        return []
 
     peers = sorted(_peers(), key=lambda peer: peer is not ours)
     with ThreadPoolExecutor(max_workers=2) as pool:
@@ -124,7 +128,7 @@ def _notes(best: Sequence[Timed], errors: Mapping[str, float], absent: Mapping[s
     builds = (f"{peer} {' and '.join(sorted(built))}" for peer, built in chosen.items())
     yield f"Builds that were the faster ones: {'; '.join(builds)}."
     yield f"Largest difference of two results, relative to the largest entry: {max(errors.values()):.1g}."
-    yield from (f"{peer}: not measured: {reason} is missing" for peer, reason in absent.items())
+    yield from (f"{peer}: not measured: {reason}" for peer, reason in absent.items())
 
 
 if __name__ == "__main__":
