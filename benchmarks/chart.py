@@ -29,8 +29,8 @@ class Group:
     bars: Mapping[str, float]
 
 
-def chart(title: str, groups: Sequence[Group]) -> str:
-    """Horizontal bars in groups, a legend above them, and a line at 1, which all of them are multiples of."""
+def chart(title: str, groups: Sequence[Group], unit: str) -> str:
+    """Horizontal bars in groups, a legend above them, and a line at 1, which is ``unit``."""
     names = list(dict.fromkeys(name for group in groups for name in group.bars))
     longest = max(value for group in groups for value in group.bars.values())
     drawn = [element("style", _STYLE), text(0, 15, title, kind="title", anchor="start"), *_legend(names)]
@@ -44,10 +44,11 @@ def chart(title: str, groups: Sequence[Group]) -> str:
             drawn.append(text(_LEFT + length + 5, y + _BAR - 4, f"{value:.1f}", kind="value", anchor="start"))
             y += _BAR
         y += _GAP
-    unit = pixel(_LEFT + _length(1.0, longest))
-    drawn.append(element("line", class_="unit", x1=unit, x2=unit, y1=pixel(begin - 4), y2=pixel(y - _GAP + 4)))
+    at = _LEFT + _length(1.0, longest)
+    drawn.append(element("line", class_="unit", x1=pixel(at), x2=pixel(at), y1=pixel(begin - 4), y2=pixel(y - 4)))
+    drawn.append(text(at, y + 8, f"1 = {unit}", kind="value"))
     described = "; ".join(f"{group.name}: {_told(group)}" for group in groups)
-    return svg(_WIDTH, y, title, described, join(*drawn, by="\n")) + "\n"
+    return svg(_WIDTH, y + 14, title, described, join(*drawn, by="\n")) + "\n"
 
 
 def _told(group: Group) -> str:

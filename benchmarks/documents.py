@@ -1,7 +1,11 @@
-"""Results in the documents: tables between pairs of comments, and the picture. Nothing here measures."""
+"""Results in the documents: tables between pairs of comments, and the picture. Nothing here measures.
+
+``python -m benchmarks.documents`` writes them anew from ``benchmarks/results.json``.
+"""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -27,7 +31,7 @@ def documented(results: Results) -> dict[Path, str]:
     files = {PERFORMANCE: performance}
     if rows := results["studies"].get("peers", {}).get("rows"):
         files[README] = _replaced(_read(README), "performance", table(summary(rows)))
-        files[PICTURE] = chart("Time of one call, generated code = 1", bars(rows))
+        files[PICTURE] = chart(f"Time of one call, {rows[0]['robot']}", bars(rows), "the generated C")
     return files
 
 
@@ -54,3 +58,13 @@ def _replaced(text: str, name: str, content: str) -> str:
     if not (found and closed) or begin in rest:
         raise ValueError(f"no pair of comments {begin.strip()} {end}")
     return f"{before}{begin}\n{content}\n\n{end}{after}"
+
+
+def main() -> None:
+    """Writes the documents anew from the results that are there."""
+    for path, text in documented(json.loads(RESULTS.read_text(encoding="utf-8"))).items():
+        (ROOT / path).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -17,7 +17,11 @@ def summary(rows: Sequence[Row]) -> list[dict[str, object]]:
     for row in _of_first_robot(rows):
         own, others = _times(row)
         result.append(
-            {"": row["function"], "ns a call": own, **{peer: f"{time / own:.1f} ×" for peer, time in others.items()}}
+            {
+                str(row["robot"]): row["function"],
+                "ns a call": own,
+                **{peer: f"{time / own:.1f} ×" for peer, time in others.items()},
+            }
         )
     return result
 

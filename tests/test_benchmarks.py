@@ -41,7 +41,7 @@ ROW = {
 def test_documents_and_picture_say_what_was_measured() -> None:
     results = json.loads(RESULTS.read_text(encoding="utf-8"))
     wrong = [str(path) for path, text in documented(results).items() if (ROOT / path).read_text("utf-8") != text]
-    assert not wrong, "benchmarks.documents writes them anew from benchmarks/results.json"
+    assert not wrong, "`python -m benchmarks.documents` writes them anew"
 
 
 def test_results_hold_every_study_and_nothing_of_the_place() -> None:
@@ -78,12 +78,12 @@ def test_the_summary_takes_our_first_column_and_the_first_robot() -> None:
     ours_alone = {"robot": "arm", "function": "more", "Counterpoise": 60.0}
     void = {**ROW, **dict.fromkeys(list(ROW)[2:], VOID)}
     rows = [ROW, others, ours_alone, void]
-    assert summary(rows) == [{"": "inverse_dynamics", "ns a call": 50.0, "Other": "8.0 ×"}]
+    assert summary(rows) == [{"arm": "inverse_dynamics", "ns a call": 50.0, "Other": "8.0 ×"}]
     assert bars(rows) == [Group("inverse dynamics", {"Other": 8.0})]
 
 
 def test_the_picture_is_well_formed_and_its_bars_are_to_scale() -> None:
-    drawing = ElementTree.fromstring(chart("times", [Group("a", {"x": 2.0, "y": 4.0}), Group("b", {"y": 1.0})]))
+    drawing = ElementTree.fromstring(chart("times", [Group("a", {"x": 2.0, "y": 4.0}), Group("b", {"y": 1.0})], "one"))
     space = "{http://www.w3.org/2000/svg}"
     lengths = {
         bar.findtext(f"{space}title"): float(bar.attrib["width"])
