@@ -18,6 +18,7 @@ LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-an
 stamp = $(VENV)/.$(1)-$(shell { cat $(2) pyproject.toml; pwd; } | cksum | tr -cd '0-9')
 RUNTIME = $(call stamp,runtime,requirements.lock)
 TESTING = $(call stamp,testing,requirements.lock requirements-test.lock)
+BENCHING = $(call stamp,benching,requirements.lock requirements-test.lock requirements-bench.lock)
 
 export robot
 out ?= generated
@@ -26,7 +27,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list test test-extra format lock twins clean distclean
+.PHONY: help generate all-robots list test test-extra format lock bench twins clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -53,6 +54,9 @@ test: $(TESTING) ## every test that needs Python and a C compiler alone
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra
 
+bench: $(BENCHING) ## time the generated code beside other libraries, into docs/performance.md; only=NAME for one study
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.bench $(if $(only),only="$(only)")
+
 format: $(TESTING) ## lay out the Python files and sort their imports
 	@"$(VENV)/bin/python" -m ruff check --quiet --fix-only --select I .
 	@"$(VENV)/bin/python" -m ruff format --quiet .
@@ -63,6 +67,8 @@ lock: ## resolve the lock files anew (asks the package registry)
 	build/lock/bin/uv pip compile --quiet pyproject.toml --group build $(LOCKING) --output-file requirements.lock
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test \
 	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
+	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test --group bench \
+	    --constraint requirements-test.lock $(LOCKING) --output-file requirements-bench.lock
 
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins
@@ -89,4 +95,9 @@ $(TESTING): $(RUNTIME)
 	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-test.lock
 	@$(VENV)/bin/python -m pip download --quiet --disable-pip-version-check --only-binary :all: --dest $(VENV)/wheels \
 	    --require-hashes -r requirements.lock
+	@touch $@
+
+$(BENCHING): $(TESTING)
+	@echo 'adding the other libraries from requirements-bench.lock'
+	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	@touch $@
