@@ -1,0 +1,168 @@
+"""The generated simulation made callable: compiled with its library, bound by cffi, arrays of numpy in and out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import cffi  # type: ignore[import-untyped]
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from generator.backends import c as c_backend
+from generator.backends import simulation as simulation_backend
+from generator.symbolic.model import Model
+from tests.compiled import run, write
+
+Vector = NDArray[np.float64]
+METHODS = ("RK4", "DP8")
+
+
+def emit(model: Model, folder: Path) -> Path:
+    """Writes library and simulation of ``model``; returns ``folder``."""
+    write(folder / "c", c_backend.library(model, ()))
+    return write(folder / "simulation", simulation_backend.emit(model))
+
+
+@dataclass(frozen=True)
+class Gains:
+    """Of the cascade, one number or one per motor each; see the generated header."""
+
+    kp: ArrayLike
+    kv: ArrayLike
+    ki: ArrayLike
+    limit: ArrayLike
+    period: float = 1e-3
+
+
+@dataclass
+class Run:
+    """A closed loop's log, one row a sample."""
+
+    q: Vector
+    qd: Vector
+    tau: Vector
+    done: int
+    state: Any
+
+
+@dataclass
+class Simulation:
+    """The generated simulation of one robot: ``plant`` is rigid or flexible, ``size`` its number of coordinates."""
+
+    model: Model
+    folder: Path
+    parameters: Vector
+    plant: str = "rigid"
+    flags: Sequence[str] = ("-O2",)
+    _ffi: Any = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Compiles and binds."""
+        self.name = self.model.robot.name
+        self.macro = self.name.upper()
+        self.n = self.model.dof
+        self.size = self.n if self.plant == "rigid" else self.model.flexible_dof
+        emit(self.model, self.folder)
+        sources = [self.folder / "c" / f"{self.name}.c", self.folder / "simulation" / f"{self.name}_simulation.c"]
+        library = self.folder / f"lib{self.name}{len(list(self.folder.iterdir()))}.so"
+        include = f"-I{self.folder / 'c'}"
+        run(["gcc", "-std=c99", "-shared", "-fPIC", *self.flags, include, *sources, "-o", library, "-lm"])
+        self._ffi = cffi.FFI()
+        header = self.folder / "simulation" / f"{self.name}_simulation.h"
+        macros = [flag for flag in self.flags if flag.startswith("-D")]
+        text = run(["gcc", "-std=c99", "-E", "-P", "-D__STDC_HOSTED__=1", *macros, include, header])
+        self._ffi.cdef(_declarations(text, self.name))
+        self._library = self._ffi.dlopen(str(library))
+        self.real = np.dtype(np.float32 if any("USE_FLOAT" in flag for flag in self.flags) else np.float64)
+        self.prepared = self._new("prepared *")
+        params = self._new("params *")
+        params.value = [float(value) for value in self.parameters]
+        self._call("prepare", params, self.prepared)
+
+    def start(self, q: ArrayLike, qd: ArrayLike) -> Any:
+        """A new state."""
+        state = self._new(f"{self.plant}_state *")
+        self._call(f"{self.plant}_start", self.prepared, self._array(q), self._array(qd), state)
+        return state
+
+    def integration(self, method: str = "RK4", steps: int = 1, width: ArrayLike | None = None) -> Any:
+        """How to integrate; without a width with sign friction."""
+        result = self._new("integration *")
+        result.method = getattr(self._library, f"{self.macro}_METHOD_{method}")
+        result.steps = steps
+        if width is not None:
+            self._kept = self._array(np.broadcast_to(np.asarray(width, float), self.size))
+            result.width = self._kept
+        return result
+
+    def advance(self, state: Any, integration: Any, time: float, tau: ArrayLike, tau_ext: ArrayLike | None = None) -> Any:
+        """Moves ``state`` on and returns it."""
+        others = self._ffi.NULL if tau_ext is None else self._array(tau_ext)
+        self._call(f"{self.plant}_advance", self.prepared, integration, time, self._array(tau), others, state)
+        return state
+
+    def control(
+        self, gains: Gains, z: ArrayLike, wanted: Sequence[ArrayLike | None], q: ArrayLike, qd: ArrayLike
+    ) -> tuple[Vector, Vector]:
+        """Torques and integrals after one sample; ``wanted`` is q_ref, qd_ref, tau_ref."""
+        memory, tau = self._new("controller_state *"), self._array(np.zeros(self.n))
+        memory.z = list(map(float, np.asarray(z)))
+        given = [self._ffi.NULL if one is None else self._array(one) for one in wanted]
+        controller = self._controller(gains)
+        self._call("control", self.prepared, controller, *given, self._array(q), self._array(qd), memory, tau)
+        return np.array(list(tau)), np.array(list(memory.z))
+
+    def simulate(
+        self, gains: Gains, integration: Any, reference: Mapping[str, ArrayLike], state: Any, log: bool = True
+    ) -> Run:
+        """The closed loop over all rows of ``reference`` (q, and qd, tau, tau_ext if given)."""
+        rows = len(np.asarray(reference["q"]))
+        wanted = self._new("reference *")
+        arrays = {name: np.ascontiguousarray(value, self.real) for name, value in reference.items()}
+        wanted.samples = rows
+        for name, value in arrays.items():
+            setattr(wanted, name, self._pointer(value))
+        logs = {"q": self.size, "qd": self.size, "tau": self.n}
+        written = {name: np.full((rows + 1, size), np.nan, self.real) for name, size in logs.items()}
+        target = self._new("log *")
+        for name, value in written.items() if log else ():
+            setattr(target, name, self._pointer(value))
+        memory = self._new("controller_state *")
+        controller = self._controller(gains)
+        done = getattr(self._library, f"{self.name}_{self.plant}_simulate")(
+            self.prepared, controller, integration, wanted, memory, state, target
+        )
+        assert all(np.isnan(value[-1]).all() for value in written.values()), "a log was written past its end"
+        return Run(*(value[:-1].astype(float) for value in written.values()), done, state)
+
+    def constant(self, name: str) -> int:
+        """A constant of the header's enumerations."""
+        return int(getattr(self._library, f"{self.macro}_{name}"))
+
+    def _controller(self, gains: Gains) -> Any:
+        result = self._new("controller *")
+        result.period = gains.period
+        for name in ("kp", "kv", "ki", "limit"):
+            setattr(result, name, np.broadcast_to(np.asarray(getattr(gains, name), float), self.n).tolist())
+        return result
+
+    def _call(self, name: str, *arguments: Any) -> None:
+        getattr(self._library, f"{self.name}_{name}")(*arguments)
+
+    def _pointer(self, array: NDArray[Any]) -> Any:
+        return self._ffi.cast(f"{self.name}_real *", array.ctypes.data)
+
+    def _array(self, values: ArrayLike) -> Any:
+        return self._new("real[]", [float(value) for value in np.ravel(values)])
+
+    def _new(self, kind: str, *initial: Any) -> Any:
+        return self._ffi.new(f"{self.name}_{kind}", *initial)
+
+
+def _declarations(text: str, name: str) -> str:
+    """What the two headers declare: from the library's first type on, without the assertions and the system's."""
+    start = min(place for place in (text.find(f"typedef {kind} {name}_real") for kind in ("float", "double")) if place >= 0)
+    return "\n".join(line for line in text[start:].splitlines() if not line.startswith("typedef char "))
