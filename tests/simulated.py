@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,17 +14,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from generator.backends import c as c_backend
 from generator.backends import simulation as simulation_backend
+from generator.backends.printing.runge_kutta import METHODS, Method
 from generator.symbolic.model import Model
 from tests.compiled import run, write
 
 Vector = NDArray[np.float64]
-METHODS = ("RK4", "DP8")
 
 
-def emit(model: Model, folder: Path) -> Path:
+def emit(model: Model, folder: Path, methods: Sequence[Method] = METHODS) -> Path:
     """Writes library and simulation of ``model``; returns ``folder``."""
     write(folder / "c", c_backend.library(model, ()))
-    return write(folder / "simulation", simulation_backend.emit(model))
+    write(folder / "simulation", simulation_backend.sources(model, methods))
+    return folder
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class Run:
     tau: Vector
     done: int
     state: Any
+    seconds: float
 
 
 @dataclass
@@ -57,6 +60,7 @@ class Simulation:
     parameters: Vector
     plant: str = "rigid"
     flags: Sequence[str] = ("-O2",)
+    methods: Sequence[Method] = METHODS
     _ffi: Any = field(init=False)
 
     def __post_init__(self) -> None:
@@ -65,7 +69,7 @@ class Simulation:
         self.macro = self.name.upper()
         self.n = self.model.dof
         self.size = self.n if self.plant == "rigid" else self.model.flexible_dof
-        emit(self.model, self.folder)
+        emit(self.model, self.folder, self.methods)
         sources = [self.folder / "c" / f"{self.name}.c", self.folder / "simulation" / f"{self.name}_simulation.c"]
         library = self.folder / f"lib{self.name}{len(list(self.folder.iterdir()))}.so"
         include = f"-I{self.folder / 'c'}"
@@ -98,10 +102,12 @@ class Simulation:
             result.width = self._kept
         return result
 
-    def advance(self, state: Any, integration: Any, time: float, tau: ArrayLike, tau_ext: ArrayLike | None = None) -> Any:
+    def advance(
+        self, state: Any, integration: Any, seconds: float, tau: ArrayLike, tau_ext: ArrayLike | None = None
+    ) -> Any:
         """Moves ``state`` on and returns it."""
         others = self._ffi.NULL if tau_ext is None else self._array(tau_ext)
-        self._call(f"{self.plant}_advance", self.prepared, integration, time, self._array(tau), others, state)
+        self._call(f"{self.plant}_advance", self.prepared, integration, seconds, self._array(tau), others, state)
         return state
 
     def control(
@@ -132,11 +138,34 @@ class Simulation:
             setattr(target, name, self._pointer(value))
         memory = self._new("controller_state *")
         controller = self._controller(gains)
+        start = time.process_time()
         done = getattr(self._library, f"{self.name}_{self.plant}_simulate")(
             self.prepared, controller, integration, wanted, memory, state, target
         )
+        elapsed = time.process_time() - start
         assert all(np.isnan(value[-1]).all() for value in written.values()), "a log was written past its end"
-        return Run(*(value[:-1].astype(float) for value in written.values()), done, state)
+        return Run(*(value[:-1].astype(float) for value in written.values()), done, state, elapsed)
+
+    def timed(self, gains: Gains, integration: Any, reference: Mapping[str, ArrayLike], state: Any) -> float:
+        """Seconds of a closed loop in C, nothing logged."""
+        return self.simulate(gains, integration, reference, state, log=False).seconds
+
+    def smooth_rate(
+        self, tau: ArrayLike, width: float, tau_ext: ArrayLike | None = None
+    ) -> Callable[[float, Vector], Vector]:
+        """d/dt of [q; qd] with torques held, by the library's model with smooth friction."""
+        others = np.zeros(self.n) if tau_ext is None else np.asarray(tau_ext)
+        flexible = self.plant == "flexible"
+        arrays = [self._array(tau), self._array(others)] if flexible else [self._array(np.asarray(tau) + others)]
+        prefix = "flexible_" if self.plant == "flexible" else ""
+        function = getattr(self._library, f"{self.name}_{prefix}direct_dynamics_smooth")
+        widths, qdd = self._array(np.full(self.size, width)), self._array(np.zeros(self.size))
+
+        def rate(_: float, x: Vector) -> Vector:
+            function(self.prepared, self._array(x[: self.size]), self._array(x[self.size :]), *arrays, widths, qdd)
+            return np.concatenate([x[self.size :], list(qdd)])
+
+        return rate
 
     def constant(self, name: str) -> int:
         """A constant of the header's enumerations."""
@@ -164,5 +193,7 @@ class Simulation:
 
 def _declarations(text: str, name: str) -> str:
     """What the two headers declare: from the library's first type on, without the assertions and the system's."""
-    start = min(place for place in (text.find(f"typedef {kind} {name}_real") for kind in ("float", "double")) if place >= 0)
+    start = min(
+        place for place in (text.find(f"typedef {kind} {name}_real") for kind in ("float", "double")) if place >= 0
+    )
     return "\n".join(line for line in text[start:].splitlines() if not line.startswith("typedef char "))

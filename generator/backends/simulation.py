@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from generator.backends.printing.c_functions import c_language
 from generator.backends.printing.language import LINE
-from generator.backends.printing.runge_kutta import METHODS, Stage, stages
+from generator.backends.printing.runge_kutta import METHODS, Method, Stage, stages
 from generator.backends.printing.signals import paragraph
 from generator.backends.printing.templates import render
 from generator.symbolic.model import Model
@@ -53,6 +53,11 @@ class Integrator:
 
 def emit(model: Model) -> dict[str, str | bytes]:
     """Header and source by their paths."""
+    return sources(model, METHODS)
+
+
+def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
+    """Header and source with these methods, at least two."""
     prefix = model.robot.name
     language = c_language(prefix)
     context = {
@@ -62,9 +67,8 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "digest": model.robot.digest,
         "title": paragraph(f"{prefix}: simulation. {model.robot.description}", LINE - 3),
         "plants": _plants(model),
-        "methods": [Integrator(m.name, m.title, m.order, tuple(stages(m, language))) for m in METHODS],
+        "methods": [Integrator(m.name, m.title, m.order, tuple(stages(m, language))) for m in methods],
         "drives": all(name in model.functions for name in _MAPS),
-        "number": lambda text: language.number(Fraction(text)),
     }
     return {
         f"{prefix}_simulation.h": render("simulation/header.h.jinja", **context),

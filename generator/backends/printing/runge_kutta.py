@@ -21,18 +21,34 @@ _ROUNDING = Fraction(1, 10**14)
 
 @dataclass(frozen=True)
 class Method:
-    """``A`` lower triangular, by rows {column: entry}; ``b`` the weights; ``order`` of the error over a fixed time."""
+    """``A`` lower triangular, by rows {column: entry}; ``b`` the weights; ``order`` of the error over a fixed time.
+
+    ``P`` has the rows of positions, the result's the last, where they are not those of A A.
+    """
 
     name: str
     title: str
     order: int
     A: tuple[Row, ...]
     b: Row
+    P: tuple[Row, ...] = ()
 
     @property
-    def rows(self) -> tuple[Row, ...]:
+    def speeds(self) -> tuple[Row, ...]:
         """The rows of A, then b."""
         return (*self.A, self.b)
+
+    @property
+    def positions(self) -> tuple[Row, ...]:
+        """The rows of A A, then b A, where no others are given."""
+        return self.P or tuple(self._times_A(weights) for weights in self.speeds)
+
+    def _times_A(self, weights: Row) -> Row:
+        product: Row = {}
+        for k, entry in weights.items():
+            for j, inner in self.A[k].items():
+                product[j] = product.get(j, Fraction(0)) + entry * inner
+        return product
 
 
 @dataclass(frozen=True)
@@ -44,7 +60,8 @@ class Stage:
     speed: tuple[str, ...]
 
 
-def _row(entries: Sequence[str] | dict[int, str]) -> Row:
+def row(entries: Sequence[str] | dict[int, str]) -> Row:
+    """A row from its entries as exact numbers, all of them or by column."""
     pairs = entries.items() if isinstance(entries, dict) else enumerate(entries)
     return {column: Fraction(entry) for column, entry in pairs if Fraction(entry) != 0}
 
@@ -54,8 +71,8 @@ RK4 = Method(
     "rk4",
     "Kutta's method of order 4, 4 evaluations a step",
     4,
-    (_row([]), _row(["1/2"]), _row(["0", "1/2"]), _row(["0", "0", "1"])),
-    _row(["1/6", "1/3", "1/3", "1/6"]),
+    (row([]), row(["1/2"]), row(["0", "1/2"]), row(["0", "0", "1"])),
+    row(["1/6", "1/3", "1/3", "1/6"]),
 )
 
 #: Dormand and Prince's method of order 8 as in DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential
@@ -65,14 +82,14 @@ DP8 = Method(
     "Dormand and Prince's method of order 8, 12 evaluations a step",
     8,
     (
-        _row({}),
-        _row({0: "0.05260015195876773"}),
-        _row({0: "0.0197250569845379", 1: "0.0591751709536137"}),
-        _row({0: "0.02958758547680685", 2: "0.08876275643042054"}),
-        _row({0: "0.2413651341592667", 2: "-0.8845494793282861", 3: "0.924834003261792"}),
-        _row({0: "0.037037037037037035", 3: "0.17082860872947386", 4: "0.12546768756682242"}),
-        _row({0: "0.037109375", 3: "0.17025221101954405", 4: "0.06021653898045596", 5: "-0.017578125"}),
-        _row(
+        row({}),
+        row({0: "0.05260015195876773"}),
+        row({0: "0.0197250569845379", 1: "0.0591751709536137"}),
+        row({0: "0.02958758547680685", 2: "0.08876275643042054"}),
+        row({0: "0.2413651341592667", 2: "-0.8845494793282861", 3: "0.924834003261792"}),
+        row({0: "0.037037037037037035", 3: "0.17082860872947386", 4: "0.12546768756682242"}),
+        row({0: "0.037109375", 3: "0.17025221101954405", 4: "0.06021653898045596", 5: "-0.017578125"}),
+        row(
             {
                 0: "0.03709200011850479",
                 3: "0.17038392571223998",
@@ -81,7 +98,7 @@ DP8 = Method(
                 6: "0.008273789163814023",
             }
         ),
-        _row(
+        row(
             {
                 0: "0.6241109587160757",
                 3: "-3.3608926294469414",
@@ -91,7 +108,7 @@ DP8 = Method(
                 7: "-43.48988418106996",
             }
         ),
-        _row(
+        row(
             {
                 0: "0.47766253643826434",
                 3: "-2.4881146199716677",
@@ -102,7 +119,7 @@ DP8 = Method(
                 8: "-0.020331201708508627",
             }
         ),
-        _row(
+        row(
             {
                 0: "-0.9371424300859873",
                 3: "5.186372428844064",
@@ -114,7 +131,7 @@ DP8 = Method(
                 9: "-3.0467644718982196",
             }
         ),
-        _row(
+        row(
             {
                 0: "2.273310147516538",
                 3: "-10.53449546673725",
@@ -128,7 +145,7 @@ DP8 = Method(
             }
         ),
     ),
-    _row(
+    row(
         {
             0: "0.054293734116568765",
             5: "4.450312892752409",
@@ -147,21 +164,23 @@ METHODS = (RK4, DP8)
 
 def stages(method: Method, language: Language) -> list[Stage]:
     """The stages of a step and at last its result, over accelerations f1, f2, ... at place i."""
-    result = []
-    for row in method.rows:
-        squared: Row = {}
-        for k, entry in row.items():
-            for j, inner in method.A[k].items():
-                squared[j] = squared.get(j, Fraction(0)) + entry * inner
-        node = language.number(sum(row.values(), Fraction(0)))
-        result.append(Stage(node, _sum(squared, language), _sum(row, language)))
-    return result
+    pairs = zip(method.positions, method.speeds, strict=True)
+    return [
+        Stage(language.number(_node(speed)), _sum(position, language), _sum(speed, language))
+        for position, speed in pairs
+    ]
 
 
-def _sum(row: Row, language: Language) -> tuple[str, ...]:
+def _node(weights: Row) -> Fraction:
+    """The time of a stage; rounded coefficients that miss a whole step by a rounding make one."""
+    total = sum(weights.values(), Fraction(0))
+    return Fraction(round(total)) if abs(total - round(total)) < _ROUNDING else total
+
+
+def _sum(entries: Row, language: Language) -> tuple[str, ...]:
     """The sum in lines, each after the first begins with its sign; none for an empty sum."""
     lines: list[str] = []
-    for column, factor in sorted(row.items()):
+    for column, factor in sorted(entries.items()):
         if abs(factor) < _ROUNDING:
             continue
         term = f"{language.number(abs(factor))}*f{column + 1}[i]"

@@ -1,0 +1,1 @@
+"""One measured study a module, found by discovery: ``TITLE`` and ``run(build)``."""
