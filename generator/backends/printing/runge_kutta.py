@@ -53,9 +53,9 @@ class Method:
 
 @dataclass(frozen=True)
 class Stage:
-    """One row of a method as text: the factor of h qd, and lines of the sums over f of positions and speeds."""
+    """One row of a method as text: the time that has passed, and lines of the sums over f of positions and speeds."""
 
-    node: str
+    time: str
     position: tuple[str, ...]
     speed: tuple[str, ...]
 
@@ -166,15 +166,15 @@ def stages(method: Method, language: Language) -> list[Stage]:
     """The stages of a step and at last its result, over accelerations f1, f2, ... at place i."""
     pairs = zip(method.positions, method.speeds, strict=True)
     return [
-        Stage(language.number(_node(speed)), _sum(position, language), _sum(speed, language))
+        Stage(_time(speed, language), _sum(position, language), _sum(speed, language))
         for position, speed in pairs
     ]
 
 
-def _node(weights: Row) -> Fraction:
+def _time(weights: Row, language: Language) -> str:
     """The time of a stage; rounded coefficients that miss a whole step by a rounding make one."""
     total = sum(weights.values(), Fraction(0))
-    return Fraction(round(total)) if abs(total - round(total)) < _ROUNDING else total
+    return "h" if abs(total - 1) < _ROUNDING else f"h*{language.number(total)}"
 
 
 def _sum(entries: Row, language: Language) -> tuple[str, ...]:
