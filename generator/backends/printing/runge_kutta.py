@@ -165,10 +165,7 @@ METHODS = (RK4, DP8)
 def stages(method: Method, language: Language) -> list[Stage]:
     """The stages of a step and at last its result, over accelerations f1, f2, ... at place i."""
     pairs = zip(method.positions, method.speeds, strict=True)
-    return [
-        Stage(_time(speed, language), _sum(position, language), _sum(speed, language))
-        for position, speed in pairs
-    ]
+    return [Stage(_time(speed, language), _sum(position, language), _sum(speed, language)) for position, speed in pairs]
 
 
 def _time(weights: Row, language: Language) -> str:
