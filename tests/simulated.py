@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +16,68 @@ from numpy.typing import ArrayLike, NDArray
 from generator.backends import c as c_backend
 from generator.backends import simulation as simulation_backend
 from generator.backends.printing.runge_kutta import METHODS, Method
+from generator.resources import find_robot
+from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.compiled import run, write
+from tests.subject import Subject, subject
 
 Vector = NDArray[np.float64]
+
+QUANTITIES = (
+    "direct_dynamics_sliding",
+    "direct_dynamics_smooth",
+    "flexible_direct_dynamics_sliding",
+    "flexible_direct_dynamics_smooth",
+    "joint_torque",
+    "kinetic_energy",
+    "motor_position",
+    "motor_speed",
+    "motor_torque",
+    "potential_energy",
+)
+#: Robot and plant: wrist coupling and balancers, a prismatic axis beside a rigid one, a tree.
+PLANTS = [
+    ("kr500", "rigid"),
+    ("kr500", "flexible"),
+    ("kr270", "flexible"),
+    ("scara", "rigid"),
+    ("scara", "flexible"),
+    ("tree_two_arms", "rigid"),
+]
+
+
+@cache
+def arm(name: str) -> Subject:
+    return subject(read(find_robot(name)), names=QUANTITIES)
+
+
+def state_of(of: Subject, plant: str, seed: int = 3) -> tuple[Vector, Vector]:
+    """Positions with small elongations, and speeds that keep their signs for a while."""
+    q, qd, _ = of.state(seed)
+    if plant == "rigid":
+        return q, qd
+    elastic = len(of.model.elastic)
+    return np.concatenate([q, np.full(elastic, 1e-3)]), np.concatenate([qd, np.zeros(elastic)])
+
+
+def positions(state: Any) -> Vector:
+    return np.array(list(state.q))
+
+
+#: Compiles a simulation of a subject: its plant, and flags of the compiler.
+Make = Callable[..., "Simulation"]
+
+
+def maker(folder: Path) -> Make:
+    """Makes simulations in folders of their own below ``folder``."""
+
+    def made(of: Subject, plant: str = "rigid", *flags: str) -> Simulation:
+        place = folder / str(len(list(folder.iterdir())))
+        place.mkdir()
+        return Simulation(of.model, place, of.parameters, plant, ("-O1", *flags))
+
+    return made
 
 
 def emit(model: Model, folder: Path, methods: Sequence[Method] = METHODS) -> Path:

@@ -1,48 +1,23 @@
-"""The generated simulation: its integrators, friction with located events, controller and closed loop."""
+"""The generated simulation: its integrators, controller and closed loop."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from sympy import Integer
 
 from generator.backends import c as c_backend
 from generator.c_selftest import WARNINGS
 from generator.resources import find_robot
-from generator.robot.description import FIXED, REVOLUTE
 from generator.robot.readers import read
-from tests.chains import joint, on_all_joints, robot
 from tests.compiled import run, write
-from tests.simulated import METHODS, Gains, Simulation, Vector, emit
+from tests.simulated import METHODS, PLANTS, QUANTITIES, Gains, Make, Vector, arm, emit, maker, positions, state_of
 from tests.subject import Subject, subject
 
-QUANTITIES = (
-    "direct_dynamics_sliding",
-    "direct_dynamics_smooth",
-    "flexible_direct_dynamics_sliding",
-    "flexible_direct_dynamics_smooth",
-    "joint_torque",
-    "kinetic_energy",
-    "motor_position",
-    "motor_speed",
-    "motor_torque",
-    "potential_energy",
-)
-#: Robot and plant: wrist coupling and balancers, a prismatic axis beside a rigid one, a tree.
-PLANTS = [
-    ("kr500", "rigid"),
-    ("kr500", "flexible"),
-    ("kr270", "flexible"),
-    ("scara", "rigid"),
-    ("scara", "flexible"),
-    ("tree_two_arms", "rigid"),
-]
 #: Wide enough that steps resolve the turn of the friction [rad/s].
 WIDE = 0.5
 #: A method's errors with a few steps fall by this much of its order at least.
@@ -50,34 +25,9 @@ SLACK = 0.35
 NAMES = [method.name.upper() for method in METHODS]
 
 
-@cache
-def arm(name: str) -> Subject:
-    return subject(read(find_robot(name)), names=QUANTITIES)
-
-
 @pytest.fixture
-def make(tmp_path: Path) -> Any:
-    """Compiles a simulation of a subject."""
-
-    def made(of: Subject, plant: str = "rigid", *flags: str) -> Simulation:
-        place = tmp_path / str(len(list(tmp_path.iterdir())))
-        place.mkdir()
-        return Simulation(of.model, place, of.parameters, plant, ("-O1", *flags))
-
-    return made
-
-
-def state_of(of: Subject, plant: str, seed: int = 3) -> tuple[Vector, Vector]:
-    """Positions with small elongations, and speeds that keep their signs for a while."""
-    q, qd, _ = of.state(seed)
-    if plant == "rigid":
-        return q, qd
-    elastic = len(of.model.elastic)
-    return np.concatenate([q, np.full(elastic, 1e-3)]), np.concatenate([qd, np.zeros(elastic)])
-
-
-def positions(state: Any) -> Vector:
-    return np.array(list(state.q))
+def make(tmp_path: Path) -> Make:
+    return maker(tmp_path)
 
 
 # -- integrators ------------------------------------------------------------------------------------------------------
@@ -85,7 +35,7 @@ def positions(state: Any) -> Vector:
 
 @pytest.mark.parametrize("method", METHODS, ids=NAMES)
 @pytest.mark.parametrize(("name", "plant"), [("kr500", "rigid"), ("scara", "flexible"), ("tree_two_arms", "rigid")])
-def test_errors_fall_with_the_order_of_the_method(name: str, plant: str, method: Any, make: Any) -> None:
+def test_errors_fall_with_the_order_of_the_method(name: str, plant: str, method: Any, make: Make) -> None:
     of = arm(name)
     simulated = make(of, plant)
     q, qd = state_of(of, plant)
@@ -106,7 +56,7 @@ def test_errors_fall_with_the_order_of_the_method(name: str, plant: str, method:
 
 @pytest.mark.parametrize("method", NAMES)
 @pytest.mark.parametrize(("name", "plant"), PLANTS)
-def test_an_undriven_robot_without_friction_keeps_its_energy(name: str, plant: str, method: str, make: Any) -> None:
+def test_an_undriven_robot_without_friction_keeps_its_energy(name: str, plant: str, method: str, make: Make) -> None:
     of = arm(name).without("Fv", "Fc", "Off", "Fvm", "Fcm", "Offm")
     simulated = make(of, plant)
     state = simulated.start(*state_of(of, plant))
@@ -137,7 +87,7 @@ def total(of: Subject, q: Vector, qd: Vector) -> float:
 
 
 @pytest.mark.parametrize(("name", "plant"), PLANTS)
-def test_a_step_is_what_scipy_integrates(name: str, plant: str, make: Any) -> None:
+def test_a_step_is_what_scipy_integrates(name: str, plant: str, make: Make) -> None:
     of = arm(name)
     simulated = make(of, plant)
     q, qd = state_of(of, plant)
@@ -149,7 +99,7 @@ def test_a_step_is_what_scipy_integrates(name: str, plant: str, make: Any) -> No
         assert np.abs(found - wanted).max() <= 1e-9 * np.abs(wanted).max(), method
 
 
-def test_torques_of_the_surroundings_act_on_the_links(make: Any) -> None:
+def test_torques_of_the_surroundings_act_on_the_links(make: Make) -> None:
     of = arm("scara")
     push, tau = np.array([3.0, -2.0, 40.0, 0.5]), np.array([5.0, 4.0, -20.0, 0.2])
     rigid = make(of, "rigid")
@@ -159,7 +109,7 @@ def test_torques_of_the_surroundings_act_on_the_links(make: Any) -> None:
     apart = rigid.advance(rigid.start(q, qd), how, 0.02, tau, push)
     assert positions(apart) == pytest.approx(positions(together), abs=1e-14)
 
-    # Held where they are by the springs' opposite torque, links do not notice a push.
+    # A push at once accelerates the links, their motors only through the springs.
     flexible = make(of.without("Fv", "Fc"), "flexible")
     still = np.zeros(flexible.size)
     pushed = flexible.advance(flexible.start(still, still), flexible.integration("DP8", 1, WIDE), 1e-6, 0 * push, push)
@@ -170,127 +120,6 @@ def test_torques_of_the_surroundings_act_on_the_links(make: Any) -> None:
     at_links[list(of.model.elastic)] += gained[4:]
     assert at_links == pytest.approx(np.linalg.solve(M, push) * 1e-6, rel=1e-5, abs=1e-12)
     assert np.abs(gained[:3]).max() < 1e-10
-
-
-# -- sign friction ----------------------------------------------------------------------------------------------------
-
-
-def wheel(*effects: str, **values: float) -> Subject:
-    """One joint without weight; parameters by stem."""
-    joints = [joint(1, REVOLUTE), joint(2, FIXED, tool=True)]
-    weightless = (Integer(0), Integer(0), Integer(0))
-    used = on_all_joints(joints, "rotor_inertia", "coulomb_friction", *effects)
-    flexible = (1,) if "k" in values else ()
-    of = subject(robot("wheel", joints, gravity=weightless, effects=used, flexible=flexible), names=QUANTITIES)
-    return of.with_values({f"{stem}1": value for stem, value in values.items()})
-
-
-@pytest.mark.parametrize("method", NAMES)
-def test_a_wheel_slows_down_and_sticks(method: str, make: Any) -> None:
-    simulated = make(wheel(Ia=2.0, Fc=3.0))
-    speed, deceleration = 0.7, 1.5
-    state, how = simulated.start([0.1], [speed]), simulated.integration(method, 3)
-    for k in range(1, 60):
-        simulated.advance(state, how, 0.01, [0.0])
-        t = min(0.01 * k, speed / deceleration)
-        assert state.q[0] == pytest.approx(0.1 + speed * t - deceleration * t * t / 2, abs=1e-13)
-    assert state.qd[0] == 0.0
-    assert state.contact[0] == simulated.constant("CONTACT_STUCK")
-
-
-def test_what_friction_can_hold_stays_at_rest(make: Any) -> None:
-    simulated = make(wheel(Ia=2.0, Fc=3.0))
-    state, how = simulated.start([0.0], [0.0]), simulated.integration("RK4", 2)
-    for tau in (1.0, -2.9, 3.0):
-        simulated.advance(state, how, 0.1, [tau])
-        assert (state.q[0], state.qd[0]) == (0.0, 0.0)
-        assert state.direction[0] == pytest.approx(tau / 3.0)
-    simulated.advance(state, how, 0.1, [-5.0])
-    assert state.qd[0] == pytest.approx(-0.1, abs=1e-13)
-    assert state.direction[0] == -1.0
-    simulated.advance(state, how, 0.2, [5.0])  # to rest after 0.025 s, then the other way
-    assert state.qd[0] == pytest.approx(0.175, abs=1e-9)
-    assert state.direction[0] == 1.0
-
-
-@pytest.mark.parametrize("method", NAMES)
-def test_a_dry_oscillator_loses_the_same_amplitude_each_half_swing(method: str, make: Any) -> None:
-    inertia, stiffness, friction, amplitude = 2.0, 200.0, 5.0, 0.33
-    simulated = make(wheel("joint_spring", Ia=inertia, ks=stiffness, Fc=friction))
-    state, how = simulated.start([amplitude], [0.0]), simulated.integration(method, 10)
-    omega, shift = np.sqrt(stiffness / inertia), friction / stiffness
-
-    def exact(t: float) -> float:
-        half = np.pi / omega
-        swing, start = 0, amplitude
-        while abs(start) > shift and t > half:
-            start, t, swing = -(start - np.sign(start) * 2 * shift), t - half, swing + 1
-        if abs(start) <= shift:
-            return start
-        middle = np.sign(start) * shift
-        return float(middle + (start - middle) * np.cos(omega * t))
-
-    for k in range(1, 301):
-        simulated.advance(state, how, 0.01, [0.0])
-        assert state.q[0] == pytest.approx(exact(0.01 * k), abs=1e-6 if method == "RK4" else 1e-10)
-    assert state.contact[0] == simulated.constant("CONTACT_STUCK")
-    assert abs(state.q[0]) < shift
-
-
-def test_a_link_lets_go_when_its_spring_overcomes_the_friction(make: Any) -> None:
-    motor, stiffness, friction, drive, link = 1.5, 400.0, 6.0, 5.0, 0.8
-    simulated = make(wheel(Ia=link, Fc=friction, Iam=motor, k=stiffness), "flexible")
-    free, stuck, sliding = (simulated.constant(f"CONTACT_{name}") for name in ("FREE", "STUCK", "SLIDING"))
-    state, how = simulated.start([0.0, 0.0], [0.0, 0.0]), simulated.integration("DP8", 1)
-    assert list(state.contact) == [free, stuck]
-    omega = np.sqrt(stiffness / motor)
-    release = np.arccos(1 - friction / drive) / omega
-    times = np.arange(1, 40) * 4e-3
-    assert 0.02 < release < 0.15
-
-    def rate(_: float, x: Vector) -> Vector:
-        pull = stiffness * (x[0] - x[1])
-        return np.array([x[2], x[3], (drive - pull) / motor, (pull - friction) / link])
-
-    start = [
-        drive / stiffness * (1 - np.cos(omega * release)),
-        0,
-        drive / stiffness * omega * np.sin(omega * release),
-        0,
-    ]
-    later = solve_ivp(rate, (release, times[-1]), start, "DOP853", rtol=1e-12, atol=1e-15, dense_output=True).sol
-    for t in times:
-        simulated.advance(state, how, 4e-3, [drive])
-        moved = later(t)[:2] if t > release else [drive / stiffness * (1 - np.cos(omega * t)), 0]
-        assert [state.q[0], state.q[0] + state.q[1]] == pytest.approx(list(moved), abs=1e-9)
-        assert state.contact[1] == (sliding if t > release else stuck)
-
-
-@pytest.mark.parametrize(("name", "plant"), PLANTS)
-def test_narrow_smooth_friction_comes_near_to_sign_friction(name: str, plant: str, make: Any) -> None:
-    of = arm(name)
-    simulated = make(of, plant)
-    q, qd = state_of(of, plant)
-    tau = np.zeros(of.dof)
-    located = simulated.advance(simulated.start(q, qd), simulated.integration("RK4", 400), 0.2, tau)
-    apart = []
-    for width in (1e-2, 1e-3):
-        smooth = simulated.advance(simulated.start(q, qd), simulated.integration("RK4", 8000, width), 0.2, tau)
-        apart.append(np.abs(positions(smooth) - positions(located)).max())
-    assert apart[1] < 0.35 * apart[0]
-    assert apart[1] < 1e-3
-
-
-def test_stuck_surfaces_hold_the_rest_of_the_robot_in_balance(make: Any) -> None:
-    of = arm("tree_two_arms")
-    heavy = of.with_values({name: (1e5 if name.startswith("Fc") else value) for name, value in of.values.items()})
-    simulated = make(heavy)
-    q, _ = state_of(heavy, "rigid")
-    state = simulated.start(q, np.zeros(of.dof))
-    simulated.advance(state, simulated.integration("RK4", 1), 1e-3, np.zeros(of.dof))
-    held = heavy.expected("bias", {"q": q, "qd": np.zeros(of.dof)})["H"]
-    assert positions(state) == pytest.approx(q, abs=0)
-    assert 1e5 * np.array(list(state.direction)) == pytest.approx(-held, abs=1e-6 * np.abs(held).max())
 
 
 # -- the controller ---------------------------------------------------------------------------------------------------
@@ -321,7 +150,7 @@ def gains_of(of: Subject) -> Gains:
 
 @pytest.mark.parametrize("plant", ["rigid", "flexible"])
 @pytest.mark.parametrize("name", ["kr500", "kr270", "scara"])
-def test_a_closed_loop_in_saturation_is_the_same_elsewhere(name: str, plant: str, make: Any) -> None:
+def test_a_closed_loop_in_saturation_is_the_same_elsewhere(name: str, plant: str, make: Make) -> None:
     of = arm(name)
     simulated, gains, n = make(of, plant), gains_of(of), of.dof
     q, qd = state_of(of, plant)
@@ -349,7 +178,7 @@ def cascade_at_rotor(of: Subject, tau: Vector) -> Vector:
     return tau if of.robot.drives is None else of.expected("motor_torque", {"tau": tau})["tau_r"]
 
 
-def test_the_integral_waits_while_the_torque_is_cut(make: Any) -> None:
+def test_the_integral_waits_while_the_torque_is_cut(make: Make) -> None:
     of = arm("scara")
     simulated, still = make(of), np.zeros(4)
     gains = Gains(10.0, 100.0, 5.0, 20.0)
@@ -364,7 +193,7 @@ def test_the_integral_waits_while_the_torque_is_cut(make: Any) -> None:
     assert (back < 5.0).all()  # cut above, and the error lets the integral come down
 
 
-def test_a_run_that_diverges_ends(make: Any) -> None:
+def test_a_run_that_diverges_ends(make: Make) -> None:
     of = arm("scara")
     simulated = make(of, "flexible")
     reference = {"q": np.ones((400, 4))}
@@ -391,7 +220,7 @@ def test_strictly_compiled_in_both_precisions(name: str, precision: str, tmp_pat
 
 
 @pytest.mark.parametrize("width", [0.05, None])
-def test_single_precision_follows_double(width: float | None, make: Any) -> None:
+def test_single_precision_follows_double(width: float | None, make: Make) -> None:
     of = arm("scara")
     ends = []
     for flags in ((), ("-DSCARA_USE_FLOAT",)):

@@ -51,7 +51,7 @@ VARIANTS: dict[str, dict[str, object]] = {
 
 
 def run(build: Path) -> dict[str, Any]:
-    """A row for each way at each accuracy asked; with the shorter samples for the emitted methods and the best cvodes."""
+    """A row for each way at each accuracy asked; with shorter samples for the emitted methods and the best cvodes."""
     rows: list[dict[str, object]] = []
     notes = [f"{ROBOT}, {SET}, 10 s, friction of width {WIDTH:g} rad/s; gcc {' '.join(FLAGS)}"]
     for period, methods, variants in zip(PERIODS, (CANDIDATES, METHODS), (list(VARIANTS), [_BEST]), strict=True):
