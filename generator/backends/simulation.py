@@ -15,7 +15,9 @@ from generator.version import VERSION
 
 NAME = "simulation"
 
-#: Names that say nothing in a program without drives.
+#: What the direct models read that are simulated.
+_SIGNALS = {"q", "qd", "tau", "tau_ext", "direction", "width"}
+#: The maps between joints and rotors of a robot that has drives.
 _MAPS = ("motor_position", "motor_speed", "motor_torque", "joint_torque")
 
 
@@ -52,12 +54,15 @@ class Integrator:
 
 
 def emit(model: Model) -> dict[str, str | bytes]:
-    """Header and source by their paths."""
+    """Header and source by their paths; none where the model reads signals that are not simulated."""
     return sources(model, METHODS)
 
 
 def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
     """Header and source with these methods, at least two."""
+    plants = [plant for plant in _plants(model) if _known(model, plant)]
+    if not plants:
+        return {}
     prefix = model.robot.name
     language = c_language(prefix)
     context = {
@@ -66,7 +71,8 @@ def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
         "version": VERSION,
         "digest": model.robot.digest,
         "title": paragraph(f"{prefix}: simulation. {model.robot.description}", LINE - 3),
-        "plants": _plants(model),
+        "nq": model.dof,
+        "plants": plants,
         "methods": [Integrator(m.name, m.title, m.order, tuple(stages(m, language))) for m in methods],
         "drives": all(name in model.functions for name in _MAPS),
     }
@@ -103,3 +109,8 @@ def _plants(model: Model) -> list[Plant]:
             )
         )
     return found
+
+
+def _known(model: Model, plant: Plant) -> bool:
+    functions = [model.functions[name] for name in (plant.sliding, plant.smooth)]
+    return all(signal.name in _SIGNALS for function in functions for signal in function.inputs)

@@ -15,7 +15,7 @@ def _build(model: Model) -> tuple[Array]:
 QUANTITY = Quantity(
     name="direct_dynamics_sliding",
     summary="Joint accelerations with directions of sliding given instead of sign(qd).",
-    details="Report eq. 6, affine in direction: -1 and 1 slide, what lies between holds a joint at rest.",
+    details="Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.",
     inputs=signals.together(signals.q, signals.qd, signals.tau, signals.direction),
     outputs=signals.together(signals.qdd),
     build=_build,

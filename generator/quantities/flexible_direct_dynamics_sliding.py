@@ -15,7 +15,7 @@ def _build(model: Model) -> tuple[Array]:
 QUANTITY = Quantity(
     name="flexible_direct_dynamics_sliding",
     summary="Accelerations of motors and elongations with directions of sliding given instead of sign(speed).",
-    details="Report eq. 11, affine in direction: -1 and 1 slide, what lies between holds a motor or a link at rest.",
+    details="Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.",
     inputs=signals.together(
         signals.flexible_q, signals.flexible_qd, signals.tau, signals.tau_ext, signals.flexible_direction
     ),
