@@ -113,7 +113,7 @@ def _named(model: Model, values: Mapping[str, float], stem: str) -> Vector:
 
 
 def folder(build: Path, name: str) -> Path:
-    """An empty place to build in."""
+    """A place to build in."""
     made = build / name
-    made.mkdir(parents=True)
+    made.mkdir(parents=True, exist_ok=True)
     return made
