@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from generator.reference import balancers
@@ -20,13 +20,17 @@ def _none(*_: object) -> Columns:
 
 @dataclass(frozen=True)
 class Law:
-    """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies."""
+    """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies.
+
+    ``sliding`` gives the law for a direction that stands for sign(qd), where the effect is dry friction.
+    """
 
     stems: tuple[str, ...]
     torque: Callable[[Values, Decimal, Decimal, Decimal], Columns]
     pull: Callable[[Values, Decimal], Columns] = _none
     potential: Callable[[Values, Decimal], Columns] = _none
     kinetic: Callable[[Decimal], Columns] = _none
+    sliding: Callable[[Decimal], Law] | None = None
 
 
 def _balancer(
@@ -43,7 +47,11 @@ def _balancer(
 LAWS: Mapping[str, Law] = {
     "rotor_inertia": Law(("Ia",), lambda shape, q, qd, qdd: (qdd,), kinetic=lambda qd: (qd * qd / 2,)),
     "viscous_friction": Law(("Fv",), lambda shape, q, qd, qdd: (qd,)),
-    "coulomb_friction": Law(("Fc",), lambda shape, q, qd, qdd: (sign(qd),)),
+    "coulomb_friction": Law(
+        ("Fc",),
+        lambda shape, q, qd, qdd: (sign(qd),),
+        sliding=lambda direction: Law(("Fc",), lambda shape, q, qd, qdd: (direction,)),
+    ),
     "offset": Law(("Off",), lambda shape, q, qd, qdd: (Decimal(1),)),
     "joint_spring": Law(("ks",), lambda shape, q, qd, qdd: (q,), potential=lambda shape, q: (q * q / 2,)),
     "spring_balancer": _balancer(("Kr", "K0"), balancers.spring_forces, balancers.spring_energies),
@@ -62,6 +70,10 @@ class Acting:
     number: int
     coordinate: int
     shape: Values
+
+    def sliding(self, direction: Decimal) -> Acting:
+        """The same with ``direction`` for sign(qd)."""
+        return self if self.law.sliding is None else replace(self, law=self.law.sliding(direction))
 
     def torques(self, q: Decimal, qd: Decimal, qdd: Decimal) -> dict[str, Decimal]:
         """What the effect adds to the inverse dynamic model."""

@@ -31,6 +31,10 @@ class Rigid:
         tool, load = self.chain.tool, pseudo_inertia(dict(zip(INERTIAL, payload, strict=True)))
         return replace(self, matter={**self.matter, tool: self.matter.get(tool, zeros(4, 4)) + load})
 
+    def sliding(self, direction: Array) -> Rigid:
+        """The same robot with ``direction`` (n) in the place of sign(qd)."""
+        return replace(self, effects=tuple(effect.sliding(direction[effect.coordinate]) for effect in self.effects))
+
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
         tau = lagrange.torque(self.chain, self.matter, q, qd, qdd)

@@ -41,7 +41,7 @@ class _Rewriter:
         elif node.operation in ("add", "sub"):
             self.done[node] = self._sum(self._terms(node))
         else:
-            self.done[node] = self._same(node, [self.done[argument] for argument in node.arguments])
+            self.done[node] = self.program.apply(node.operation, [self.done[a] for a in node.arguments])
         if node.name and self.done[node].name is None and self.done[node].arguments:
             self.done[node].name = node.name
 
@@ -88,20 +88,6 @@ class _Rewriter:
         for negative, node in terms:
             total = total - node if negative else total + node
         return total
-
-    def _same(self, node: Node, arguments: list[Node]) -> Node:
-        program = self.program
-        if node.operation == "mul":
-            return program.multiply(*arguments)
-        if node.operation == "div":
-            return program.divide(*arguments)
-        if node.operation == "neg":
-            return program.negate(arguments[0])
-        if node.operation == "pow":
-            exponent = arguments[1].number
-            assert exponent is not None
-            return program.power(arguments[0], exponent)
-        return program.function(node.operation, arguments[0])
 
 
 def _negative(product: Node) -> bool:

@@ -7,7 +7,7 @@ moved outwards, so that a unary minus (which the counts take as free) is the onl
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Union
@@ -260,6 +260,24 @@ class Program:
         if negative and name in ("cos", "abs"):
             return self.function(name, size)
         return self._intern(name, (a,))
+
+    def apply(self, operation: str, arguments: Sequence[Node]) -> Node:
+        """The node of an operation by its name, on as many arguments as it takes."""
+        if operation == "add":
+            return self.add(*arguments)
+        if operation == "sub":
+            return self.add(arguments[0], self.negate(arguments[1]))
+        if operation == "mul":
+            return self.multiply(*arguments)
+        if operation == "div":
+            return self.divide(*arguments)
+        if operation == "neg":
+            return self.negate(arguments[0])
+        if operation == "pow":
+            exponent = arguments[1].number
+            assert exponent is not None
+            return self.power(arguments[0], exponent)
+        return self.function(operation, arguments[0])
 
     # -- reading --------------------------------------------------------------------------------------------------
 

@@ -1121,6 +1121,650 @@ def direct_dynamics_loaded(parameters, q, qd, tau, wrench, payload):
     return qdd
 
 
+def direct_dynamics_sliding(parameters, q, qd, tau, direction):
+    """Joint accelerations with directions of sliding given instead of sign(qd).
+
+    Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+
+    Inputs:
+        parameters: (96) parameters, in the order of PARAMETERS [SI]
+        q: (6) joint positions [rad]
+        qd: (6) joint speeds [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        direction: (6) in the place of sign(qd), joint by joint [1]
+    Outputs:
+        qdd: (6) joint accelerations [rad/s2]
+    """
+    samples, parameters, q, qd, tau, direction = _signals(
+        (parameters, 96),
+        (q, 6),
+        (qd, 6),
+        (tau, 6),
+        (direction, 6),
+    )
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, Kr2, K02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6,
+    ) = _entries(
+        parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59,
+    )
+    q2, q3, q4, q5, q6 = _entries(q, 1, 2, 3, 4, 5)
+    qd1, qd2, qd3, qd4, qd5, qd6 = _entries(qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(tau)
+    direction1, direction2, direction3, direction4, direction5, direction6 = _entries(direction)
+    t1 = q2 + q3
+    t2 = np.cos(t1)
+    W3_1 = qd1*t2
+    t3 = np.sin(q4)
+    W3_3 = qd2 + qd3
+    t4 = np.cos(q4)
+    W4_2n = t4*W3_3 + t3*W3_1
+    t5 = np.sin(t1)
+    W3_2n = qd1*t5
+    W4_3 = qd4 - W3_2n
+    U3_12n = W3_1*W3_2n
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U4_23 = t4*U3_32n + t3*U3_12n
+    U4_32n = U4_23 + 2.0*(W4_3*W4_2n)
+    t6 = np.sin(q5)
+    W4_1n = t3*W3_3 - t4*W3_1
+    t7 = W4_1n*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t7
+    t8 = np.cos(q5)
+    U5_13n = t8*U4_12 - t6*U4_32n
+    W5_1n = t8*W4_1n - t6*W4_3
+    W5_3 = qd5 + W4_2n
+    t9 = W5_3*W5_1n
+    WP5_2 = t9 - U5_13n
+    U5_31n = t9 + WP5_2
+    t10 = np.sin(q6)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t11 = np.cos(q6)
+    t12 = t11*(S6_22 + S6_11n) - t10*(2.0*XY6)
+    t13 = t11*t12
+    Su6_11n = S6_11n - t13
+    Su6_12 = XY6 + t10*t12
+    t14 = W5_1n*W5_1n
+    t15 = W5_3*W5_3
+    t16 = t15 - t14
+    Uu6_12 = t9 - WP5_2
+    Su6_22 = S6_22 - t13
+    W5_2 = t8*W4_3 + t6*W4_1n
+    U5_23 = t6*U4_12 + t8*U4_32n
+    t17 = U5_23 - 2.0*(W5_3*W5_2)
+    S6_23n = YZ6 + 0.23*MY6
+    S6_13n = XZ6 + 0.23*MX6
+    Su6_13n = t10*S6_13n + t11*S6_23n
+    U4_13n = t4*U3_12n - t3*U3_32n
+    t18 = W4_3*W4_1n
+    WP4_2 = t18 - U4_13n
+    t19 = W5_1n*W5_2
+    U5_12n = t19 - WP4_2
+    Su6_23 = t11*S6_13n - t10*S6_23n
+    t20 = np.sin(q2)
+    t21 = 1.25*t20
+    WPu2_1 = qd1*qd2
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t21
+    VPu4_2n = 2.2*WP3_1n + (VPu3_3 + 0.11*WP3_2n)
+    Uu2_22n = qd2*qd2
+    VPu3_2n = 9.81 + Uu2_22n*t21
+    t22 = np.cos(q2)
+    t23 = 1.25*t22
+    U1_11n = qd1*qd1
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.35*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t23
+    VP3_1 = t5*VPu3_1n - t2*VPu3_2n
+    t24 = W3_1*W3_1
+    t25 = U1_11n - t24
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t25
+    VPu4_1 = 1.1*U3_12n - (0.055*U3_11n - VP3_1)
+    VP4_2n = t3*VPu4_1 + t4*VPu4_2n
+    MSu6_1 = MX6*t10 + MY6*t11
+    t26 = Su6_23*U5_12n - (Su6_13n*t17 + (Su6_22*Uu6_12 - (t16*Su6_12 - Su6_11n*U5_31n)))
+    t27 = t3*VPu4_2n - t4*VPu4_1
+    VP3_2 = t5*VPu3_2n + t2*VPu3_1n
+    U3_22n = Uu3_22n + t24
+    t28 = 0.055*U3_12n - (1.1*U3_22n + VP3_2)
+    t29 = t6*t28 + t8*t27
+    MSu6_2n = MX6*t11 - MY6*t10
+    t30 = MSu6_2n*t29 + (MSu6_1*VP4_2n - t26)
+    t31 = Fc6*direction6 + (Fv6*qd6 + (Off6 - (t30 + tau6)))
+    t32 = S6_22 - S6_11n
+    t33 = 1.0/(Ia6 + t32)
+    t34 = Su6_23*t33
+    W6_3 = qd6 + W5_2
+    t35 = U5_12n - 2.0*(W5_1n*W6_3)
+    t36 = W6_3*W6_3
+    Uu6_32n = t17 + 2.0*(W5_3*W6_3)
+    t37 = W4_1n*W4_1n
+    t38 = W4_3*W4_3
+    U4_22n = t38 + t37
+    t39 = U4_22n - t14
+    t40 = Su6_12*Uu6_32n + (Su6_23*Uu6_12 - (Su6_13n*(t14 - t36) - Su6_11n*t35))
+    U5_21n = t19 + WP4_2
+    t41 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t41
+    S5_22 = t41 - (ZZ6 - S6_22)
+    t42 = YZ5*U5_13n + (XZ5*U5_23 - (S5_22*U5_12n + (S5_11n*U5_21n + (XY5*(t14 - t39) - t40))))
+    VP5_2 = t6*t27 - t8*t28
+    t43 = MX5 + MSu6_1
+    n5_3 = t43*VP5_2 + (MY5R*t29 - t42)
+    t44 = Fc5*direction5 + (Fv5*qd5 + (Off5 + (n5_3 - (tau5 + t34*t31))))
+    t45 = S5_11n + Su6_11n
+    t46 = S5_22 - t45
+    t47 = 1.0/(Ia5 + t46 - Su6_23*t34)
+    t48 = t6*Su6_13n + t8*t32
+    t49 = YZ5 + Su6_23
+    t50 = XZ5 + Su6_12
+    t51 = t6*t50 + t8*t49
+    t52 = t51 - t48*t34
+    t53 = t52*t47
+    t54 = t48*t33
+    t55 = MSu6_2n*VP5_2 - (Su6_12*t35 - (Su6_23*(t15 - t36) + Su6_22*Uu6_32n))
+    t56 = XY5 + Su6_13n
+    t57 = t56*U5_31n + (MY5R*VP4_2n - (XZ5*U5_21n + (S5_22*t17 + (YZ5*(t15 - t39) + t55))))
+    t58 = MX5*VP4_2n + (XY5*t17 - (YZ5*U5_12n - (S5_11n*U5_31n - (XZ5*t16 - t30))))
+    n5_2n = t8*t58 - t6*t57
+    t59 = U3_22n - t37
+    U4_21n = WP3_2n - t7
+    t60 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t60
+    S4_22 = t60 - (ZZ5R - t41)
+    t61 = XZ4*U4_23 + (S4_22*U4_12 - (S4_11n*U4_21n + (XY4*(t37 - t59) - n5_2n)))
+    t62 = MY4R*t27 - (MX4*VP4_2n + (YZ4*U4_13n + t61))
+    t63 = Fc4*direction4 + (Fv4*qd4 + (Off4 + (t62 - (tau4 + (t54*t31 + t53*t44)))))
+    t64 = t6*(S5_22 + t45) + t8*(2.0*t56)
+    t65 = t8*t64 + (XZ4 - t56)
+    t66 = YZ4 - t51
+    t67 = t4*t66 + t3*t65
+    t68 = MY4R - MSu6_2n
+    t69 = t8*t43 - MY5R*t6
+    t70 = MX4 + t69
+    t71 = t3*t70 + t4*t68
+    t72 = 1.1*t71
+    t73 = t8*Su6_13n - t6*t32
+    t74 = t3*t73 - t4*Su6_23
+    t75 = t8*MSu6_2n
+    t76 = t4*t75 - t3*MSu6_1
+    t77 = t6*MSu6_2n
+    t78 = 0.055*t77 + 1.1*t76 - t74
+    t79 = t8*t50 - t6*t49
+    t80 = t3*t79 - t4*t46
+    t81 = t6*t43 + MY5R*t8
+    t82 = t4*t81
+    t83 = 0.055*t69 - 1.1*t82 - t80 - t78*t34
+    t84 = t83*t53 + (t78*t54 + (t72 + t67))
+    t85 = t6*t64
+    t86 = t85 - (S4_11n + t45)
+    t87 = S4_22 + Su6_22
+    t88 = t87 + t86
+    t89 = 1.0/(t52*t53 + (t48*t54 - (Ia4 + t88)))
+    t90 = t89*t84
+    t91 = t83*t47
+    t92 = t78*t33
+    U4_31n = t18 + WP4_2
+    t93 = XZ4*U4_21n - (XY4*U4_31n - (S4_22*U4_32n + (YZ4*(t38 - t59) - (t6*t58 + t8*t57))))
+    t94 = MY4R*t28 + t93
+    t95 = MX4*t28 - (XY4*U4_32n + (YZ4*U4_12 + (S4_11n*U4_31n - (XZ4*(t38 - t37) - n5_3))))
+    Uu6_11n = t15 + t36
+    Fu6_1n = Uu6_11n*MSu6_1 + MSu6_2n*Uu6_12
+    U5_11n = t15 + t39
+    t96 = MY5R*U5_12n + (MX5*U5_11n + Fu6_1n)
+    U5_22n = t15 + t14
+    t97 = MX5*U5_21n + (MY5R*U5_22n - (MSu6_2n*Uu6_32n + MSu6_1*t35))
+    f5_2n = t8*t97 + t6*t96
+    t98 = 0.9090909090909091*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*U4_31n - (t98*t28 - f5_2n))
+    U4_11n = t38 + t59
+    t99 = MY4R*U4_12 - (MX4*U4_11n - (t98*t27 + (t6*t97 - t8*t96)))
+    Uu6_22n = t14 + t36
+    t100 = MX4*U4_21n + (MY4R*U4_22n - (t98*VP4_2n + (Uu6_22n*MSu6_2n + MY5R*t17)))
+    t101 = t43*U5_31n - t100
+    f4_1n = t3*t101 - t4*t99
+    S3_12n = XY3R + 0.055*MY3R
+    MS3_1 = MX3R + 0.05*MY3R
+    t102 = 1.1*MY3R
+    t103 = ZZ4R - t60
+    t104 = 0.5*(XX3R + ZZ3R)
+    t105 = t104 - (t103 - t102)
+    t106 = XX3R - t104
+    S3_11n = t106 - 0.00275*MY3R
+    t107 = MS3_1*VP3_2 + ((t24 - t25)*S3_12n - (1.1*f4_1n + (0.055*f4_3n + (t4*t95 - t3*t94))))
+    n3_3 = U3_12n*(S3_11n + t105) + t107
+    t108 = Fv3*qd3 + (Off3 + (n3_3 - (tau3 + (t92*t31 + (t91*t44 + t90*t63)))))
+    t109 = Fc3*direction3 + t108
+    t110 = t2*t21 + (0.055 - t5*t23)
+    t111 = t4*t70 - t3*t68
+    t112 = MX3R + t111
+    t113 = t2*t23 + (1.1 + t5*t21)
+    t114 = MY3R + t81
+    t115 = t114*t113 - t112*t110
+    t116 = XY4 - t79
+    t117 = t4*(2.0*t116) + t3*(t87 - t86)
+    t118 = t3*t117
+    t119 = 0.055*MX3R
+    t120 = t119 + (t106 + t119) - (t86 + t118)
+    S3_22 = t104 - t103
+    t121 = S5_22 - t85 + (t102 + (S3_22 + t102))
+    t122 = t121 - t120
+    t123 = 0.055*t112 - 1.1*t114
+    t124 = t123 + t122
+    t125 = t77*t110 - (t74 - t76*t113)
+    t126 = t34*t125 - (t69*t110 - (t80 + t82*t113))
+    t127 = t71*t113
+    t128 = t53*t126 - (t54*t125 + (t67 + t127))
+    t129 = t90*t128 - (t91*t126 - (t92*t125 - (t124 - t115)))
+    t130 = 1.0/(t84*t90 - (t83*t91 + (t78*t92 - (t124 + (Ia3 + t123)))))
+    t131 = t130*t129
+    t132 = t89*t128
+    t133 = t47*t126
+    t134 = t33*t125
+    F3_1n = U3_11n*MS3_1
+    t135 = F3_1n + f4_1n
+    F3_2n = U3_12n*MS3_1
+    t136 = F3_2n + f4_3n
+    t137 = n3_3 - (tau2 + (t134*t31 - (t133*t44 + (t132*t63 + t131*t109))))
+    f3_1 = t2*t136 + t5*t135
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t138 = XX2R - S2_22
+    S2_11n = t138 - 1.4204545454545454*MY3R
+    t139 = t22*(2.0*XY2)
+    Su2_12 = XY2 - t22*(t139 + t20*(S2_22 + S2_11n))
+    MS2_1 = MX2R + 1.1363636363636365*MY3R
+    t140 = MY2*t20
+    MSu2_1n = t140 - t22*MS2_1
+    MSu2_2 = MY2*t22 + t20*MS2_1
+    t141 = 9.81*MSu2_1n + (U1_11n*Su2_12 - (t21*f3_1 - (t23*(t5*t136 - t2*t135) + t137)))
+    t142 = q2 - 1.6148
+    t143 = np.sin(t142)
+    t144 = K02*(0.12862508*t143/np.sqrt(0.51908705 + 0.25725016*np.cos(t142)))
+    t145 = Fv2*qd2 + (Off2 - (t143*(0.12862508*Kr2) + (t144 - (VPu2_1n*MSu2_2 + t141))))
+    t146 = Fc2*direction2 + t145
+    t147 = t4*t117 - (XZ3 + t116)
+    Su2_23n = XZ2R*t20 + YZ2*t22
+    t148 = YZ3 - t67
+    t149 = 0.055*t5 - (0.35 + t23 + 1.1*t2)
+    t150 = t2*(t4*t73 + t3*Su6_23) - t5*t48 - (t3*t75 + t4*MSu6_1)*t149
+    t151 = t34*t150 - (t2*(t4*t79 + t3*t46) - t5*t51 + t3*t81*t149)
+    t152 = t3*t66 - t4*t65
+    t153 = t53*t151 - (t54*t150 + (t111*t149 + (t5*t88 + t2*t152)))
+    t154 = t133*t151 + (t134*t150 - (t5*(t127 - t148) + (Su2_23n - t2*(t147 - t71*t110))))
+    t155 = t90*t153 - (t91*t151 - (t92*t150 - (t5*(t72 - t148) + t2*(0.055*t71 - t147))))
+    t156 = t131*t155 - (t132*t153 - t154)
+    t157 = t128*t132 - (t126*t133 + (t125*t134 + (t115 - (t122 + (S2_22 - t138 - t115)))))
+    t158 = 1.0/(t129*t131 - t157)
+    t159 = t158*t156
+    t160 = t130*t155
+    t161 = t89*t153
+    t162 = t47*t151
+    t163 = t33*t150
+    n4_1n = t3*t95 + t4*t94
+    t164 = t4*t101 + t3*t99
+    t165 = 2.0*S3_12n
+    t166 = WP3_2n*t165 + (WP3_1n*(2.0*t105) + (YZ3*(Uu3_22n - t25) - (1.1*t164 - n4_1n)))
+    t167 = tau1 + (t163*t31 - (t162*t44 + (t161*t63 + (t160*t109 - t159*t146))))
+    t168 = YZ3*U3_12n + (WP3_2n*(2.0*S3_11n) + (XZ3*(Uu3_22n - t24) + (0.055*t164 + t62)))
+    F3_3 = WP3_2n*(2.0*MS3_1)
+    f3_3 = F3_3 - t164
+    t169 = t5*(VPu3_3*MS3_1 + (WP3_1n*t165 - t168)) - (t2*(XZ3*U3_12n + t166) + t167)
+    Su2_13n = XZ2R*t22 - YZ2*t20
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    t170 = Off1 - (0.35*f2_3 + (Uu2_32*Su2_12 - (Uu2_22n*Su2_13n - (t23*f3_3 - t169))))
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t104))
+    MSu2_1 = MX2R*t22 - t140
+    t171 = t87 + (0.7*MSu2_1 - (t138 - (S1_11 + S1_22 + t20*(t20*(S2_22 + t138) + t139))))
+    t172 = t2*(t5*(2.0*(S3_12n - 1.1*MX3R - t152)) - t2*(t121 + t120))
+    t173 = t150*t163 + (t172 - (2.0*((t5*t112 + t2*t114)*t149) - (t120 + (t118 - t171))))
+    t174 = 1.0/(t156*t159 - (t155*t160 - (t153*t161 - (t151*t162 + t173))))
+    t175 = t174*(Fc1*direction1 + (Fv1*qd1 + t170))
+    t176 = t158*t146 + t159*t175
+    t177 = t130*t109 + (t160*t175 - t131*t176)
+    t178 = t89*t63 - (t161*t175 - (t132*t176 + t90*t177))
+    t179 = t47*t44 + (t162*t175 - (t133*t176 + (t91*t177 - t53*t178)))
+    qdd = _packed(
+        samples,
+        (6,),
+        -t175, t176, -t177, t178, -t179,
+        t163*t175 - (t134*t176 - (t92*t177 - (t54*t178 - t34*t179))) - t33*t31,
+    )
+    return qdd
+
+
+def direct_dynamics_smooth(parameters, q, qd, tau, width):
+    """Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+
+    Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+
+    Inputs:
+        parameters: (96) parameters, in the order of PARAMETERS [SI]
+        q: (6) joint positions [rad]
+        qd: (6) joint speeds [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        width: (6) speeds within which the friction turns round, more than 0 [rad/s]
+    Outputs:
+        qdd: (6) joint accelerations [rad/s2]
+    """
+    samples, parameters, q, qd, tau, width = _signals(
+        (parameters, 96),
+        (q, 6),
+        (qd, 6),
+        (tau, 6),
+        (width, 6),
+    )
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, Kr2, K02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6,
+    ) = _entries(
+        parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59,
+    )
+    q2, q3, q4, q5, q6 = _entries(q, 1, 2, 3, 4, 5)
+    qd1, qd2, qd3, qd4, qd5, qd6 = _entries(qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(tau)
+    width1, width2, width3, width4, width5, width6 = _entries(width)
+    t1 = q2 + q3
+    t2 = np.cos(t1)
+    W3_1 = qd1*t2
+    t3 = np.sin(q4)
+    W3_3 = qd2 + qd3
+    t4 = np.cos(q4)
+    W4_2n = t4*W3_3 + t3*W3_1
+    t5 = np.sin(t1)
+    W3_2n = qd1*t5
+    W4_3 = qd4 - W3_2n
+    U3_12n = W3_1*W3_2n
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U4_23 = t4*U3_32n + t3*U3_12n
+    U4_32n = U4_23 + 2.0*(W4_3*W4_2n)
+    t6 = np.sin(q5)
+    W4_1n = t3*W3_3 - t4*W3_1
+    t7 = W4_1n*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t7
+    t8 = np.cos(q5)
+    U5_13n = t8*U4_12 - t6*U4_32n
+    W5_1n = t8*W4_1n - t6*W4_3
+    W5_3 = qd5 + W4_2n
+    t9 = W5_3*W5_1n
+    WP5_2 = t9 - U5_13n
+    U5_31n = t9 + WP5_2
+    t10 = np.sin(q6)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t11 = np.cos(q6)
+    t12 = t11*(S6_22 + S6_11n) - t10*(2.0*XY6)
+    t13 = t11*t12
+    Su6_11n = S6_11n - t13
+    Su6_12 = XY6 + t10*t12
+    t14 = W5_1n*W5_1n
+    t15 = W5_3*W5_3
+    t16 = t15 - t14
+    Uu6_12 = t9 - WP5_2
+    Su6_22 = S6_22 - t13
+    W5_2 = t8*W4_3 + t6*W4_1n
+    U5_23 = t6*U4_12 + t8*U4_32n
+    t17 = U5_23 - 2.0*(W5_3*W5_2)
+    S6_23n = YZ6 + 0.23*MY6
+    S6_13n = XZ6 + 0.23*MX6
+    Su6_13n = t10*S6_13n + t11*S6_23n
+    U4_13n = t4*U3_12n - t3*U3_32n
+    t18 = W4_3*W4_1n
+    WP4_2 = t18 - U4_13n
+    t19 = W5_1n*W5_2
+    U5_12n = t19 - WP4_2
+    Su6_23 = t11*S6_13n - t10*S6_23n
+    t20 = np.sin(q2)
+    t21 = 1.25*t20
+    WPu2_1 = qd1*qd2
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t21
+    VPu4_2n = 2.2*WP3_1n + (VPu3_3 + 0.11*WP3_2n)
+    Uu2_22n = qd2*qd2
+    VPu3_2n = 9.81 + Uu2_22n*t21
+    t22 = np.cos(q2)
+    t23 = 1.25*t22
+    U1_11n = qd1*qd1
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.35*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t23
+    VP3_1 = t5*VPu3_1n - t2*VPu3_2n
+    t24 = W3_1*W3_1
+    t25 = U1_11n - t24
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t25
+    VPu4_1 = 1.1*U3_12n - (0.055*U3_11n - VP3_1)
+    VP4_2n = t3*VPu4_1 + t4*VPu4_2n
+    MSu6_1 = MX6*t10 + MY6*t11
+    t26 = Su6_23*U5_12n - (Su6_13n*t17 + (Su6_22*Uu6_12 - (t16*Su6_12 - Su6_11n*U5_31n)))
+    t27 = t3*VPu4_2n - t4*VPu4_1
+    VP3_2 = t5*VPu3_2n + t2*VPu3_1n
+    U3_22n = Uu3_22n + t24
+    t28 = 0.055*U3_12n - (1.1*U3_22n + VP3_2)
+    t29 = t6*t28 + t8*t27
+    MSu6_2n = MX6*t11 - MY6*t10
+    t30 = MSu6_2n*t29 + (MSu6_1*VP4_2n - t26)
+    t31 = Fv6*qd6 + (Off6 - (t30 + tau6)) + Fc6*(qd6/np.sqrt(qd6*qd6 + width6*width6))
+    t32 = S6_22 - S6_11n
+    t33 = 1.0/(Ia6 + t32)
+    t34 = Su6_23*t33
+    W6_3 = qd6 + W5_2
+    t35 = U5_12n - 2.0*(W5_1n*W6_3)
+    t36 = W6_3*W6_3
+    Uu6_32n = t17 + 2.0*(W5_3*W6_3)
+    t37 = W4_1n*W4_1n
+    t38 = W4_3*W4_3
+    U4_22n = t38 + t37
+    t39 = U4_22n - t14
+    t40 = Su6_12*Uu6_32n + (Su6_23*Uu6_12 - (Su6_13n*(t14 - t36) - Su6_11n*t35))
+    U5_21n = t19 + WP4_2
+    t41 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t41
+    S5_22 = t41 - (ZZ6 - S6_22)
+    t42 = YZ5*U5_13n + (XZ5*U5_23 - (S5_22*U5_12n + (S5_11n*U5_21n + (XY5*(t14 - t39) - t40))))
+    VP5_2 = t6*t27 - t8*t28
+    t43 = MX5 + MSu6_1
+    n5_3 = t43*VP5_2 + (MY5R*t29 - t42)
+    t44 = Fv5*qd5 + (Off5 + (n5_3 - (tau5 + t34*t31)))
+    t45 = Fc5*(qd5/np.sqrt(qd5*qd5 + width5*width5)) + t44
+    t46 = S5_11n + Su6_11n
+    t47 = S5_22 - t46
+    t48 = 1.0/(Ia5 + t47 - Su6_23*t34)
+    t49 = t6*Su6_13n + t8*t32
+    t50 = YZ5 + Su6_23
+    t51 = XZ5 + Su6_12
+    t52 = t6*t51 + t8*t50
+    t53 = t52 - t49*t34
+    t54 = t53*t48
+    t55 = t49*t33
+    t56 = MSu6_2n*VP5_2 - (Su6_12*t35 - (Su6_23*(t15 - t36) + Su6_22*Uu6_32n))
+    t57 = XY5 + Su6_13n
+    t58 = t57*U5_31n + (MY5R*VP4_2n - (XZ5*U5_21n + (S5_22*t17 + (YZ5*(t15 - t39) + t56))))
+    t59 = MX5*VP4_2n + (XY5*t17 - (YZ5*U5_12n - (S5_11n*U5_31n - (XZ5*t16 - t30))))
+    n5_2n = t8*t59 - t6*t58
+    t60 = U3_22n - t37
+    U4_21n = WP3_2n - t7
+    t61 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t61
+    S4_22 = t61 - (ZZ5R - t41)
+    t62 = XZ4*U4_23 + (S4_22*U4_12 - (S4_11n*U4_21n + (XY4*(t37 - t60) - n5_2n)))
+    t63 = MY4R*t27 - (MX4*VP4_2n + (YZ4*U4_13n + t62))
+    t64 = Fv4*qd4 + (Off4 + (t63 - (tau4 + (t55*t31 + t54*t45))))
+    t65 = Fc4*(qd4/np.sqrt(qd4*qd4 + width4*width4)) + t64
+    t66 = t6*(S5_22 + t46) + t8*(2.0*t57)
+    t67 = t8*t66 + (XZ4 - t57)
+    t68 = YZ4 - t52
+    t69 = t4*t68 + t3*t67
+    t70 = MY4R - MSu6_2n
+    t71 = t8*t43 - MY5R*t6
+    t72 = MX4 + t71
+    t73 = t3*t72 + t4*t70
+    t74 = 1.1*t73
+    t75 = t8*Su6_13n - t6*t32
+    t76 = t3*t75 - t4*Su6_23
+    t77 = t8*MSu6_2n
+    t78 = t4*t77 - t3*MSu6_1
+    t79 = t6*MSu6_2n
+    t80 = 0.055*t79 + 1.1*t78 - t76
+    t81 = t8*t51 - t6*t50
+    t82 = t3*t81 - t4*t47
+    t83 = t6*t43 + MY5R*t8
+    t84 = t4*t83
+    t85 = 0.055*t71 - 1.1*t84 - t82 - t80*t34
+    t86 = t85*t54 + (t80*t55 + (t74 + t69))
+    t87 = t6*t66
+    t88 = t87 - (S4_11n + t46)
+    t89 = S4_22 + Su6_22
+    t90 = t89 + t88
+    t91 = 1.0/(t53*t54 + (t49*t55 - (Ia4 + t90)))
+    t92 = t91*t86
+    t93 = t85*t48
+    t94 = t80*t33
+    U4_31n = t18 + WP4_2
+    t95 = XZ4*U4_21n - (XY4*U4_31n - (S4_22*U4_32n + (YZ4*(t38 - t60) - (t6*t59 + t8*t58))))
+    t96 = MY4R*t28 + t95
+    t97 = MX4*t28 - (XY4*U4_32n + (YZ4*U4_12 + (S4_11n*U4_31n - (XZ4*(t38 - t37) - n5_3))))
+    Uu6_11n = t15 + t36
+    Fu6_1n = Uu6_11n*MSu6_1 + MSu6_2n*Uu6_12
+    U5_11n = t15 + t39
+    t98 = MY5R*U5_12n + (MX5*U5_11n + Fu6_1n)
+    U5_22n = t15 + t14
+    t99 = MX5*U5_21n + (MY5R*U5_22n - (MSu6_2n*Uu6_32n + MSu6_1*t35))
+    f5_2n = t8*t99 + t6*t98
+    t100 = 0.9090909090909091*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*U4_31n - (t100*t28 - f5_2n))
+    U4_11n = t38 + t60
+    t101 = MY4R*U4_12 - (MX4*U4_11n - (t100*t27 + (t6*t99 - t8*t98)))
+    Uu6_22n = t14 + t36
+    t102 = MX4*U4_21n + (MY4R*U4_22n - (t100*VP4_2n + (Uu6_22n*MSu6_2n + MY5R*t17)))
+    t103 = t43*U5_31n - t102
+    f4_1n = t3*t103 - t4*t101
+    S3_12n = XY3R + 0.055*MY3R
+    MS3_1 = MX3R + 0.05*MY3R
+    t104 = 1.1*MY3R
+    t105 = ZZ4R - t61
+    t106 = 0.5*(XX3R + ZZ3R)
+    t107 = t106 - (t105 - t104)
+    t108 = XX3R - t106
+    S3_11n = t108 - 0.00275*MY3R
+    t109 = MS3_1*VP3_2 + ((t24 - t25)*S3_12n - (1.1*f4_1n + (0.055*f4_3n + (t4*t97 - t3*t96))))
+    n3_3 = U3_12n*(S3_11n + t107) + t109
+    t110 = Fv3*qd3 + (Off3 + (n3_3 - (tau3 + (t94*t31 + (t93*t45 + t92*t65)))))
+    t111 = Fc3*(qd3/np.sqrt(qd3*qd3 + width3*width3)) + t110
+    t112 = t2*t21 + (0.055 - t5*t23)
+    t113 = t4*t72 - t3*t70
+    t114 = MX3R + t113
+    t115 = t2*t23 + (1.1 + t5*t21)
+    t116 = MY3R + t83
+    t117 = t116*t115 - t114*t112
+    t118 = XY4 - t81
+    t119 = t4*(2.0*t118) + t3*(t89 - t88)
+    t120 = t3*t119
+    t121 = 0.055*MX3R
+    t122 = t121 + (t108 + t121) - (t88 + t120)
+    S3_22 = t106 - t105
+    t123 = S5_22 - t87 + (t104 + (S3_22 + t104))
+    t124 = t123 - t122
+    t125 = 0.055*t114 - 1.1*t116
+    t126 = t125 + t124
+    t127 = t79*t112 - (t76 - t78*t115)
+    t128 = t34*t127 - (t71*t112 - (t82 + t84*t115))
+    t129 = t73*t115
+    t130 = t54*t128 - (t55*t127 + (t69 + t129))
+    t131 = t92*t130 - (t93*t128 - (t94*t127 - (t126 - t117)))
+    t132 = 1.0/(t86*t92 - (t85*t93 + (t80*t94 - (t126 + (Ia3 + t125)))))
+    t133 = t132*t131
+    t134 = t91*t130
+    t135 = t48*t128
+    t136 = t33*t127
+    F3_1n = U3_11n*MS3_1
+    t137 = F3_1n + f4_1n
+    F3_2n = U3_12n*MS3_1
+    t138 = F3_2n + f4_3n
+    t139 = n3_3 - (tau2 + (t136*t31 - (t135*t45 + (t134*t65 + t133*t111))))
+    f3_1 = t2*t138 + t5*t137
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t140 = XX2R - S2_22
+    S2_11n = t140 - 1.4204545454545454*MY3R
+    t141 = t22*(2.0*XY2)
+    Su2_12 = XY2 - t22*(t141 + t20*(S2_22 + S2_11n))
+    MS2_1 = MX2R + 1.1363636363636365*MY3R
+    t142 = MY2*t20
+    MSu2_1n = t142 - t22*MS2_1
+    MSu2_2 = MY2*t22 + t20*MS2_1
+    t143 = 9.81*MSu2_1n + (U1_11n*Su2_12 - (t21*f3_1 - (t23*(t5*t138 - t2*t137) + t139)))
+    t144 = q2 - 1.6148
+    t145 = np.sin(t144)
+    t146 = K02*(0.12862508*t145/np.sqrt(0.51908705 + 0.25725016*np.cos(t144)))
+    t147 = Fv2*qd2 + (Off2 - (t145*(0.12862508*Kr2) + (t146 - (VPu2_1n*MSu2_2 + t143))))
+    t148 = Fc2*(qd2/np.sqrt(Uu2_22n + width2*width2)) + t147
+    t149 = t4*t119 - (XZ3 + t118)
+    Su2_23n = XZ2R*t20 + YZ2*t22
+    t150 = YZ3 - t69
+    t151 = 0.055*t5 - (0.35 + t23 + 1.1*t2)
+    t152 = t2*(t4*t75 + t3*Su6_23) - t5*t49 - (t3*t77 + t4*MSu6_1)*t151
+    t153 = t34*t152 - (t2*(t4*t81 + t3*t47) - t5*t52 + t3*t83*t151)
+    t154 = t3*t68 - t4*t67
+    t155 = t54*t153 - (t55*t152 + (t113*t151 + (t5*t90 + t2*t154)))
+    t156 = t135*t153 + (t136*t152 - (t5*(t129 - t150) + (Su2_23n - t2*(t149 - t73*t112))))
+    t157 = t92*t155 - (t93*t153 - (t94*t152 - (t5*(t74 - t150) + t2*(0.055*t73 - t149))))
+    t158 = t133*t157 - (t134*t155 - t156)
+    t159 = t130*t134 - (t128*t135 + (t127*t136 + (t117 - (t124 + (S2_22 - t140 - t117)))))
+    t160 = 1.0/(t131*t133 - t159)
+    t161 = t160*t158
+    t162 = t132*t157
+    t163 = t91*t155
+    t164 = t48*t153
+    t165 = t33*t152
+    n4_1n = t3*t97 + t4*t96
+    t166 = t4*t103 + t3*t101
+    t167 = 2.0*S3_12n
+    t168 = WP3_2n*t167 + (WP3_1n*(2.0*t107) + (YZ3*(Uu3_22n - t25) - (1.1*t166 - n4_1n)))
+    t169 = tau1 + (t165*t31 - (t164*t45 + (t163*t65 + (t162*t111 - t161*t148))))
+    t170 = YZ3*U3_12n + (WP3_2n*(2.0*S3_11n) + (XZ3*(Uu3_22n - t24) + (0.055*t166 + t63)))
+    F3_3 = WP3_2n*(2.0*MS3_1)
+    f3_3 = F3_3 - t166
+    t171 = t5*(VPu3_3*MS3_1 + (WP3_1n*t167 - t170)) - (t2*(XZ3*U3_12n + t168) + t169)
+    Su2_13n = XZ2R*t22 - YZ2*t20
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    t172 = Off1 - (0.35*f2_3 + (Uu2_32*Su2_12 - (Uu2_22n*Su2_13n - (t23*f3_3 - t171))))
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t106))
+    MSu2_1 = MX2R*t22 - t142
+    t173 = t89 + (0.7*MSu2_1 - (t140 - (S1_11 + S1_22 + t20*(t20*(S2_22 + t140) + t141))))
+    t174 = t2*(t5*(2.0*(S3_12n - 1.1*MX3R - t154)) - t2*(t123 + t122))
+    t175 = t152*t165 + (t174 - (2.0*((t5*t114 + t2*t116)*t151) - (t122 + (t120 - t173))))
+    t176 = 1.0/(t158*t161 - (t157*t162 - (t155*t163 - (t153*t164 + t175))))
+    t177 = t176*(Fc1*(qd1/np.sqrt(U1_11n + width1*width1)) + (Fv1*qd1 + t172))
+    t178 = t160*t148 + t161*t177
+    t179 = t132*t111 + (t162*t177 - t133*t178)
+    t180 = t91*t65 - (t163*t177 - (t134*t178 + t92*t179))
+    t181 = t48*t45 + (t164*t177 - (t135*t178 + (t93*t179 - t54*t180)))
+    qdd = _packed(
+        samples,
+        (6,),
+        -t177, t178, -t179, t180, -t181,
+        t165*t177 - (t136*t178 - (t94*t179 - (t55*t180 - t34*t181))) - t33*t31,
+    )
+    return qdd
+
+
 def dynamics(parameters, q, qd, qdd):
     """Joint torques, inertia matrix and gravity torques of one state, what they share computed
     once.
@@ -1816,6 +2460,735 @@ def flexible_direct_dynamics(parameters, q, qd, tau):
         t2, t4, t6, t8, t10, t12, t200 - t2, t201 - t4, -(t6 + t202), -(t8 + t203),
         t204 - t10,
         -(t12 + (t78*t204 - (t84*t203 + (t99*t202 - (t117*t201 - (t76*t200 - t75*t182)))))),
+    )
+    return qdd
+
+
+def flexible_direct_dynamics_sliding(parameters, q, qd, tau, tau_ext, direction):
+    """Accelerations of motors and elongations with directions of sliding given instead of
+    sign(speed).
+
+    Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+
+    Inputs:
+        parameters: (96) parameters, in the order of PARAMETERS [SI]
+        q: (12) [q_m; q_e]: motors, then elongations [rad]
+        qd: (12) speeds of [q_m; q_e] [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+        direction: (12) in the place of sign(speed): of the motors, then of the elastic joints'
+            links [1]
+    Outputs:
+        qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+    """
+    samples, parameters, q, qd, tau, tau_ext, direction = _signals(
+        (parameters, 96),
+        (q, 12),
+        (qd, 12),
+        (tau, 6),
+        (tau_ext, 6),
+        (direction, 12),
+    )
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, Kr2, K02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6, Iam1, Fvm1, Fcm1, Offm1, k1, Iam2, Fvm2, Fcm2,
+        Offm2, k2, Iam3, Fvm3, Fcm3, Offm3, k3, Iam4, Fvm4, Fcm4, Offm4, k4, Iam5, Fvm5, Fcm5,
+        Offm5, k5, Iam6, Fvm6, Fcm6, Offm6, k6,
+    ) = _entries(
+        parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67,
+        68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89,
+    )
+    q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12 = _entries(q, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)
+    qd1, qd2, qd3, qd4, qd5, qd6, qd7, qd8, qd9, qd10, qd11, qd12 = _entries(qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(tau)
+    tau_ext1, tau_ext2, tau_ext3, tau_ext4, tau_ext5, tau_ext6 = _entries(tau_ext)
+    (
+        direction1, direction2, direction3, direction4, direction5, direction6, direction7,
+        direction8, direction9, direction10, direction11, direction12,
+    ) = _entries(
+        direction,
+    )
+    t1 = k1*q7
+    t2 = (Fcm1*direction1 + (Fvm1*qd1 + (Offm1 - (tau1 + t1))))/Iam1
+    t3 = k2*q8
+    t4 = (Fcm2*direction2 + (Fvm2*qd2 + (Offm2 - (tau2 + t3))))/Iam2
+    t5 = k3*q9
+    t6 = (Fcm3*direction3 + (Fvm3*qd3 + (Offm3 - (tau3 + t5))))/Iam3
+    t7 = k4*q10
+    t8 = (Fcm4*direction4 + (Fvm4*qd4 + (Offm4 - (tau4 + t7))))/Iam4
+    t9 = k5*q11
+    t10 = (Fcm5*direction5 + (Fvm5*qd5 + (Offm5 - (tau5 + t9))))/Iam5
+    t11 = k6*q12
+    t12 = (Fcm6*direction6 + (Fvm6*qd6 + (Offm6 - (tau6 + t11))))/Iam6
+    t13 = q2 + q8
+    t14 = q9 + (q3 + t13)
+    t15 = np.cos(t14)
+    W1_3 = qd1 + qd7
+    W3_1 = W1_3*t15
+    t16 = q4 + q10
+    t17 = np.sin(t16)
+    t18 = qd3 + qd9
+    W2_3 = qd2 + qd8
+    W3_3 = W2_3 + t18
+    t19 = np.cos(t16)
+    W4_2n = t19*W3_3 + t17*W3_1
+    t20 = t17*W3_3 - t19*W3_1
+    t21 = t20*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t21
+    t22 = q5 + q11
+    t23 = np.cos(t22)
+    t24 = np.sin(t14)
+    W3_2n = W1_3*t24
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U3_12n = W3_1*W3_2n
+    U4_23 = t17*U3_12n + t19*U3_32n
+    t25 = qd4 + qd10
+    W4_3 = t25 - W3_2n
+    t26 = W4_3*W4_2n
+    WP4_1n = t26 + U4_23
+    U4_32n = t26 + WP4_1n
+    t27 = np.sin(t22)
+    t28 = t27*U4_32n - t23*U4_12
+    t29 = qd5 + qd11
+    W5_3 = t29 + W4_2n
+    W5_1 = t27*W4_3 - t23*t20
+    t30 = W5_1*W5_3
+    WP5_2n = t30 - t28
+    U5_31 = t30 + WP5_2n
+    t31 = q6 + q12
+    t32 = np.sin(t31)
+    t33 = np.cos(t31)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t34 = (S6_22 + S6_11n)*t33 - 2.0*XY6*t32
+    t35 = t33*t34
+    Su6_11n = S6_11n - t35
+    Uu6_12n = t30 - WP5_2n
+    Su6_22 = S6_22 - t35
+    t36 = W5_3*W5_3
+    t37 = W5_1*W5_1
+    t38 = t37 - t36
+    Su6_12 = XY6 + t32*t34
+    U5_23 = t27*U4_12 + t23*U4_32n
+    W5_2 = t27*t20 + t23*W4_3
+    t39 = W5_2*W5_3
+    U5_32 = t39 + (t39 - U5_23)
+    S6_23n = YZ6 + 0.23*MY6
+    S6_13n = XZ6 + 0.23*MX6
+    Su6_13n = S6_13n*t32 + S6_23n*t33
+    t40 = t17*U3_32n - t19*U3_12n
+    t41 = t20*W4_3
+    t42 = t41 + t40
+    t43 = W5_2*W5_1
+    t44 = t43 + t42
+    Su6_23 = S6_13n*t33 - S6_23n*t32
+    t45 = np.sin(t13)
+    t46 = 1.25*t45
+    WPu2_1 = W1_3*W2_3
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t46
+    VPu4_2n = 2.2*WP3_1n + (VPu3_3 + 0.11*WP3_2n)
+    t47 = np.cos(t13)
+    t48 = 1.25*t47
+    Uu2_22n = W2_3*W2_3
+    U1_11n = W1_3*W1_3
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.35*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t48
+    VPu3_2n = 9.81 + Uu2_22n*t46
+    t49 = W3_1*W3_1
+    t50 = U1_11n - t49
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t50
+    VPu4_1 = 1.1*U3_12n - (0.055*U3_11n + (VPu3_2n*t15 - VPu3_1n*t24))
+    VP4_2n = t17*VPu4_1 + t19*VPu4_2n
+    MSu6_1 = MX6*t32 + MY6*t33
+    t51 = Su6_23*t44 - (Su6_13n*U5_32 - (Su6_12*t38 - (Su6_22*Uu6_12n + Su6_11n*U5_31)))
+    t52 = t17*VPu4_2n - t19*VPu4_1
+    VP3_2 = VPu3_1n*t15 + VPu3_2n*t24
+    U3_22n = Uu3_22n + t49
+    VPu4_3 = 1.1*U3_22n - (0.055*U3_12n - VP3_2)
+    VP5_1 = t27*VPu4_3 - t23*t52
+    MSu6_2n = MX6*t33 - MY6*t32
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n + t51)
+    t53 = qd6 + qd12
+    t54 = Fc6*direction12 + (Fv6*t53 + (Off6 + (Nu6_3 + (t11 - tau_ext6))))
+    t55 = S6_22 - S6_11n
+    t56 = 1.0/(Ia6 + t55)
+    t57 = t56*Su6_23
+    W6_3 = t53 + W5_2
+    t58 = W5_1*W6_3
+    Uu6_31 = t58 - (t44 - t58)
+    t59 = W6_3*W6_3
+    t60 = W5_3*W6_3
+    WPu6_1 = U5_32 - t60
+    Uu6_32n = t60 - WPu6_1
+    U5_21 = t43 - t42
+    t61 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t61
+    t62 = Su6_12*Uu6_32n - (Su6_23*Uu6_12n + (Su6_13n*(t37 - t59) - Su6_11n*Uu6_31))
+    S5_22 = t61 - (ZZ6 - S6_22)
+    t63 = W4_3*W4_3
+    t64 = t20*t20
+    U4_22n = t64 + t63
+    t65 = t37 - U4_22n
+    t66 = YZ5*t28 - (XZ5*U5_23 - (XY5*(t37 + t65) - (S5_22*t44 + (S5_11n*U5_21 + t62))))
+    VP5_2 = t27*t52 + t23*VPu4_3
+    t67 = MX5 + MSu6_1
+    t68 = t67*VP5_2 - (MY5R*VP5_1 - t66)
+    t69 = Fc5*direction11 + (Fv5*t29 + (Off5 + (t68 - (tau_ext5 - (t9 - t57*t54)))))
+    t70 = S5_11n + Su6_11n
+    t71 = S5_22 - t70
+    t72 = 1.0/(Ia5 + t71 - Su6_23*t57)
+    t73 = t27*Su6_13n + t55*t23
+    t74 = YZ5 + Su6_23
+    t75 = XZ5 + Su6_12
+    t76 = t27*t75 + t23*t74
+    t77 = t76 - t73*t57
+    t78 = t77*t72
+    t79 = t56*t73
+    t80 = MSu6_2n*VP5_2 - (Su6_12*Uu6_31 - (Su6_23*(t36 - t59) + Su6_22*Uu6_32n))
+    t81 = XY5 + Su6_13n
+    t82 = t81*U5_31 - (MY5R*VP4_2n + (XZ5*U5_21 - (YZ5*(t36 + t65) - (S5_22*U5_32 - t80))))
+    t83 = MX5*VP4_2n - (XY5*U5_32 - (YZ5*t44 + (XZ5*t38 - (Nu6_3 + S5_11n*U5_31))))
+    n5_2n = t23*t83 + t27*t82
+    U4_21n = WP3_2n - t21
+    t84 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t84
+    S4_22 = t84 - (ZZ5R - t61)
+    t85 = U3_22n - t64
+    t86 = YZ4*t40 - (XZ4*U4_23 - (XY4*(t64 - t85) - (S4_22*U4_12 - (S4_11n*U4_21n - n5_2n))))
+    t87 = MY4R*t52 - (MX4*VP4_2n - t86)
+    t88 = Fv4*t25 + (Off4 + (t87 - (tau_ext4 - (t7 - (t79*t54 + t78*t69)))))
+    t89 = Fc4*direction10 + t88
+    t90 = t27*(S5_22 + t70) + t23*(2.0*t81)
+    t91 = t23*t90 + (XZ4 - t81)
+    t92 = YZ4 - t76
+    t93 = t19*t92 + t17*t91
+    t94 = MY4R - MSu6_2n
+    t95 = t23*t67 - MY5R*t27
+    t96 = MX4 + t95
+    t97 = t17*t96 + t19*t94
+    t98 = 1.1*t97
+    t99 = t23*MSu6_2n
+    t100 = t19*t99 - t17*MSu6_1
+    t101 = t23*Su6_13n - t55*t27
+    t102 = t17*t101 - t19*Su6_23
+    t103 = t27*MSu6_2n
+    t104 = 0.055*t103 - (t102 - 1.1*t100)
+    t105 = t27*t67 + MY5R*t23
+    t106 = t19*t105
+    t107 = t23*t75 - t27*t74
+    t108 = t17*t107 - t19*t71
+    t109 = t57*t104 - (0.055*t95 - (t108 + 1.1*t106))
+    t110 = t78*t109 - (t79*t104 + (t98 + t93))
+    t111 = t27*t90
+    t112 = t111 - (S4_11n + t70)
+    t113 = S4_22 + Su6_22
+    t114 = t113 + t112
+    t115 = 1.0/(t77*t78 + (t73*t79 - (Ia4 + t114)))
+    t116 = t115*t110
+    t117 = t72*t109
+    t118 = t56*t104
+    t119 = t41 + t42
+    t120 = XZ4*U4_21n - (XY4*t119 - (YZ4*(t63 - t85) + (S4_22*U4_32n - (t27*t83 - t23*t82))))
+    t121 = MY4R*VPu4_3 - t120
+    t122 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (XZ4*(t64 - t63) + (t68 + S4_11n*t119))))
+    n4_2n = t19*t122 - t17*t121
+    Uu6_11n = t36 + t59
+    U5_11n = t36 - t65
+    t123 = MY5R*t44 - (MX5*U5_11n - (MSu6_2n*Uu6_12n - MSu6_1*Uu6_11n))
+    Fu6_3 = MSu6_2n*Uu6_32n + MSu6_1*Uu6_31
+    U5_22n = t37 + t36
+    t124 = MY5R*U5_22n - (MX5*U5_21 + Fu6_3)
+    f5_2n = t23*t124 - t27*t123
+    t125 = 0.9090909090909091*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*t119 + (t125*VPu4_3 + f5_2n))
+    U4_11n = t63 + t85
+    t126 = MY4R*U4_12 - (MX4*U4_11n - (t125*t52 + (t27*t124 + t23*t123)))
+    Uu6_22n = t37 + t59
+    t127 = MY4R*U4_22n + (MX4*U4_21n - (t125*VP4_2n - (MY5R*U5_32 - MSu6_2n*Uu6_22n)))
+    t128 = t67*U5_31 + t127
+    t129 = t17*t128 + t19*t126
+    S3_12n = XY3R + 0.055*MY3R
+    MS3_1 = MX3R + 0.05*MY3R
+    t130 = 1.1*MY3R
+    t131 = ZZ4R - t84
+    t132 = 0.5*(XX3R + ZZ3R)
+    t133 = t132 - (t131 - t130)
+    t134 = XX3R - t132
+    S3_11n = t134 - 0.00275*MY3R
+    t135 = MS3_1*VP3_2 + (S3_12n*(t49 - t50) + (1.1*t129 - (0.055*f4_3n - n4_2n)))
+    n3_3 = (S3_11n + t133)*U3_12n + t135
+    t136 = Fv3*t18 + (Off3 + (n3_3 - (tau_ext3 - (t5 - (t118*t54 - (t117*t69 + t116*t89))))))
+    t137 = Fc3*direction9 + t136
+    t138 = t46*t15 + (0.055 - t48*t24)
+    t139 = t19*t96 - t17*t94
+    t140 = MX3R + t139
+    t141 = t48*t15 + (1.1 + t46*t24)
+    t142 = MY3R + t105
+    t143 = t142*t141 - t140*t138
+    t144 = 0.055*MX3R
+    t145 = XY4 - t107
+    t146 = t19*(2.0*t145) + t17*(t113 - t112)
+    t147 = t17*t146
+    t148 = t147 - (t144 + (t134 + t144) - t112)
+    S3_22 = t132 - t131
+    t149 = t111 - (S5_22 + (t130 + (S3_22 + t130)))
+    t150 = t149 - t148
+    t151 = 0.055*t140 - 1.1*t142
+    t152 = t151 - t150
+    t153 = t103*t138 - (t102 - t100*t141)
+    t154 = t57*t153 - (t95*t138 - (t108 + t106*t141))
+    t155 = t97*t141
+    t156 = t78*t154 - (t79*t153 + (t93 + t155))
+    t157 = t116*t156 - (t117*t154 + (t118*t153 - (t152 - t143)))
+    t158 = 1.0/(t110*t116 - (t109*t117 + (t104*t118 - (t152 + (Ia3 + t151)))))
+    t159 = t158*t157
+    t160 = t115*t156
+    t161 = t72*t154
+    t162 = t56*t153
+    F3_1n = MS3_1*U3_11n
+    t163 = t129 - F3_1n
+    F3_2n = MS3_1*U3_12n
+    t164 = f4_3n + F3_2n
+    t165 = n3_3 - (tau_ext2 - (t3 - (t162*t54 - (t161*t69 + (t160*t89 - t159*t137)))))
+    f3_1 = t15*t164 - t24*t163
+    t166 = 2.0*XY2*t47
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t167 = XX2R - S2_22
+    S2_11n = t167 - 1.4204545454545454*MY3R
+    Su2_12 = XY2 - t47*((S2_22 + S2_11n)*t45 + t166)
+    t168 = MY2*t45
+    MS2_1 = MX2R + 1.1363636363636365*MY3R
+    MSu2_1 = MS2_1*t47 - t168
+    MSu2_2 = MS2_1*t45 + MY2*t47
+    t169 = 9.81*MSu2_1 - (U1_11n*Su2_12 - (t46*f3_1 - (t48*(t24*t164 + t15*t163) + t165)))
+    t170 = 1.6148 - t13
+    t171 = np.sin(t170)
+    t172 = K02*(0.12862508*t171/np.sqrt(0.51908705 + 0.25725016*np.cos(t170)))
+    t173 = Fv2*W2_3 + (Off2 + (0.12862508*Kr2*t171 + (t172 + (VPu2_1n*MSu2_2 - t169))))
+    t174 = Fc2*direction8 + t173
+    t175 = t19*t146 - (XZ3 + t145)
+    Su2_23n = XZ2R*t45 + YZ2*t47
+    t176 = YZ3 - t93
+    t177 = 0.055*t24 - (0.35 + t48 + 1.1*t15)
+    t178 = (t17*t99 + t19*MSu6_1)*t177 + (t73*t24 - (t19*t101 + t17*Su6_23)*t15)
+    t179 = t57*t178 + (t17*t105*t177 - (t76*t24 - (t19*t107 + t17*t71)*t15))
+    t180 = t17*t92 - t19*t91
+    t181 = t78*t179 - (t79*t178 - (t139*t177 + (t24*t114 + t15*t180)))
+    t182 = t161*t179 + (t162*t178 + (t24*(t155 - t176) + (Su2_23n - t15*(t175 - t97*t138))))
+    t183 = t116*t181 - (t117*t179 + (t118*t178 + (t24*(t98 - t176) + t15*(0.055*t97 - t175))))
+    t184 = t159*t183 - (t160*t181 - t182)
+    t185 = t156*t160 - (t154*t161 + (t153*t162 + (t143 + (t150 - (S2_22 - t167 - t143)))))
+    t186 = 1.0/(t157*t159 - t185)
+    t187 = t186*t184
+    t188 = t158*t183
+    t189 = t115*t181
+    t190 = t72*t179
+    t191 = t56*t178
+    f4_2n = t19*t128 - t17*t126
+    t192 = 2.0*S3_12n
+    t193 = YZ3*(Uu3_22n - t50) + (2.0*t133*WP3_1n + (1.1*f4_2n - (t17*t122 + t19*t121)))
+    t194 = tau_ext1 - (t1 + (t191*t54 - (t190*t69 + (t189*t89 - (t188*t137 + t187*t174)))))
+    t195 = YZ3*U3_12n + (XZ3*(Uu3_22n - t49) + (2.0*S3_11n*WP3_2n + (t87 - 0.055*f4_2n)))
+    t196 = t15*(XZ3*U3_12n + (t192*WP3_2n + t193)) + t194
+    F3_3 = 2.0*MS3_1*WP3_2n
+    f3_3 = F3_3 + f4_2n
+    Su2_13n = XZ2R*t47 - YZ2*t45
+    t197 = Uu2_22n*Su2_13n - (t48*f3_3 - (t24*(MS3_1*VPu3_3 + (t192*WP3_1n - t195)) - t196))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t132))
+    t198 = t45*(t166 + (S2_22 + t167)*t45) - (0.7*(t168 - MX2R*t47) + (t167 - (S1_11 + S1_22)))
+    t199 = 2.0*(t177*(t140*t24 + t142*t15)) + (t148 - (t147 - (t113 + t198)))
+    t200 = t178*t191 + (t15*(t24*(2.0*(S3_12n - 1.1*MX3R - t180)) + t15*(t149 + t148)) - t199)
+    t201 = Fc1*direction7 + (Fv1*W1_3 + (Off1 - (0.35*f2_3 + (Uu2_32*Su2_12 - t197))))
+    t202 = 1.0/(t184*t187 - (t183*t188 - (t181*t189 - (t179*t190 + t200))))*t201
+    t203 = t186*t174 - t187*t202
+    t204 = t158*t137 + (t188*t202 + t159*t203)
+    t205 = t115*t89 + (t189*t202 + (t160*t203 - t116*t204))
+    t206 = t72*t69 - (t190*t202 + (t161*t203 - (t117*t204 + t78*t205)))
+    qdd = _packed(
+        samples,
+        (12,),
+        -t2, -t4, -t6, -t8, -t10, -t12, t2 - t202, t4 + t203, t6 - t204, t8 + t205,
+        t10 - t206,
+        -(t56*t54 + (t191*t202 + (t162*t203 - (t118*t204 - (t79*t205 - (t12 + t57*t206)))))),
+    )
+    return qdd
+
+
+def flexible_direct_dynamics_smooth(parameters, q, qd, tau, tau_ext, width):
+    """Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+    integrated.
+
+    Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a) positive
+    definite.
+
+    Inputs:
+        parameters: (96) parameters, in the order of PARAMETERS [SI]
+        q: (12) [q_m; q_e]: motors, then elongations [rad]
+        qd: (12) speeds of [q_m; q_e] [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+        width: (12) speeds within which the friction turns round, more than 0: of the motors,
+            then of the elastic joints' links [rad/s]
+    Outputs:
+        qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+    """
+    samples, parameters, q, qd, tau, tau_ext, width = _signals(
+        (parameters, 96),
+        (q, 12),
+        (qd, 12),
+        (tau, 6),
+        (tau_ext, 6),
+        (width, 12),
+    )
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, Kr2, K02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6, Iam1, Fvm1, Fcm1, Offm1, k1, Iam2, Fvm2, Fcm2,
+        Offm2, k2, Iam3, Fvm3, Fcm3, Offm3, k3, Iam4, Fvm4, Fcm4, Offm4, k4, Iam5, Fvm5, Fcm5,
+        Offm5, k5, Iam6, Fvm6, Fcm6, Offm6, k6,
+    ) = _entries(
+        parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67,
+        68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89,
+    )
+    q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12 = _entries(q, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)
+    qd1, qd2, qd3, qd4, qd5, qd6, qd7, qd8, qd9, qd10, qd11, qd12 = _entries(qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(tau)
+    tau_ext1, tau_ext2, tau_ext3, tau_ext4, tau_ext5, tau_ext6 = _entries(tau_ext)
+    (
+        width1, width2, width3, width4, width5, width6, width7, width8, width9, width10, width11,
+        width12,
+    ) = _entries(
+        width,
+    )
+    t1 = k1*q7
+    t2 = (Fvm1*qd1 + (Offm1 - (tau1 + t1)) + Fcm1*(qd1/np.sqrt(qd1*qd1 + width1*width1)))/Iam1
+    t3 = k2*q8
+    t4 = (Fvm2*qd2 + (Offm2 - (tau2 + t3)) + Fcm2*(qd2/np.sqrt(qd2*qd2 + width2*width2)))/Iam2
+    t5 = k3*q9
+    t6 = (Fvm3*qd3 + (Offm3 - (tau3 + t5)) + Fcm3*(qd3/np.sqrt(qd3*qd3 + width3*width3)))/Iam3
+    t7 = k4*q10
+    t8 = (Fvm4*qd4 + (Offm4 - (tau4 + t7)) + Fcm4*(qd4/np.sqrt(qd4*qd4 + width4*width4)))/Iam4
+    t9 = k5*q11
+    t10 = (Fvm5*qd5 + (Offm5 - (tau5 + t9)) + Fcm5*(qd5/np.sqrt(qd5*qd5 + width5*width5)))/Iam5
+    t11 = k6*q12
+    t12 = Fvm6*qd6 + (Offm6 - (tau6 + t11)) + Fcm6*(qd6/np.sqrt(qd6*qd6 + width6*width6))
+    t13 = t12/Iam6
+    t14 = qd6 + qd12
+    t15 = q2 + q8
+    t16 = q9 + (q3 + t15)
+    t17 = np.cos(t16)
+    W1_3 = qd1 + qd7
+    W3_1 = W1_3*t17
+    t18 = q4 + q10
+    t19 = np.sin(t18)
+    t20 = qd3 + qd9
+    W2_3 = qd2 + qd8
+    W3_3 = W2_3 + t20
+    t21 = np.cos(t18)
+    W4_2n = t21*W3_3 + t19*W3_1
+    t22 = t19*W3_3 - t21*W3_1
+    t23 = t22*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t23
+    t24 = q5 + q11
+    t25 = np.cos(t24)
+    t26 = np.sin(t16)
+    W3_2n = W1_3*t26
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U3_12n = W3_1*W3_2n
+    U4_23 = t19*U3_12n + t21*U3_32n
+    t27 = qd4 + qd10
+    W4_3 = t27 - W3_2n
+    t28 = W4_3*W4_2n
+    WP4_1n = t28 + U4_23
+    U4_32n = t28 + WP4_1n
+    t29 = np.sin(t24)
+    t30 = t29*U4_32n - t25*U4_12
+    t31 = qd5 + qd11
+    W5_3 = t31 + W4_2n
+    W5_1 = t29*W4_3 - t25*t22
+    t32 = W5_1*W5_3
+    WP5_2n = t32 - t30
+    U5_31 = t32 + WP5_2n
+    t33 = q6 + q12
+    t34 = np.sin(t33)
+    t35 = np.cos(t33)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t36 = (S6_22 + S6_11n)*t35 - 2.0*XY6*t34
+    t37 = t35*t36
+    Su6_11n = S6_11n - t37
+    Uu6_12n = t32 - WP5_2n
+    Su6_22 = S6_22 - t37
+    t38 = W5_3*W5_3
+    t39 = W5_1*W5_1
+    t40 = t39 - t38
+    Su6_12 = XY6 + t34*t36
+    U5_23 = t29*U4_12 + t25*U4_32n
+    W5_2 = t29*t22 + t25*W4_3
+    t41 = W5_2*W5_3
+    U5_32 = t41 + (t41 - U5_23)
+    S6_23n = YZ6 + 0.23*MY6
+    S6_13n = XZ6 + 0.23*MX6
+    Su6_13n = S6_13n*t34 + S6_23n*t35
+    t42 = t19*U3_32n - t21*U3_12n
+    t43 = t22*W4_3
+    t44 = t43 + t42
+    t45 = W5_2*W5_1
+    t46 = t45 + t44
+    Su6_23 = S6_13n*t35 - S6_23n*t34
+    t47 = np.sin(t15)
+    t48 = 1.25*t47
+    WPu2_1 = W1_3*W2_3
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t48
+    VPu4_2n = 2.2*WP3_1n + (VPu3_3 + 0.11*WP3_2n)
+    t49 = np.cos(t15)
+    t50 = 1.25*t49
+    Uu2_22n = W2_3*W2_3
+    U1_11n = W1_3*W1_3
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.35*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t50
+    VPu3_2n = 9.81 + Uu2_22n*t48
+    t51 = W3_1*W3_1
+    t52 = U1_11n - t51
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t52
+    VPu4_1 = 1.1*U3_12n - (0.055*U3_11n + (VPu3_2n*t17 - VPu3_1n*t26))
+    VP4_2n = t19*VPu4_1 + t21*VPu4_2n
+    MSu6_1 = MX6*t34 + MY6*t35
+    t53 = Su6_23*t46 - (Su6_13n*U5_32 - (Su6_12*t40 - (Su6_22*Uu6_12n + Su6_11n*U5_31)))
+    t54 = t19*VPu4_2n - t21*VPu4_1
+    VP3_2 = VPu3_1n*t17 + VPu3_2n*t26
+    U3_22n = Uu3_22n + t51
+    VPu4_3 = 1.1*U3_22n - (0.055*U3_12n - VP3_2)
+    VP5_1 = t29*VPu4_3 - t25*t54
+    MSu6_2n = MX6*t35 - MY6*t34
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n + t53)
+    t55 = Fv6*t14 + (Off6 + (Nu6_3 + (t11 - tau_ext6)))
+    t56 = t55 + Fc6*(t14/np.sqrt(t14*t14 + width12*width12))
+    t57 = S6_22 - S6_11n
+    t58 = 1.0/(Ia6 + t57)
+    t59 = t58*Su6_23
+    W6_3 = t14 + W5_2
+    t60 = W5_1*W6_3
+    Uu6_31 = t60 - (t46 - t60)
+    t61 = W6_3*W6_3
+    t62 = W5_3*W6_3
+    WPu6_1 = U5_32 - t62
+    Uu6_32n = t62 - WPu6_1
+    U5_21 = t45 - t44
+    t63 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t63
+    t64 = Su6_12*Uu6_32n - (Su6_23*Uu6_12n + (Su6_13n*(t39 - t61) - Su6_11n*Uu6_31))
+    S5_22 = t63 - (ZZ6 - S6_22)
+    t65 = W4_3*W4_3
+    t66 = t22*t22
+    U4_22n = t66 + t65
+    t67 = t39 - U4_22n
+    t68 = YZ5*t30 - (XZ5*U5_23 - (XY5*(t39 + t67) - (S5_22*t46 + (S5_11n*U5_21 + t64))))
+    VP5_2 = t29*t54 + t25*VPu4_3
+    t69 = MX5 + MSu6_1
+    t70 = t69*VP5_2 - (MY5R*VP5_1 - t68)
+    t71 = Fv5*t31 + (Off5 + (t70 - (tau_ext5 - (t9 - t59*t56))))
+    t72 = Fc5*(t31/np.sqrt(t31*t31 + width11*width11)) + t71
+    t73 = S5_11n + Su6_11n
+    t74 = S5_22 - t73
+    t75 = 1.0/(Ia5 + t74 - Su6_23*t59)
+    t76 = t29*Su6_13n + t57*t25
+    t77 = YZ5 + Su6_23
+    t78 = XZ5 + Su6_12
+    t79 = t29*t78 + t25*t77
+    t80 = t79 - t76*t59
+    t81 = t80*t75
+    t82 = t58*t76
+    t83 = MSu6_2n*VP5_2 - (Su6_12*Uu6_31 - (Su6_23*(t38 - t61) + Su6_22*Uu6_32n))
+    t84 = XY5 + Su6_13n
+    t85 = t84*U5_31 - (MY5R*VP4_2n + (XZ5*U5_21 - (YZ5*(t38 + t67) - (S5_22*U5_32 - t83))))
+    t86 = MX5*VP4_2n - (XY5*U5_32 - (YZ5*t46 + (XZ5*t40 - (Nu6_3 + S5_11n*U5_31))))
+    n5_2n = t25*t86 + t29*t85
+    U4_21n = WP3_2n - t23
+    t87 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t87
+    S4_22 = t87 - (ZZ5R - t63)
+    t88 = U3_22n - t66
+    t89 = YZ4*t42 - (XZ4*U4_23 - (XY4*(t66 - t88) - (S4_22*U4_12 - (S4_11n*U4_21n - n5_2n))))
+    t90 = MY4R*t54 - (MX4*VP4_2n - t89)
+    t91 = Fv4*t27 + (Off4 + (t90 - (tau_ext4 - (t7 - (t82*t56 + t81*t72)))))
+    t92 = Fc4*(t27/np.sqrt(t27*t27 + width10*width10)) + t91
+    t93 = t29*(S5_22 + t73) + t25*(2.0*t84)
+    t94 = t25*t93 + (XZ4 - t84)
+    t95 = YZ4 - t79
+    t96 = t21*t95 + t19*t94
+    t97 = MY4R - MSu6_2n
+    t98 = t25*t69 - MY5R*t29
+    t99 = MX4 + t98
+    t100 = t19*t99 + t21*t97
+    t101 = 1.1*t100
+    t102 = t25*MSu6_2n
+    t103 = t21*t102 - t19*MSu6_1
+    t104 = t25*Su6_13n - t57*t29
+    t105 = t19*t104 - t21*Su6_23
+    t106 = t29*MSu6_2n
+    t107 = 0.055*t106 - (t105 - 1.1*t103)
+    t108 = t29*t69 + MY5R*t25
+    t109 = t21*t108
+    t110 = t25*t78 - t29*t77
+    t111 = t19*t110 - t21*t74
+    t112 = t59*t107 - (0.055*t98 - (t111 + 1.1*t109))
+    t113 = t81*t112 - (t82*t107 + (t101 + t96))
+    t114 = t29*t93
+    t115 = t114 - (S4_11n + t73)
+    t116 = S4_22 + Su6_22
+    t117 = t116 + t115
+    t118 = 1.0/(t80*t81 + (t76*t82 - (Ia4 + t117)))
+    t119 = t118*t113
+    t120 = t75*t112
+    t121 = t58*t107
+    t122 = t43 + t44
+    t123 = XZ4*U4_21n - (XY4*t122 - (YZ4*(t65 - t88) + (S4_22*U4_32n - (t29*t86 - t25*t85))))
+    t124 = MY4R*VPu4_3 - t123
+    t125 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (XZ4*(t66 - t65) + (t70 + S4_11n*t122))))
+    n4_2n = t21*t125 - t19*t124
+    Uu6_11n = t38 + t61
+    U5_11n = t38 - t67
+    t126 = MY5R*t46 - (MX5*U5_11n - (MSu6_2n*Uu6_12n - MSu6_1*Uu6_11n))
+    Fu6_3 = MSu6_2n*Uu6_32n + MSu6_1*Uu6_31
+    U5_22n = t39 + t38
+    t127 = MY5R*U5_22n - (MX5*U5_21 + Fu6_3)
+    f5_2n = t25*t127 - t29*t126
+    t128 = 0.9090909090909091*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*t122 + (t128*VPu4_3 + f5_2n))
+    U4_11n = t65 + t88
+    t129 = MY4R*U4_12 - (MX4*U4_11n - (t128*t54 + (t29*t127 + t25*t126)))
+    Uu6_22n = t39 + t61
+    t130 = MY4R*U4_22n + (MX4*U4_21n - (t128*VP4_2n - (MY5R*U5_32 - MSu6_2n*Uu6_22n)))
+    t131 = t69*U5_31 + t130
+    t132 = t19*t131 + t21*t129
+    S3_12n = XY3R + 0.055*MY3R
+    MS3_1 = MX3R + 0.05*MY3R
+    t133 = 1.1*MY3R
+    t134 = ZZ4R - t87
+    t135 = 0.5*(XX3R + ZZ3R)
+    t136 = t135 - (t134 - t133)
+    t137 = XX3R - t135
+    S3_11n = t137 - 0.00275*MY3R
+    t138 = MS3_1*VP3_2 + (S3_12n*(t51 - t52) + (1.1*t132 - (0.055*f4_3n - n4_2n)))
+    n3_3 = (S3_11n + t136)*U3_12n + t138
+    t139 = Fv3*t20 + (Off3 + (n3_3 - (tau_ext3 - (t5 - (t121*t56 - (t120*t72 + t119*t92))))))
+    t140 = Fc3*(t20/np.sqrt(t20*t20 + width9*width9)) + t139
+    t141 = t48*t17 + (0.055 - t50*t26)
+    t142 = t21*t99 - t19*t97
+    t143 = MX3R + t142
+    t144 = t50*t17 + (1.1 + t48*t26)
+    t145 = MY3R + t108
+    t146 = t145*t144 - t143*t141
+    t147 = 0.055*MX3R
+    t148 = XY4 - t110
+    t149 = t21*(2.0*t148) + t19*(t116 - t115)
+    t150 = t19*t149
+    t151 = t150 - (t147 + (t137 + t147) - t115)
+    S3_22 = t135 - t134
+    t152 = t114 - (S5_22 + (t133 + (S3_22 + t133)))
+    t153 = t152 - t151
+    t154 = 0.055*t143 - 1.1*t145
+    t155 = t154 - t153
+    t156 = t106*t141 - (t105 - t103*t144)
+    t157 = t59*t156 - (t98*t141 - (t111 + t109*t144))
+    t158 = t100*t144
+    t159 = t81*t157 - (t82*t156 + (t96 + t158))
+    t160 = t119*t159 - (t120*t157 + (t121*t156 - (t155 - t146)))
+    t161 = 1.0/(t113*t119 - (t112*t120 + (t107*t121 - (t155 + (Ia3 + t154)))))
+    t162 = t161*t160
+    t163 = t118*t159
+    t164 = t75*t157
+    t165 = t58*t156
+    F3_1n = MS3_1*U3_11n
+    t166 = t132 - F3_1n
+    F3_2n = MS3_1*U3_12n
+    t167 = f4_3n + F3_2n
+    t168 = n3_3 - (tau_ext2 - (t3 - (t165*t56 - (t164*t72 + (t163*t92 - t162*t140)))))
+    f3_1 = t17*t167 - t26*t166
+    t169 = 2.0*XY2*t49
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t170 = XX2R - S2_22
+    S2_11n = t170 - 1.4204545454545454*MY3R
+    Su2_12 = XY2 - t49*((S2_22 + S2_11n)*t47 + t169)
+    t171 = MY2*t47
+    MS2_1 = MX2R + 1.1363636363636365*MY3R
+    MSu2_1 = MS2_1*t49 - t171
+    MSu2_2 = MS2_1*t47 + MY2*t49
+    t172 = 9.81*MSu2_1 - (U1_11n*Su2_12 - (t48*f3_1 - (t50*(t26*t167 + t17*t166) + t168)))
+    t173 = 1.6148 - t15
+    t174 = np.sin(t173)
+    t175 = K02*(0.12862508*t174/np.sqrt(0.51908705 + 0.25725016*np.cos(t173)))
+    t176 = Fv2*W2_3 + (Off2 + (0.12862508*Kr2*t174 + (t175 + (VPu2_1n*MSu2_2 - t172))))
+    t177 = Fc2*(W2_3/np.sqrt(Uu2_22n + width8*width8)) + t176
+    t178 = t21*t149 - (XZ3 + t148)
+    Su2_23n = XZ2R*t47 + YZ2*t49
+    t179 = YZ3 - t96
+    t180 = 0.055*t26 - (0.35 + t50 + 1.1*t17)
+    t181 = (t19*t102 + t21*MSu6_1)*t180 + (t76*t26 - (t21*t104 + t19*Su6_23)*t17)
+    t182 = t59*t181 + (t19*t108*t180 - (t79*t26 - (t21*t110 + t19*t74)*t17))
+    t183 = t19*t95 - t21*t94
+    t184 = t81*t182 - (t82*t181 - (t142*t180 + (t26*t117 + t17*t183)))
+    t185 = t164*t182 + (t165*t181 + (t26*(t158 - t179) + (Su2_23n - t17*(t178 - t100*t141))))
+    t186 = t119*t184 - (t120*t182 + (t121*t181 + (t26*(t101 - t179) + t17*(0.055*t100 - t178))))
+    t187 = t162*t186 - (t163*t184 - t185)
+    t188 = t159*t163 - (t157*t164 + (t156*t165 + (t146 + (t153 - (S2_22 - t170 - t146)))))
+    t189 = 1.0/(t160*t162 - t188)
+    t190 = t189*t187
+    t191 = t161*t186
+    t192 = t118*t184
+    t193 = t75*t182
+    t194 = t58*t181
+    f4_2n = t21*t131 - t19*t129
+    t195 = 2.0*S3_12n
+    t196 = YZ3*(Uu3_22n - t52) + (2.0*t136*WP3_1n + (1.1*f4_2n - (t19*t125 + t21*t124)))
+    t197 = tau_ext1 - (t1 + (t194*t56 - (t193*t72 + (t192*t92 - (t191*t140 + t190*t177)))))
+    t198 = YZ3*U3_12n + (XZ3*(Uu3_22n - t51) + (2.0*S3_11n*WP3_2n + (t90 - 0.055*f4_2n)))
+    t199 = t17*(XZ3*U3_12n + (t195*WP3_2n + t196)) + t197
+    F3_3 = 2.0*MS3_1*WP3_2n
+    f3_3 = F3_3 + f4_2n
+    Su2_13n = XZ2R*t49 - YZ2*t47
+    t200 = Uu2_22n*Su2_13n - (t50*f3_3 - (t26*(MS3_1*VPu3_3 + (t195*WP3_1n - t198)) - t199))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    t201 = Fv1*W1_3 + (Off1 - (0.35*f2_3 + (Uu2_32*Su2_12 - t200)))
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t135))
+    t202 = t47*(t169 + (S2_22 + t170)*t47) - (0.7*(t171 - MX2R*t49) + (t170 - (S1_11 + S1_22)))
+    t203 = 2.0*(t180*(t143*t26 + t145*t17)) + (t151 - (t150 - (t116 + t202)))
+    t204 = t181*t194 + (t17*(t26*(2.0*(S3_12n - 1.1*MX3R - t183)) + t17*(t152 + t151)) - t203)
+    t205 = 1.0/(t187*t190 - (t186*t191 - (t184*t192 - (t182*t193 + t204))))
+    t206 = t205*(Fc1*(W1_3/np.sqrt(U1_11n + width7*width7)) + t201)
+    t207 = t189*t177 - t190*t206
+    t208 = t161*t140 + (t191*t206 + t162*t207)
+    t209 = t118*t92 + (t192*t206 + (t163*t207 - t119*t208))
+    t210 = t75*t72 - (t193*t206 + (t164*t207 - (t120*t208 + t81*t209)))
+    qdd = _packed(
+        samples,
+        (12,),
+        -t2, -t4, -t6, -t8, -t10, -t13, t2 - t206, t4 + t207, t6 - t208, t8 + t209,
+        t10 - t210,
+        -(t58*t56 + (t194*t206 + (t165*t207 - (t121*t208 - (t82*t209 - (t13 + t59*t210)))))),
     )
     return qdd
 
@@ -5536,8 +6909,12 @@ FUNCTIONS = {
     "bias": bias,
     "direct_dynamics": direct_dynamics,
     "direct_dynamics_loaded": direct_dynamics_loaded,
+    "direct_dynamics_sliding": direct_dynamics_sliding,
+    "direct_dynamics_smooth": direct_dynamics_smooth,
     "dynamics": dynamics,
     "flexible_direct_dynamics": flexible_direct_dynamics,
+    "flexible_direct_dynamics_sliding": flexible_direct_dynamics_sliding,
+    "flexible_direct_dynamics_smooth": flexible_direct_dynamics_smooth,
     "flexible_inverse_dynamics": flexible_inverse_dynamics,
     "flexible_regressor": flexible_regressor,
     "gravity": gravity,

@@ -23,42 +23,46 @@
  * mathematics library is needed (-lm).
  *
  * Operations per call
- *                                  mul      add      div  sin/cos    other
- *   balancer                         3        3        2        2        1
- *   base_parameters                 19       49        0        0        0
- *   bias                           226      203        1       12        7
- *   direct_dynamics                406      374        6       12        7
- *   direct_dynamics_loaded         587      506        7       12        7
- *   dynamics                       370      358        1       12        7
- *   flexible_direct_dynamics       420      417       12       12       13
- *   flexible_inverse_dynamics      274      275        1       12       13
- *   flexible_regressor             386      313        1       12       13
- *   gravity                         37       23        0       10        0
- *   inertia_matrix                 109      107        0       10        0
- *   inverse_dynamics               245      239        1       12        7
- *   inverse_dynamics_loaded        344      305        1       12        7
- *   inverse_dynamics_standard      372      332        1       12        7
- *   jacobians                       78       54        0       10        0
- *   joint_position                   9        3        0        0        0
- *   joint_speed                      9        3        0        0        0
- *   joint_torque                     7        3        0        0        0
- *   joint_torque_from_current        8        3        0        0        0
- *   kinetic_energy                 141       87        0       10        0
- *   motor_current                    9        3        6        0        0
- *   motor_position                   7        3        0        0        0
- *   motor_speed                      7        3        0        0        0
- *   motor_torque                     9        3        0        0        0
- *   payload_regressor              273      202        0       10        0
- *   potential_energy                20       20        0       11        2
- *   regressor                      384      298        1       12        7
- *   regressor_packed               384      298        1       12        7
- *   regressor_standard             505      394        1       12        7
- *   regressor_standard_packed      505      394        1       12        7
- *   tool_jacobian                   66       42        0       10        0
- *   tool_transform                  64       34        0       12        0
- *   transforms                      64       34        0       12        0
- *   wrench_torque                   41       25        0       10        0
- *   prepare (once)                  58       54        1        0        0
+ *                                         mul      add      div  sin/cos    other
+ *   balancer                                3        3        2        2        1
+ *   base_parameters                        19       49        0        0        0
+ *   bias                                  226      203        1       12        7
+ *   direct_dynamics                       406      374        6       12        7
+ *   direct_dynamics_loaded                587      506        7       12        7
+ *   direct_dynamics_sliding               406      374        6       12        1
+ *   direct_dynamics_smooth                416      380       12       12        7
+ *   dynamics                              370      358        1       12        7
+ *   flexible_direct_dynamics              420      417       12       12       13
+ *   flexible_direct_dynamics_sliding      420      423       12       12        1
+ *   flexible_direct_dynamics_smooth       442      435       24       12       13
+ *   flexible_inverse_dynamics             274      275        1       12       13
+ *   flexible_regressor                    386      313        1       12       13
+ *   gravity                                37       23        0       10        0
+ *   inertia_matrix                        109      107        0       10        0
+ *   inverse_dynamics                      245      239        1       12        7
+ *   inverse_dynamics_loaded               344      305        1       12        7
+ *   inverse_dynamics_standard             372      332        1       12        7
+ *   jacobians                              78       54        0       10        0
+ *   joint_position                          9        3        0        0        0
+ *   joint_speed                             9        3        0        0        0
+ *   joint_torque                            7        3        0        0        0
+ *   joint_torque_from_current               8        3        0        0        0
+ *   kinetic_energy                        141       87        0       10        0
+ *   motor_current                           9        3        6        0        0
+ *   motor_position                          7        3        0        0        0
+ *   motor_speed                             7        3        0        0        0
+ *   motor_torque                            9        3        0        0        0
+ *   payload_regressor                     273      202        0       10        0
+ *   potential_energy                       20       20        0       11        2
+ *   regressor                             384      298        1       12        7
+ *   regressor_packed                      384      298        1       12        7
+ *   regressor_standard                    505      394        1       12        7
+ *   regressor_standard_packed             505      394        1       12        7
+ *   tool_jacobian                          66       42        0       10        0
+ *   tool_transform                         64       34        0       12        0
+ *   transforms                             64       34        0       12        0
+ *   wrench_torque                          41       25        0       10        0
+ *   prepare (once)                         58       54        1        0        0
  */
 #ifndef KR500_H
 #define KR500_H
@@ -593,6 +597,38 @@ void kr500_direct_dynamics_loaded(
     kr500_real qdd[6]);
 
 /**
+ * Joint accelerations with directions of sliding given instead of sign(qd).
+ *
+ * Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] direction (6) in the place of sign(qd), joint by joint [1]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr500_direct_dynamics_sliding(
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
+    const kr500_real tau[6], const kr500_real direction[6], kr500_real qdd[6]);
+
+/**
+ * Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+ *
+ * Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] width (6) speeds within which the friction turns round, more than 0 [rad/s]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr500_direct_dynamics_smooth(
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
+    const kr500_real tau[6], const kr500_real width[6], kr500_real qdd[6]);
+
+/**
  * Joint torques, inertia matrix and gravity torques of one state, what they share computed once.
  *
  * Report eq. 2, 73: outputs of inverse_dynamics, inertia_matrix and gravity.
@@ -623,6 +659,46 @@ void kr500_dynamics(
 void kr500_flexible_direct_dynamics(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
     const kr500_real tau[6], kr500_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with directions of sliding given instead of sign(speed).
+ *
+ * Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] direction (12) in the place of sign(speed): of the motors, then of the elastic joints'
+ *     links [1]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr500_flexible_direct_dynamics_sliding(
+    const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
+    const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real direction[12],
+    kr500_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+ * integrated.
+ *
+ * Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a) positive
+ * definite.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] width (12) speeds within which the friction turns round, more than 0: of the motors,
+ *     then of the elastic joints' links [rad/s]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr500_flexible_direct_dynamics_smooth(
+    const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
+    const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real width[12],
+    kr500_real qdd[12]);
 
 /**
  * Motor torques and spring torques of the robot with elastic drive trains.

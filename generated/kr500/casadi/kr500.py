@@ -1136,6 +1136,656 @@ def _build_direct_dynamics_loaded():
     )
 
 
+def _build_direct_dynamics_sliding():
+    """Joint accelerations with directions of sliding given instead of sign(qd).
+
+    Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+
+    Inputs:
+        parameters: (95) parameters, in the order of PARAMETERS [SI]
+        q: (6) joint positions [rad]
+        qd: (6) joint speeds [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        direction: (6) in the place of sign(qd), joint by joint [1]
+    Outputs:
+        qdd: (6) joint accelerations [rad/s2]
+    """
+    in_parameters = ca.SX.sym("parameters", 95)
+    in_q = ca.SX.sym("q", 6)
+    in_qd = ca.SX.sym("qd", 6)
+    in_tau = ca.SX.sym("tau", 6)
+    in_direction = ca.SX.sym("direction", 6)
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, F02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6,
+    ) = _entries(
+        in_parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58,
+    )
+    q2, q3, q4, q5, q6 = _entries(in_q, 1, 2, 3, 4, 5)
+    qd1, qd2, qd3, qd4, qd5, qd6 = _entries(in_qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(in_tau)
+    direction1, direction2, direction3, direction4, direction5, direction6 = _entries(in_direction)
+    t1 = q2 + q3
+    t2 = ca.cos(t1)
+    W3_1 = qd1*t2
+    t3 = ca.sin(q4)
+    W3_3 = qd2 + qd3
+    t4 = ca.cos(q4)
+    W4_2n = t4*W3_3 + t3*W3_1
+    t5 = ca.sin(t1)
+    W3_2n = qd1*t5
+    W4_3 = qd4 - W3_2n
+    U3_12n = W3_1*W3_2n
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U4_23 = t4*U3_32n + t3*U3_12n
+    U4_32n = U4_23 + 2.0*(W4_3*W4_2n)
+    t6 = ca.sin(q5)
+    W4_1n = t3*W3_3 - t4*W3_1
+    t7 = W4_1n*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t7
+    t8 = ca.cos(q5)
+    U5_13n = t8*U4_12 - t6*U4_32n
+    W5_1n = t8*W4_1n - t6*W4_3
+    W5_3 = qd5 + W4_2n
+    t9 = W5_3*W5_1n
+    WP5_2 = t9 - U5_13n
+    U5_31n = t9 + WP5_2
+    t10 = ca.sin(q6)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t11 = ca.cos(q6)
+    t12 = t11*(S6_22 + S6_11n) - t10*(2.0*XY6)
+    t13 = t11*t12
+    Su6_11n = S6_11n - t13
+    Su6_12 = XY6 + t10*t12
+    t14 = W5_1n*W5_1n
+    t15 = W5_3*W5_3
+    t16 = t15 - t14
+    Uu6_12 = t9 - WP5_2
+    Su6_22 = S6_22 - t13
+    W5_2 = t8*W4_3 + t6*W4_1n
+    U5_23 = t6*U4_12 + t8*U4_32n
+    t17 = U5_23 - 2.0*(W5_3*W5_2)
+    S6_23n = YZ6 + 0.29*MY6
+    S6_13n = XZ6 + 0.29*MX6
+    Su6_13n = t10*S6_13n + t11*S6_23n
+    U4_13n = t4*U3_12n - t3*U3_32n
+    t18 = W4_3*W4_1n
+    WP4_2 = t18 - U4_13n
+    t19 = W5_1n*W5_2
+    U5_12n = t19 - WP4_2
+    Su6_23 = t11*S6_13n - t10*S6_23n
+    t20 = ca.sin(q2)
+    t21 = 1.3*t20
+    WPu2_1 = qd1*qd2
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t21
+    VPu4_2n = 2.05*WP3_1n + (VPu3_3 - 0.11*WP3_2n)
+    Uu2_22n = qd2*qd2
+    VPu3_2n = 9.81 + Uu2_22n*t21
+    t22 = ca.cos(q2)
+    t23 = 1.3*t22
+    U1_11n = qd1*qd1
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.5*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t23
+    VP3_1 = t5*VPu3_1n - t2*VPu3_2n
+    t24 = W3_1*W3_1
+    t25 = U1_11n - t24
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t25
+    VPu4_1 = 1.025*U3_12n + (0.055*U3_11n + VP3_1)
+    VP4_2n = t3*VPu4_1 + t4*VPu4_2n
+    MSu6_1 = MX6*t10 + MY6*t11
+    t26 = Su6_23*U5_12n - (Su6_13n*t17 + (Su6_22*Uu6_12 - (t16*Su6_12 - Su6_11n*U5_31n)))
+    t27 = t3*VPu4_2n - t4*VPu4_1
+    VP3_2 = t5*VPu3_2n + t2*VPu3_1n
+    U3_22n = Uu3_22n + t24
+    VPu4_3 = 0.055*U3_12n + (1.025*U3_22n + VP3_2)
+    VP5_1 = t6*VPu4_3 - t8*t27
+    MSu6_2n = MX6*t11 - MY6*t10
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n - t26)
+    t28 = Fc6*direction6 + (Fv6*qd6 + (Off6 + (Nu6_3 - tau6)))
+    t29 = S6_22 - S6_11n
+    t30 = 1.0/(Ia6 + t29)
+    t31 = Su6_23*t30
+    W6_3 = qd6 + W5_2
+    t32 = U5_12n - 2.0*(W5_1n*W6_3)
+    t33 = W6_3*W6_3
+    Uu6_32n = t17 + 2.0*(W5_3*W6_3)
+    t34 = W4_1n*W4_1n
+    t35 = W4_3*W4_3
+    U4_22n = t35 + t34
+    t36 = U4_22n - t14
+    t37 = Su6_12*Uu6_32n + (Su6_23*Uu6_12 - (Su6_13n*(t14 - t33) - Su6_11n*t32))
+    U5_21n = t19 + WP4_2
+    t38 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t38
+    S5_22 = t38 - (ZZ6 - S6_22)
+    t39 = YZ5*U5_13n + (XZ5*U5_23 - (S5_22*U5_12n + (S5_11n*U5_21n + (XY5*(t14 - t36) - t37))))
+    VP5_2 = t6*t27 + t8*VPu4_3
+    t40 = MX5 + MSu6_1
+    n5_3 = t40*VP5_2 - (MY5R*VP5_1 + t39)
+    t41 = Fc5*direction5 + (Fv5*qd5 + (Off5 + (n5_3 - (tau5 + t31*t28))))
+    t42 = S5_11n + Su6_11n
+    t43 = S5_22 - t42
+    t44 = 1.0/(Ia5 + t43 - Su6_23*t31)
+    t45 = t6*Su6_13n + t8*t29
+    t46 = YZ5 + Su6_23
+    t47 = XZ5 + Su6_12
+    t48 = t6*t47 + t8*t46
+    t49 = t48 - t45*t31
+    t50 = t49*t44
+    t51 = t45*t30
+    t52 = MSu6_2n*VP5_2 - (Su6_12*t32 - (Su6_23*(t15 - t33) + Su6_22*Uu6_32n))
+    t53 = XY5 + Su6_13n
+    t54 = t53*U5_31n + (MY5R*VP4_2n - (XZ5*U5_21n + (S5_22*t17 + (YZ5*(t15 - t36) + t52))))
+    t55 = MX5*VP4_2n + (XY5*t17 - (YZ5*U5_12n - (S5_11n*U5_31n - (XZ5*t16 + Nu6_3))))
+    n5_2n = t8*t55 - t6*t54
+    t56 = U3_22n - t34
+    U4_21n = WP3_2n - t7
+    t57 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t57
+    S4_22 = t57 - (ZZ5R - t38)
+    t58 = XZ4*U4_23 + (S4_22*U4_12 - (S4_11n*U4_21n + (XY4*(t34 - t56) - n5_2n)))
+    t59 = MY4R*t27 - (MX4*VP4_2n + (YZ4*U4_13n + t58))
+    t60 = Fc4*direction4 + (Fv4*qd4 + (Off4 + (t59 - (tau4 + (t51*t28 + t50*t41)))))
+    t61 = t6*(S5_22 + t42) + t8*(2.0*t53)
+    t62 = t8*t61 + (XZ4 - t53)
+    t63 = YZ4 - t48
+    t64 = t4*t63 + t3*t62
+    t65 = MY4R - MSu6_2n
+    t66 = t8*t40 - MY5R*t6
+    t67 = MX4 + t66
+    t68 = t3*t67 + t4*t65
+    t69 = 1.025*t68
+    t70 = t8*Su6_13n - t6*t29
+    t71 = t3*t70 - t4*Su6_23
+    t72 = t8*MSu6_2n
+    t73 = t4*t72 - t3*MSu6_1
+    t74 = t6*MSu6_2n
+    t75 = 0.055*t74 - 1.025*t73 + t71
+    t76 = t8*t47 - t6*t46
+    t77 = t3*t76 - t4*t43
+    t78 = t6*t40 + MY5R*t8
+    t79 = t4*t78
+    t80 = 0.055*t66 + 1.025*t79 + t77 - t75*t31
+    t81 = t80*t50 + (t75*t51 - (t69 + t64))
+    t82 = t6*t61
+    t83 = t82 - (S4_11n + t42)
+    t84 = S4_22 + Su6_22
+    t85 = t84 + t83
+    t86 = 1.0/(t49*t50 + (t45*t51 - (Ia4 + t85)))
+    t87 = t86*t81
+    t88 = t80*t44
+    t89 = t75*t30
+    U4_31n = t18 + WP4_2
+    t90 = XZ4*U4_21n - (XY4*U4_31n - (S4_22*U4_32n + (YZ4*(t35 - t56) - (t6*t55 + t8*t54))))
+    t91 = MY4R*VPu4_3 - t90
+    t92 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (S4_11n*U4_31n - (XZ4*(t35 - t34) - n5_3))))
+    n4_2n = t4*t92 - t3*t91
+    Uu6_11n = t15 + t33
+    Fu6_1n = Uu6_11n*MSu6_1 + MSu6_2n*Uu6_12
+    U5_11n = t15 + t36
+    t93 = MY5R*U5_12n + (MX5*U5_11n + Fu6_1n)
+    U5_22n = t15 + t14
+    t94 = MX5*U5_21n + (MY5R*U5_22n - (MSu6_2n*Uu6_32n + MSu6_1*t32))
+    f5_2n = t8*t94 + t6*t93
+    t95 = 0.975609756097561*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*U4_31n + (t95*VPu4_3 + f5_2n))
+    U4_11n = t35 + t56
+    t96 = MY4R*U4_12 - (MX4*U4_11n - (t95*t27 + (t6*t94 - t8*t93)))
+    Uu6_22n = t14 + t33
+    t97 = MX4*U4_21n + (MY4R*U4_22n - (t95*VP4_2n + (Uu6_22n*MSu6_2n + MY5R*t17)))
+    t98 = t40*U5_31n - t97
+    f4_1n = t3*t98 - t4*t96
+    S3_12n = XY3R - 0.055*MY3R
+    MS3_1 = MX3R - 0.05365853658536585*MY3R
+    t99 = 1.025*MY3R
+    t100 = ZZ4R - t57
+    t101 = 0.5*(XX3R + ZZ3R)
+    t102 = t101 - (t100 - t99)
+    t103 = XX3R - t101
+    S3_11n = t103 - 0.002951219512195122*MY3R
+    t104 = MS3_1*VP3_2 + ((t24 - t25)*S3_12n - (1.025*f4_1n - (0.055*f4_3n + n4_2n)))
+    n3_3 = U3_12n*(S3_11n + t102) + t104
+    t105 = Fv3*qd3 + (Off3 + (n3_3 - (tau3 - (t89*t28 + (t88*t41 + t87*t60)))))
+    t106 = Fc3*direction3 + t105
+    t107 = t2*t21 - (0.055 + t5*t23)
+    t108 = t4*t67 - t3*t65
+    t109 = MX3R + t108
+    t110 = t2*t23 + (1.025 + t5*t21)
+    t111 = MY3R + t78
+    t112 = t111*t110 - t109*t107
+    t113 = XY4 - t76
+    t114 = t4*(2.0*t113) + t3*(t84 - t83)
+    t115 = t3*t114
+    t116 = 0.055*MX3R
+    t117 = t116 - (t103 - t116) + (t83 + t115)
+    S3_22 = t101 - t100
+    t118 = S5_22 - t82 + (t99 + (S3_22 + t99))
+    t119 = t118 + t117
+    t120 = 0.055*t109 + 1.025*t111
+    t121 = t120 - t119
+    t122 = t74*t107 - (t71 - t73*t110)
+    t123 = t31*t122 - (t66*t107 - (t77 + t79*t110))
+    t124 = t68*t110
+    t125 = t50*t123 - (t51*t122 + (t64 + t124))
+    t126 = t87*t125 - (t88*t123 - (t89*t122 - (t121 + t112)))
+    t127 = 1.0/(t81*t87 - (t80*t88 + (t75*t89 + (t121 - (Ia3 - t120)))))
+    t128 = t127*t126
+    t129 = t86*t125
+    t130 = t44*t123
+    t131 = t30*t122
+    F3_1n = U3_11n*MS3_1
+    t132 = F3_1n + f4_1n
+    F3_2n = U3_12n*MS3_1
+    t133 = F3_2n + f4_3n
+    t134 = n3_3 - (tau2 + (t131*t28 - (t130*t41 + (t129*t60 - t128*t106))))
+    f3_1 = t2*t133 + t5*t132
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t135 = XX2R - S2_22
+    S2_11n = t135 - 1.648780487804878*MY3R
+    t136 = t22*(2.0*XY2)
+    Su2_12 = XY2 - t22*(t136 + t20*(S2_22 + S2_11n))
+    MS2_1 = MX2R + 1.2682926829268293*MY3R
+    t137 = MY2*t20
+    MSu2_1n = t137 - t22*MS2_1
+    MSu2_2 = MY2*t22 + t20*MS2_1
+    t138 = 9.81*MSu2_1n + (U1_11n*Su2_12 - (t21*f3_1 - (t23*(t5*t133 - t2*t132) + t134)))
+    t139 = q2 - 1.6293
+    t140 = ca.sqrt(0.97741405 + 0.39874956*ca.cos(t139))
+    t141 = F02*(0.09968739*ca.sin(t139)/(t140*(t140 - 1.4767799349556487)))
+    t142 = Fc2*direction2 + (Fv2*qd2 + (Off2 + (t141 + (VPu2_1n*MSu2_2 + t138))))
+    t143 = t4*t114 - (XZ3 + t113)
+    Su2_23n = XZ2R*t20 + YZ2*t22
+    t144 = YZ3 - t64
+    t145 = 0.055*t5 + (0.5 + t23 + 1.025*t2)
+    t146 = t2*(t4*t70 + t3*Su6_23) - t5*t45 + (t3*t72 + t4*MSu6_1)*t145
+    t147 = t31*t146 - (t2*(t4*t76 + t3*t43) - t5*t48 - t3*t78*t145)
+    t148 = t3*t63 - t4*t62
+    t149 = t50*t147 - (t51*t146 - (t108*t145 - (t5*t85 + t2*t148)))
+    t150 = t130*t147 + (t131*t146 - (t5*(t124 - t144) + (Su2_23n - t2*(t143 - t68*t107))))
+    t151 = t87*t149 - (t88*t147 - (t89*t146 + (t5*(t69 - t144) - t2*(0.055*t68 + t143))))
+    t152 = t128*t151 - (t129*t149 - t150)
+    t153 = t125*t129 - (t123*t130 + (t122*t131 + (t112 - (t119 + (S2_22 - t135 - t112)))))
+    t154 = 1.0/(t126*t128 - t153)
+    t155 = t154*t152
+    t156 = t127*t151
+    t157 = t86*t149
+    t158 = t44*t147
+    t159 = t30*t146
+    t160 = t4*t98 + t3*t96
+    t161 = 2.0*S3_12n
+    t162 = WP3_1n*(2.0*t102) + (YZ3*(Uu3_22n - t25) - (1.025*t160 + (t3*t92 + t4*t91)))
+    t163 = tau1 + (t159*t28 - (t158*t41 + (t157*t60 - (t156*t106 + t155*t142))))
+    t164 = YZ3*U3_12n + (WP3_2n*(2.0*S3_11n) + (XZ3*(Uu3_22n - t24) - (0.055*t160 - t59)))
+    t165 = t2*(XZ3*U3_12n + (WP3_2n*t161 + t162)) + t163
+    F3_3 = WP3_2n*(2.0*MS3_1)
+    f3_3 = F3_3 - t160
+    Su2_13n = XZ2R*t22 - YZ2*t20
+    t166 = Uu2_22n*Su2_13n - (t23*f3_3 - (t5*(VPu3_3*MS3_1 + (WP3_1n*t161 - t164)) - t165))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t101))
+    t167 = t137 - (MX2R*t22 - (t135 - (S1_11 + S1_22 + t20*(t20*(S2_22 + t135) + t136))))
+    t168 = 2.0*((t5*t109 + t2*t111)*t145) - (t117 - (t115 - (t84 - t167)))
+    t169 = t146*t159 + (t2*(t5*(2.0*(S3_12n - 1.025*MX3R - t148)) - t2*(t118 - t117)) + t168)
+    t170 = Fc1*direction1 + (Fv1*qd1 + (Off1 - (0.5*f2_3 + (Uu2_32*Su2_12 - t166))))
+    t171 = 1.0/(t152*t155 - (t151*t156 - (t149*t157 - (t147*t158 + t169))))*t170
+    t172 = t154*t142 + t155*t171
+    t173 = t127*t106 - (t156*t171 - t128*t172)
+    t174 = t86*t60 - (t157*t171 - (t129*t172 - t87*t173))
+    t175 = t44*t41 + (t158*t171 - (t130*t172 - (t88*t173 + t50*t174)))
+    return ca.Function(
+        "direct_dynamics_sliding",
+        [in_parameters, in_q, in_qd, in_tau, in_direction],
+        [
+            _packed(
+                1,
+                -t171, t172, -t173, t174, -t175,
+                t159*t171 - (t131*t172 + (t89*t173 + (t51*t174 - t31*t175))) - t30*t28,
+            ),
+        ],
+        ["parameters", "q", "qd", "tau", "direction"],
+        ["qdd"],
+    )
+
+
+def _build_direct_dynamics_smooth():
+    """Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+
+    Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+
+    Inputs:
+        parameters: (95) parameters, in the order of PARAMETERS [SI]
+        q: (6) joint positions [rad]
+        qd: (6) joint speeds [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        width: (6) speeds within which the friction turns round, more than 0 [rad/s]
+    Outputs:
+        qdd: (6) joint accelerations [rad/s2]
+    """
+    in_parameters = ca.SX.sym("parameters", 95)
+    in_q = ca.SX.sym("q", 6)
+    in_qd = ca.SX.sym("qd", 6)
+    in_tau = ca.SX.sym("tau", 6)
+    in_width = ca.SX.sym("width", 6)
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, F02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6,
+    ) = _entries(
+        in_parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58,
+    )
+    q2, q3, q4, q5, q6 = _entries(in_q, 1, 2, 3, 4, 5)
+    qd1, qd2, qd3, qd4, qd5, qd6 = _entries(in_qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(in_tau)
+    width1, width2, width3, width4, width5, width6 = _entries(in_width)
+    t1 = q2 + q3
+    t2 = ca.cos(t1)
+    W3_1 = qd1*t2
+    t3 = ca.sin(q4)
+    W3_3 = qd2 + qd3
+    t4 = ca.cos(q4)
+    W4_2n = t4*W3_3 + t3*W3_1
+    t5 = ca.sin(t1)
+    W3_2n = qd1*t5
+    W4_3 = qd4 - W3_2n
+    U3_12n = W3_1*W3_2n
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U4_23 = t4*U3_32n + t3*U3_12n
+    U4_32n = U4_23 + 2.0*(W4_3*W4_2n)
+    t6 = ca.sin(q5)
+    W4_1n = t3*W3_3 - t4*W3_1
+    t7 = W4_1n*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t7
+    t8 = ca.cos(q5)
+    U5_13n = t8*U4_12 - t6*U4_32n
+    W5_1n = t8*W4_1n - t6*W4_3
+    W5_3 = qd5 + W4_2n
+    t9 = W5_3*W5_1n
+    WP5_2 = t9 - U5_13n
+    U5_31n = t9 + WP5_2
+    t10 = ca.sin(q6)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t11 = ca.cos(q6)
+    t12 = t11*(S6_22 + S6_11n) - t10*(2.0*XY6)
+    t13 = t11*t12
+    Su6_11n = S6_11n - t13
+    Su6_12 = XY6 + t10*t12
+    t14 = W5_1n*W5_1n
+    t15 = W5_3*W5_3
+    t16 = t15 - t14
+    Uu6_12 = t9 - WP5_2
+    Su6_22 = S6_22 - t13
+    W5_2 = t8*W4_3 + t6*W4_1n
+    U5_23 = t6*U4_12 + t8*U4_32n
+    t17 = U5_23 - 2.0*(W5_3*W5_2)
+    S6_23n = YZ6 + 0.29*MY6
+    S6_13n = XZ6 + 0.29*MX6
+    Su6_13n = t10*S6_13n + t11*S6_23n
+    U4_13n = t4*U3_12n - t3*U3_32n
+    t18 = W4_3*W4_1n
+    WP4_2 = t18 - U4_13n
+    t19 = W5_1n*W5_2
+    U5_12n = t19 - WP4_2
+    Su6_23 = t11*S6_13n - t10*S6_23n
+    t20 = ca.sin(q2)
+    t21 = 1.3*t20
+    WPu2_1 = qd1*qd2
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t21
+    VPu4_2n = 2.05*WP3_1n + (VPu3_3 - 0.11*WP3_2n)
+    Uu2_22n = qd2*qd2
+    VPu3_2n = 9.81 + Uu2_22n*t21
+    t22 = ca.cos(q2)
+    t23 = 1.3*t22
+    U1_11n = qd1*qd1
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.5*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t23
+    VP3_1 = t5*VPu3_1n - t2*VPu3_2n
+    t24 = W3_1*W3_1
+    t25 = U1_11n - t24
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t25
+    VPu4_1 = 1.025*U3_12n + (0.055*U3_11n + VP3_1)
+    VP4_2n = t3*VPu4_1 + t4*VPu4_2n
+    MSu6_1 = MX6*t10 + MY6*t11
+    t26 = Su6_23*U5_12n - (Su6_13n*t17 + (Su6_22*Uu6_12 - (t16*Su6_12 - Su6_11n*U5_31n)))
+    t27 = t3*VPu4_2n - t4*VPu4_1
+    VP3_2 = t5*VPu3_2n + t2*VPu3_1n
+    U3_22n = Uu3_22n + t24
+    VPu4_3 = 0.055*U3_12n + (1.025*U3_22n + VP3_2)
+    VP5_1 = t6*VPu4_3 - t8*t27
+    MSu6_2n = MX6*t11 - MY6*t10
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n - t26)
+    t28 = Fv6*qd6 + (Off6 + (Nu6_3 - tau6)) + Fc6*(qd6/ca.sqrt(qd6*qd6 + width6*width6))
+    t29 = S6_22 - S6_11n
+    t30 = 1.0/(Ia6 + t29)
+    t31 = Su6_23*t30
+    W6_3 = qd6 + W5_2
+    t32 = U5_12n - 2.0*(W5_1n*W6_3)
+    t33 = W6_3*W6_3
+    Uu6_32n = t17 + 2.0*(W5_3*W6_3)
+    t34 = W4_1n*W4_1n
+    t35 = W4_3*W4_3
+    U4_22n = t35 + t34
+    t36 = U4_22n - t14
+    t37 = Su6_12*Uu6_32n + (Su6_23*Uu6_12 - (Su6_13n*(t14 - t33) - Su6_11n*t32))
+    U5_21n = t19 + WP4_2
+    t38 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t38
+    S5_22 = t38 - (ZZ6 - S6_22)
+    t39 = YZ5*U5_13n + (XZ5*U5_23 - (S5_22*U5_12n + (S5_11n*U5_21n + (XY5*(t14 - t36) - t37))))
+    VP5_2 = t6*t27 + t8*VPu4_3
+    t40 = MX5 + MSu6_1
+    n5_3 = t40*VP5_2 - (MY5R*VP5_1 + t39)
+    t41 = Fv5*qd5 + (Off5 + (n5_3 - (tau5 + t31*t28)))
+    t42 = Fc5*(qd5/ca.sqrt(qd5*qd5 + width5*width5)) + t41
+    t43 = S5_11n + Su6_11n
+    t44 = S5_22 - t43
+    t45 = 1.0/(Ia5 + t44 - Su6_23*t31)
+    t46 = t6*Su6_13n + t8*t29
+    t47 = YZ5 + Su6_23
+    t48 = XZ5 + Su6_12
+    t49 = t6*t48 + t8*t47
+    t50 = t49 - t46*t31
+    t51 = t50*t45
+    t52 = t46*t30
+    t53 = MSu6_2n*VP5_2 - (Su6_12*t32 - (Su6_23*(t15 - t33) + Su6_22*Uu6_32n))
+    t54 = XY5 + Su6_13n
+    t55 = t54*U5_31n + (MY5R*VP4_2n - (XZ5*U5_21n + (S5_22*t17 + (YZ5*(t15 - t36) + t53))))
+    t56 = MX5*VP4_2n + (XY5*t17 - (YZ5*U5_12n - (S5_11n*U5_31n - (XZ5*t16 + Nu6_3))))
+    n5_2n = t8*t56 - t6*t55
+    t57 = U3_22n - t34
+    U4_21n = WP3_2n - t7
+    t58 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t58
+    S4_22 = t58 - (ZZ5R - t38)
+    t59 = XZ4*U4_23 + (S4_22*U4_12 - (S4_11n*U4_21n + (XY4*(t34 - t57) - n5_2n)))
+    t60 = MY4R*t27 - (MX4*VP4_2n + (YZ4*U4_13n + t59))
+    t61 = Fv4*qd4 + (Off4 + (t60 - (tau4 + (t52*t28 + t51*t42))))
+    t62 = Fc4*(qd4/ca.sqrt(qd4*qd4 + width4*width4)) + t61
+    t63 = t6*(S5_22 + t43) + t8*(2.0*t54)
+    t64 = t8*t63 + (XZ4 - t54)
+    t65 = YZ4 - t49
+    t66 = t4*t65 + t3*t64
+    t67 = MY4R - MSu6_2n
+    t68 = t8*t40 - MY5R*t6
+    t69 = MX4 + t68
+    t70 = t3*t69 + t4*t67
+    t71 = 1.025*t70
+    t72 = t8*Su6_13n - t6*t29
+    t73 = t3*t72 - t4*Su6_23
+    t74 = t8*MSu6_2n
+    t75 = t4*t74 - t3*MSu6_1
+    t76 = t6*MSu6_2n
+    t77 = 0.055*t76 - 1.025*t75 + t73
+    t78 = t8*t48 - t6*t47
+    t79 = t3*t78 - t4*t44
+    t80 = t6*t40 + MY5R*t8
+    t81 = t4*t80
+    t82 = 0.055*t68 + 1.025*t81 + t79 - t77*t31
+    t83 = t82*t51 + (t77*t52 - (t71 + t66))
+    t84 = t6*t63
+    t85 = t84 - (S4_11n + t43)
+    t86 = S4_22 + Su6_22
+    t87 = t86 + t85
+    t88 = 1.0/(t50*t51 + (t46*t52 - (Ia4 + t87)))
+    t89 = t88*t83
+    t90 = t82*t45
+    t91 = t77*t30
+    U4_31n = t18 + WP4_2
+    t92 = XZ4*U4_21n - (XY4*U4_31n - (S4_22*U4_32n + (YZ4*(t35 - t57) - (t6*t56 + t8*t55))))
+    t93 = MY4R*VPu4_3 - t92
+    t94 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (S4_11n*U4_31n - (XZ4*(t35 - t34) - n5_3))))
+    n4_2n = t4*t94 - t3*t93
+    Uu6_11n = t15 + t33
+    Fu6_1n = Uu6_11n*MSu6_1 + MSu6_2n*Uu6_12
+    U5_11n = t15 + t36
+    t95 = MY5R*U5_12n + (MX5*U5_11n + Fu6_1n)
+    U5_22n = t15 + t14
+    t96 = MX5*U5_21n + (MY5R*U5_22n - (MSu6_2n*Uu6_32n + MSu6_1*t32))
+    f5_2n = t8*t96 + t6*t95
+    t97 = 0.975609756097561*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*U4_31n + (t97*VPu4_3 + f5_2n))
+    U4_11n = t35 + t57
+    t98 = MY4R*U4_12 - (MX4*U4_11n - (t97*t27 + (t6*t96 - t8*t95)))
+    Uu6_22n = t14 + t33
+    t99 = MX4*U4_21n + (MY4R*U4_22n - (t97*VP4_2n + (Uu6_22n*MSu6_2n + MY5R*t17)))
+    t100 = t40*U5_31n - t99
+    f4_1n = t3*t100 - t4*t98
+    S3_12n = XY3R - 0.055*MY3R
+    MS3_1 = MX3R - 0.05365853658536585*MY3R
+    t101 = 1.025*MY3R
+    t102 = ZZ4R - t58
+    t103 = 0.5*(XX3R + ZZ3R)
+    t104 = t103 - (t102 - t101)
+    t105 = XX3R - t103
+    S3_11n = t105 - 0.002951219512195122*MY3R
+    t106 = MS3_1*VP3_2 + ((t24 - t25)*S3_12n - (1.025*f4_1n - (0.055*f4_3n + n4_2n)))
+    n3_3 = U3_12n*(S3_11n + t104) + t106
+    t107 = Fv3*qd3 + (Off3 + (n3_3 - (tau3 - (t91*t28 + (t90*t42 + t89*t62)))))
+    t108 = Fc3*(qd3/ca.sqrt(qd3*qd3 + width3*width3)) + t107
+    t109 = t2*t21 - (0.055 + t5*t23)
+    t110 = t4*t69 - t3*t67
+    t111 = MX3R + t110
+    t112 = t2*t23 + (1.025 + t5*t21)
+    t113 = MY3R + t80
+    t114 = t113*t112 - t111*t109
+    t115 = XY4 - t78
+    t116 = t4*(2.0*t115) + t3*(t86 - t85)
+    t117 = t3*t116
+    t118 = 0.055*MX3R
+    t119 = t118 - (t105 - t118) + (t85 + t117)
+    S3_22 = t103 - t102
+    t120 = S5_22 - t84 + (t101 + (S3_22 + t101))
+    t121 = t120 + t119
+    t122 = 0.055*t111 + 1.025*t113
+    t123 = t122 - t121
+    t124 = t76*t109 - (t73 - t75*t112)
+    t125 = t31*t124 - (t68*t109 - (t79 + t81*t112))
+    t126 = t70*t112
+    t127 = t51*t125 - (t52*t124 + (t66 + t126))
+    t128 = t89*t127 - (t90*t125 - (t91*t124 - (t123 + t114)))
+    t129 = 1.0/(t83*t89 - (t82*t90 + (t77*t91 + (t123 - (Ia3 - t122)))))
+    t130 = t129*t128
+    t131 = t88*t127
+    t132 = t45*t125
+    t133 = t30*t124
+    F3_1n = U3_11n*MS3_1
+    t134 = F3_1n + f4_1n
+    F3_2n = U3_12n*MS3_1
+    t135 = F3_2n + f4_3n
+    t136 = n3_3 - (tau2 + (t133*t28 - (t132*t42 + (t131*t62 - t130*t108))))
+    f3_1 = t2*t135 + t5*t134
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t137 = XX2R - S2_22
+    S2_11n = t137 - 1.648780487804878*MY3R
+    t138 = t22*(2.0*XY2)
+    Su2_12 = XY2 - t22*(t138 + t20*(S2_22 + S2_11n))
+    MS2_1 = MX2R + 1.2682926829268293*MY3R
+    t139 = MY2*t20
+    MSu2_1n = t139 - t22*MS2_1
+    MSu2_2 = MY2*t22 + t20*MS2_1
+    t140 = 9.81*MSu2_1n + (U1_11n*Su2_12 - (t21*f3_1 - (t23*(t5*t135 - t2*t134) + t136)))
+    t141 = q2 - 1.6293
+    t142 = ca.sqrt(0.97741405 + 0.39874956*ca.cos(t141))
+    t143 = F02*(0.09968739*ca.sin(t141)/(t142*(t142 - 1.4767799349556487)))
+    t144 = Fv2*qd2 + (Off2 + (t143 + (VPu2_1n*MSu2_2 + t140)))
+    t145 = Fc2*(qd2/ca.sqrt(Uu2_22n + width2*width2)) + t144
+    t146 = t4*t116 - (XZ3 + t115)
+    Su2_23n = XZ2R*t20 + YZ2*t22
+    t147 = YZ3 - t66
+    t148 = 0.055*t5 + (0.5 + t23 + 1.025*t2)
+    t149 = t2*(t4*t72 + t3*Su6_23) - t5*t46 + (t3*t74 + t4*MSu6_1)*t148
+    t150 = t31*t149 - (t2*(t4*t78 + t3*t44) - t5*t49 - t3*t80*t148)
+    t151 = t3*t65 - t4*t64
+    t152 = t51*t150 - (t52*t149 - (t110*t148 - (t5*t87 + t2*t151)))
+    t153 = t132*t150 + (t133*t149 - (t5*(t126 - t147) + (Su2_23n - t2*(t146 - t70*t109))))
+    t154 = t89*t152 - (t90*t150 - (t91*t149 + (t5*(t71 - t147) - t2*(0.055*t70 + t146))))
+    t155 = t130*t154 - (t131*t152 - t153)
+    t156 = t127*t131 - (t125*t132 + (t124*t133 + (t114 - (t121 + (S2_22 - t137 - t114)))))
+    t157 = 1.0/(t128*t130 - t156)
+    t158 = t157*t155
+    t159 = t129*t154
+    t160 = t88*t152
+    t161 = t45*t150
+    t162 = t30*t149
+    t163 = t4*t100 + t3*t98
+    t164 = 2.0*S3_12n
+    t165 = WP3_1n*(2.0*t104) + (YZ3*(Uu3_22n - t25) - (1.025*t163 + (t3*t94 + t4*t93)))
+    t166 = tau1 + (t162*t28 - (t161*t42 + (t160*t62 - (t159*t108 + t158*t145))))
+    t167 = YZ3*U3_12n + (WP3_2n*(2.0*S3_11n) + (XZ3*(Uu3_22n - t24) - (0.055*t163 - t60)))
+    t168 = t2*(XZ3*U3_12n + (WP3_2n*t164 + t165)) + t166
+    F3_3 = WP3_2n*(2.0*MS3_1)
+    f3_3 = F3_3 - t163
+    Su2_13n = XZ2R*t22 - YZ2*t20
+    t169 = Uu2_22n*Su2_13n - (t23*f3_3 - (t5*(VPu3_3*MS3_1 + (WP3_1n*t164 - t167)) - t168))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    t170 = Fv1*qd1 + (Off1 - (0.5*f2_3 + (Uu2_32*Su2_12 - t169)))
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t103))
+    t171 = t139 - (MX2R*t22 - (t137 - (S1_11 + S1_22 + t20*(t20*(S2_22 + t137) + t138))))
+    t172 = 2.0*((t5*t111 + t2*t113)*t148) - (t119 - (t117 - (t86 - t171)))
+    t173 = t149*t162 + (t2*(t5*(2.0*(S3_12n - 1.025*MX3R - t151)) - t2*(t120 - t119)) + t172)
+    t174 = 1.0/(t155*t158 - (t154*t159 - (t152*t160 - (t150*t161 + t173))))
+    t175 = t174*(Fc1*(qd1/ca.sqrt(U1_11n + width1*width1)) + t170)
+    t176 = t157*t145 + t158*t175
+    t177 = t129*t108 - (t159*t175 - t130*t176)
+    t178 = t88*t62 - (t160*t175 - (t131*t176 - t89*t177))
+    t179 = t45*t42 + (t161*t175 - (t132*t176 - (t90*t177 + t51*t178)))
+    return ca.Function(
+        "direct_dynamics_smooth",
+        [in_parameters, in_q, in_qd, in_tau, in_width],
+        [
+            _packed(
+                1,
+                -t175, t176, -t177, t178, -t179,
+                t162*t175 - (t133*t176 + (t91*t177 + (t52*t178 - t31*t179))) - t30*t28,
+            ),
+        ],
+        ["parameters", "q", "qd", "tau", "width"],
+        ["qdd"],
+    )
+
+
 def _build_dynamics():
     """Joint torques, inertia matrix and gravity torques of one state, what they share computed
     once.
@@ -1838,6 +2488,750 @@ def _build_flexible_direct_dynamics():
             ),
         ],
         ["parameters", "q", "qd", "tau"],
+        ["qdd"],
+    )
+
+
+def _build_flexible_direct_dynamics_sliding():
+    """Accelerations of motors and elongations with directions of sliding given instead of
+    sign(speed).
+
+    Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+
+    Inputs:
+        parameters: (95) parameters, in the order of PARAMETERS [SI]
+        q: (12) [q_m; q_e]: motors, then elongations [rad]
+        qd: (12) speeds of [q_m; q_e] [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+        direction: (12) in the place of sign(speed): of the motors, then of the elastic joints'
+            links [1]
+    Outputs:
+        qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+    """
+    in_parameters = ca.SX.sym("parameters", 95)
+    in_q = ca.SX.sym("q", 12)
+    in_qd = ca.SX.sym("qd", 12)
+    in_tau = ca.SX.sym("tau", 6)
+    in_tau_ext = ca.SX.sym("tau_ext", 6)
+    in_direction = ca.SX.sym("direction", 12)
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, F02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6, Iam1, Fvm1, Fcm1, Offm1, k1, Iam2, Fvm2, Fcm2,
+        Offm2, k2, Iam3, Fvm3, Fcm3, Offm3, k3, Iam4, Fvm4, Fcm4, Offm4, k4, Iam5, Fvm5, Fcm5,
+        Offm5, k5, Iam6, Fvm6, Fcm6, Offm6, k6,
+    ) = _entries(
+        in_parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67,
+        68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88,
+    )
+    (
+        q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12,
+    ) = _entries(
+        in_q, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,
+    )
+    qd1, qd2, qd3, qd4, qd5, qd6, qd7, qd8, qd9, qd10, qd11, qd12 = _entries(in_qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(in_tau)
+    tau_ext1, tau_ext2, tau_ext3, tau_ext4, tau_ext5, tau_ext6 = _entries(in_tau_ext)
+    (
+        direction1, direction2, direction3, direction4, direction5, direction6, direction7,
+        direction8, direction9, direction10, direction11, direction12,
+    ) = _entries(
+        in_direction,
+    )
+    t1 = k1*q7
+    t2 = (Fcm1*direction1 + (Fvm1*qd1 + (Offm1 - (tau1 + t1))))/Iam1
+    t3 = k2*q8
+    t4 = (Fcm2*direction2 + (Fvm2*qd2 + (Offm2 - (tau2 + t3))))/Iam2
+    t5 = k3*q9
+    t6 = (Fcm3*direction3 + (Fvm3*qd3 + (Offm3 - (tau3 + t5))))/Iam3
+    t7 = k4*q10
+    t8 = (Fcm4*direction4 + (Fvm4*qd4 + (Offm4 - (tau4 + t7))))/Iam4
+    t9 = k5*q11
+    t10 = (Fcm5*direction5 + (Fvm5*qd5 + (Offm5 - (tau5 + t9))))/Iam5
+    t11 = k6*q12
+    t12 = (Fcm6*direction6 + (Fvm6*qd6 + (Offm6 - (tau6 + t11))))/Iam6
+    t13 = q2 + q8
+    t14 = q9 + (q3 + t13)
+    t15 = ca.cos(t14)
+    W1_3 = qd1 + qd7
+    W3_1 = W1_3*t15
+    t16 = q4 + q10
+    t17 = ca.sin(t16)
+    t18 = qd3 + qd9
+    W2_3 = qd2 + qd8
+    W3_3 = W2_3 + t18
+    t19 = ca.cos(t16)
+    W4_2n = t19*W3_3 + t17*W3_1
+    t20 = t17*W3_3 - t19*W3_1
+    t21 = t20*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t21
+    t22 = q5 + q11
+    t23 = ca.cos(t22)
+    t24 = ca.sin(t14)
+    W3_2n = W1_3*t24
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U3_12n = W3_1*W3_2n
+    U4_23 = t17*U3_12n + t19*U3_32n
+    t25 = qd4 + qd10
+    W4_3 = t25 - W3_2n
+    t26 = W4_3*W4_2n
+    WP4_1n = t26 + U4_23
+    U4_32n = t26 + WP4_1n
+    t27 = ca.sin(t22)
+    t28 = t27*U4_32n - t23*U4_12
+    t29 = qd5 + qd11
+    W5_3 = t29 + W4_2n
+    W5_1 = t27*W4_3 - t23*t20
+    t30 = W5_1*W5_3
+    WP5_2n = t30 - t28
+    U5_31 = t30 + WP5_2n
+    t31 = q6 + q12
+    t32 = ca.sin(t31)
+    t33 = ca.cos(t31)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t34 = (S6_22 + S6_11n)*t33 - 2.0*XY6*t32
+    t35 = t33*t34
+    Su6_11n = S6_11n - t35
+    Uu6_12n = t30 - WP5_2n
+    Su6_22 = S6_22 - t35
+    t36 = W5_3*W5_3
+    t37 = W5_1*W5_1
+    t38 = t37 - t36
+    Su6_12 = XY6 + t32*t34
+    U5_23 = t27*U4_12 + t23*U4_32n
+    W5_2 = t27*t20 + t23*W4_3
+    t39 = W5_2*W5_3
+    U5_32 = t39 + (t39 - U5_23)
+    S6_23n = YZ6 + 0.29*MY6
+    S6_13n = XZ6 + 0.29*MX6
+    Su6_13n = S6_13n*t32 + S6_23n*t33
+    t40 = t17*U3_32n - t19*U3_12n
+    t41 = t20*W4_3
+    t42 = t41 + t40
+    t43 = W5_2*W5_1
+    t44 = t43 + t42
+    Su6_23 = S6_13n*t33 - S6_23n*t32
+    t45 = ca.sin(t13)
+    t46 = 1.3*t45
+    WPu2_1 = W1_3*W2_3
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t46
+    VPu4_2n = 2.05*WP3_1n + (VPu3_3 - 0.11*WP3_2n)
+    t47 = ca.cos(t13)
+    t48 = 1.3*t47
+    Uu2_22n = W2_3*W2_3
+    U1_11n = W1_3*W1_3
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.5*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t48
+    VPu3_2n = 9.81 + Uu2_22n*t46
+    t49 = W3_1*W3_1
+    t50 = U1_11n - t49
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t50
+    VPu4_1 = 1.025*U3_12n + (0.055*U3_11n - (VPu3_2n*t15 - VPu3_1n*t24))
+    VP4_2n = t17*VPu4_1 + t19*VPu4_2n
+    MSu6_1 = MX6*t32 + MY6*t33
+    t51 = Su6_23*t44 - (Su6_13n*U5_32 - (Su6_12*t38 - (Su6_22*Uu6_12n + Su6_11n*U5_31)))
+    t52 = t17*VPu4_2n - t19*VPu4_1
+    VP3_2 = VPu3_1n*t15 + VPu3_2n*t24
+    U3_22n = Uu3_22n + t49
+    VPu4_3 = 1.025*U3_22n + (0.055*U3_12n + VP3_2)
+    VP5_1 = t27*VPu4_3 - t23*t52
+    MSu6_2n = MX6*t33 - MY6*t32
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n + t51)
+    t53 = qd6 + qd12
+    t54 = Fc6*direction12 + (Fv6*t53 + (Off6 + (Nu6_3 + (t11 - tau_ext6))))
+    t55 = S6_22 - S6_11n
+    t56 = 1.0/(Ia6 + t55)
+    t57 = t56*Su6_23
+    W6_3 = t53 + W5_2
+    t58 = W5_1*W6_3
+    Uu6_31 = t58 - (t44 - t58)
+    t59 = W6_3*W6_3
+    t60 = W5_3*W6_3
+    WPu6_1 = U5_32 - t60
+    Uu6_32n = t60 - WPu6_1
+    U5_21 = t43 - t42
+    t61 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t61
+    t62 = Su6_12*Uu6_32n - (Su6_23*Uu6_12n + (Su6_13n*(t37 - t59) - Su6_11n*Uu6_31))
+    S5_22 = t61 - (ZZ6 - S6_22)
+    t63 = W4_3*W4_3
+    t64 = t20*t20
+    U4_22n = t64 + t63
+    t65 = t37 - U4_22n
+    t66 = YZ5*t28 - (XZ5*U5_23 - (XY5*(t37 + t65) - (S5_22*t44 + (S5_11n*U5_21 + t62))))
+    VP5_2 = t27*t52 + t23*VPu4_3
+    t67 = MX5 + MSu6_1
+    t68 = t67*VP5_2 - (MY5R*VP5_1 - t66)
+    t69 = Fc5*direction11 + (Fv5*t29 + (Off5 + (t68 - (tau_ext5 - (t9 - t57*t54)))))
+    t70 = S5_11n + Su6_11n
+    t71 = S5_22 - t70
+    t72 = 1.0/(Ia5 + t71 - Su6_23*t57)
+    t73 = t27*Su6_13n + t55*t23
+    t74 = YZ5 + Su6_23
+    t75 = XZ5 + Su6_12
+    t76 = t27*t75 + t23*t74
+    t77 = t76 - t73*t57
+    t78 = t77*t72
+    t79 = t56*t73
+    t80 = MSu6_2n*VP5_2 - (Su6_12*Uu6_31 - (Su6_23*(t36 - t59) + Su6_22*Uu6_32n))
+    t81 = XY5 + Su6_13n
+    t82 = t81*U5_31 - (MY5R*VP4_2n + (XZ5*U5_21 - (YZ5*(t36 + t65) - (S5_22*U5_32 - t80))))
+    t83 = MX5*VP4_2n - (XY5*U5_32 - (YZ5*t44 + (XZ5*t38 - (Nu6_3 + S5_11n*U5_31))))
+    n5_2n = t23*t83 + t27*t82
+    U4_21n = WP3_2n - t21
+    t84 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t84
+    S4_22 = t84 - (ZZ5R - t61)
+    t85 = U3_22n - t64
+    t86 = YZ4*t40 - (XZ4*U4_23 - (XY4*(t64 - t85) - (S4_22*U4_12 - (S4_11n*U4_21n - n5_2n))))
+    t87 = MY4R*t52 - (MX4*VP4_2n - t86)
+    t88 = Fv4*t25 + (Off4 + (t87 - (tau_ext4 - (t7 - (t79*t54 + t78*t69)))))
+    t89 = Fc4*direction10 + t88
+    t90 = t27*(S5_22 + t70) + t23*(2.0*t81)
+    t91 = t23*t90 + (XZ4 - t81)
+    t92 = YZ4 - t76
+    t93 = t19*t92 + t17*t91
+    t94 = MY4R - MSu6_2n
+    t95 = t23*t67 - MY5R*t27
+    t96 = MX4 + t95
+    t97 = t17*t96 + t19*t94
+    t98 = 1.025*t97
+    t99 = t23*MSu6_2n
+    t100 = t19*t99 - t17*MSu6_1
+    t101 = t23*Su6_13n - t55*t27
+    t102 = t17*t101 - t19*Su6_23
+    t103 = t27*MSu6_2n
+    t104 = 0.055*t103 + (t102 - 1.025*t100)
+    t105 = t27*t67 + MY5R*t23
+    t106 = t19*t105
+    t107 = t23*t75 - t27*t74
+    t108 = t17*t107 - t19*t71
+    t109 = t57*t104 - (0.055*t95 + (t108 + 1.025*t106))
+    t110 = t78*t109 - (t79*t104 - (t98 + t93))
+    t111 = t27*t90
+    t112 = t111 - (S4_11n + t70)
+    t113 = S4_22 + Su6_22
+    t114 = t113 + t112
+    t115 = 1.0/(t77*t78 + (t73*t79 - (Ia4 + t114)))
+    t116 = t115*t110
+    t117 = t72*t109
+    t118 = t56*t104
+    t119 = t41 + t42
+    t120 = XZ4*U4_21n - (XY4*t119 - (YZ4*(t63 - t85) + (S4_22*U4_32n - (t27*t83 - t23*t82))))
+    t121 = MY4R*VPu4_3 - t120
+    t122 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (XZ4*(t64 - t63) + (t68 + S4_11n*t119))))
+    n4_2n = t19*t122 - t17*t121
+    Uu6_11n = t36 + t59
+    U5_11n = t36 - t65
+    t123 = MY5R*t44 - (MX5*U5_11n - (MSu6_2n*Uu6_12n - MSu6_1*Uu6_11n))
+    Fu6_3 = MSu6_2n*Uu6_32n + MSu6_1*Uu6_31
+    U5_22n = t37 + t36
+    t124 = MY5R*U5_22n - (MX5*U5_21 + Fu6_3)
+    f5_2n = t23*t124 - t27*t123
+    t125 = 0.975609756097561*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*t119 + (t125*VPu4_3 + f5_2n))
+    U4_11n = t63 + t85
+    t126 = MY4R*U4_12 - (MX4*U4_11n - (t125*t52 + (t27*t124 + t23*t123)))
+    Uu6_22n = t37 + t59
+    t127 = MY4R*U4_22n + (MX4*U4_21n - (t125*VP4_2n - (MY5R*U5_32 - MSu6_2n*Uu6_22n)))
+    t128 = t67*U5_31 + t127
+    t129 = t17*t128 + t19*t126
+    S3_12n = XY3R - 0.055*MY3R
+    MS3_1 = MX3R - 0.05365853658536585*MY3R
+    t130 = 1.025*MY3R
+    t131 = ZZ4R - t84
+    t132 = 0.5*(XX3R + ZZ3R)
+    t133 = t132 - (t131 - t130)
+    t134 = XX3R - t132
+    S3_11n = t134 - 0.002951219512195122*MY3R
+    t135 = MS3_1*VP3_2 + (S3_12n*(t49 - t50) + (1.025*t129 + (0.055*f4_3n + n4_2n)))
+    n3_3 = (S3_11n + t133)*U3_12n + t135
+    t136 = Fv3*t18 + (Off3 + (n3_3 - (tau_ext3 - (t5 + (t118*t54 - (t117*t69 + t116*t89))))))
+    t137 = Fc3*direction9 + t136
+    t138 = t46*t15 - (0.055 + t48*t24)
+    t139 = t19*t96 - t17*t94
+    t140 = MX3R + t139
+    t141 = t48*t15 + (1.025 + t46*t24)
+    t142 = MY3R + t105
+    t143 = t142*t141 - t140*t138
+    t144 = 0.055*MX3R
+    t145 = XY4 - t107
+    t146 = t19*(2.0*t145) + t17*(t113 - t112)
+    t147 = t17*t146
+    t148 = t147 + (t144 - (t134 - t144) + t112)
+    S3_22 = t132 - t131
+    t149 = t111 - (S5_22 + (t130 + (S3_22 + t130)))
+    t150 = t149 - t148
+    t151 = 0.055*t140 + 1.025*t142
+    t152 = t151 + t150
+    t153 = t103*t138 - (t102 - t100*t141)
+    t154 = t57*t153 - (t95*t138 - (t108 + t106*t141))
+    t155 = t97*t141
+    t156 = t78*t154 - (t79*t153 + (t93 + t155))
+    t157 = t116*t156 - (t117*t154 + (t118*t153 - (t152 + t143)))
+    t158 = 1.0/(t110*t116 - (t109*t117 + (t104*t118 + (t152 - (Ia3 - t151)))))
+    t159 = t158*t157
+    t160 = t115*t156
+    t161 = t72*t154
+    t162 = t56*t153
+    F3_1n = MS3_1*U3_11n
+    t163 = t129 - F3_1n
+    F3_2n = MS3_1*U3_12n
+    t164 = f4_3n + F3_2n
+    t165 = n3_3 - (tau_ext2 - (t3 - (t162*t54 - (t161*t69 + (t160*t89 + t159*t137)))))
+    f3_1 = t15*t164 - t24*t163
+    t166 = 2.0*XY2*t47
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t167 = XX2R - S2_22
+    S2_11n = t167 - 1.648780487804878*MY3R
+    Su2_12 = XY2 - t47*((S2_22 + S2_11n)*t45 + t166)
+    t168 = MY2*t45
+    MS2_1 = MX2R + 1.2682926829268293*MY3R
+    MSu2_1 = MS2_1*t47 - t168
+    MSu2_2 = MS2_1*t45 + MY2*t47
+    t169 = 9.81*MSu2_1 - (U1_11n*Su2_12 - (t46*f3_1 - (t48*(t24*t164 + t15*t163) + t165)))
+    t170 = 1.6293 - t13
+    t171 = ca.sqrt(0.97741405 + 0.39874956*ca.cos(t170))
+    t172 = F02*(0.09968739*ca.sin(t170)/(t171*(1.4767799349556487 - t171)))
+    t173 = Fc2*direction8 + (Fv2*W2_3 + (Off2 + (t172 + (VPu2_1n*MSu2_2 - t169))))
+    t174 = t19*t146 - (XZ3 + t145)
+    Su2_23n = XZ2R*t45 + YZ2*t47
+    t175 = YZ3 - t93
+    t176 = 0.055*t24 + (0.5 + t48 + 1.025*t15)
+    t177 = (t17*t99 + t19*MSu6_1)*t176 - (t73*t24 - (t19*t101 + t17*Su6_23)*t15)
+    t178 = t57*t177 + (t17*t105*t176 + (t76*t24 - (t19*t107 + t17*t71)*t15))
+    t179 = t17*t92 - t19*t91
+    t180 = t78*t178 - (t79*t177 - (t139*t176 - (t24*t114 + t15*t179)))
+    t181 = t161*t178 + (t162*t177 - (t24*(t155 - t175) + (Su2_23n - t15*(t174 - t97*t138))))
+    t182 = t116*t180 - (t117*t178 + (t118*t177 + (t24*(t98 - t175) - t15*(0.055*t97 + t174))))
+    t183 = t159*t182 - (t160*t180 - t181)
+    t184 = t156*t160 - (t154*t161 + (t153*t162 + (t143 + (t150 - (S2_22 - t167 - t143)))))
+    t185 = 1.0/(t157*t159 - t184)
+    t186 = t185*t183
+    t187 = t158*t182
+    t188 = t115*t180
+    t189 = t72*t178
+    t190 = t56*t177
+    f4_2n = t19*t128 - t17*t126
+    t191 = 2.0*S3_12n
+    t192 = YZ3*(Uu3_22n - t50) + (2.0*t133*WP3_1n + (1.025*f4_2n - (t17*t122 + t19*t121)))
+    t193 = tau_ext1 - (t1 - (t190*t54 - (t189*t69 + (t188*t89 + (t187*t137 - t186*t173)))))
+    t194 = YZ3*U3_12n + (XZ3*(Uu3_22n - t49) + (2.0*S3_11n*WP3_2n + (t87 + 0.055*f4_2n)))
+    t195 = t15*(XZ3*U3_12n + (t191*WP3_2n + t192)) + t193
+    F3_3 = 2.0*MS3_1*WP3_2n
+    f3_3 = F3_3 + f4_2n
+    Su2_13n = XZ2R*t47 - YZ2*t45
+    t196 = Uu2_22n*Su2_13n - (t48*f3_3 - (t24*(MS3_1*VPu3_3 + (t191*WP3_1n - t194)) - t195))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t132))
+    t197 = t45*(t166 + (S2_22 + t167)*t45) + (MX2R*t47 - (t168 + (t167 - (S1_11 + S1_22))))
+    t198 = 2.0*(t176*(t140*t24 + t142*t15)) - (t148 - (t147 - (t113 + t197)))
+    t199 = t177*t190 + (t15*(t24*(2.0*(S3_12n - 1.025*MX3R - t179)) + t15*(t149 + t148)) + t198)
+    t200 = Fc1*direction7 + (Fv1*W1_3 + (Off1 - (0.5*f2_3 + (Uu2_32*Su2_12 - t196))))
+    t201 = 1.0/(t183*t186 - (t182*t187 - (t180*t188 - (t178*t189 + t199))))*t200
+    t202 = t185*t173 + t186*t201
+    t203 = t158*t137 + (t187*t201 - t159*t202)
+    t204 = t115*t89 - (t188*t201 - (t160*t202 + t116*t203))
+    t205 = t72*t69 + (t189*t201 - (t161*t202 + (t117*t203 - t78*t204)))
+    return ca.Function(
+        "flexible_direct_dynamics_sliding",
+        [in_parameters, in_q, in_qd, in_tau, in_tau_ext, in_direction],
+        [
+            _packed(
+                1,
+                -t2, -t4, -t6, -t8, -t10, -t12, t2 - t201, t4 + t202, t6 - t203, t8 + t204,
+                t10 - t205,
+                t190*t201 - (t162*t202 + (t118*t203 + (t79*t204 - (t12 + t57*t205)))) - t56*t54,
+            ),
+        ],
+        ["parameters", "q", "qd", "tau", "tau_ext", "direction"],
+        ["qdd"],
+    )
+
+
+def _build_flexible_direct_dynamics_smooth():
+    """Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+    integrated.
+
+    Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a) positive
+    definite.
+
+    Inputs:
+        parameters: (95) parameters, in the order of PARAMETERS [SI]
+        q: (12) [q_m; q_e]: motors, then elongations [rad]
+        qd: (12) speeds of [q_m; q_e] [rad/s]
+        tau: (6) motor torques, on the joint side [N m]
+        tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+        width: (12) speeds within which the friction turns round, more than 0: of the motors,
+            then of the elastic joints' links [rad/s]
+    Outputs:
+        qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+    """
+    in_parameters = ca.SX.sym("parameters", 95)
+    in_q = ca.SX.sym("q", 12)
+    in_qd = ca.SX.sym("qd", 12)
+    in_tau = ca.SX.sym("tau", 6)
+    in_tau_ext = ca.SX.sym("tau_ext", 6)
+    in_width = ca.SX.sym("width", 12)
+    (
+        ZZ1R, Fv1, Fc1, Off1, XX2R, XY2, XZ2R, YZ2, ZZ2R, MX2R, MY2, Fv2, Fc2, Off2, F02, XX3R,
+        XY3R, XZ3, YZ3, ZZ3R, MX3R, MY3R, Ia3, Fv3, Fc3, Off3, XX4R, XY4, XZ4, YZ4, ZZ4R, MX4, MY4R,
+        Ia4, Fv4, Fc4, Off4, XX5R, XY5, XZ5, YZ5, ZZ5R, MX5, MY5R, Ia5, Fv5, Fc5, Off5, XX6R, XY6,
+        XZ6, YZ6, ZZ6, MX6, MY6, Ia6, Fv6, Fc6, Off6, Iam1, Fvm1, Fcm1, Offm1, k1, Iam2, Fvm2, Fcm2,
+        Offm2, k2, Iam3, Fvm3, Fcm3, Offm3, k3, Iam4, Fvm4, Fcm4, Offm4, k4, Iam5, Fvm5, Fcm5,
+        Offm5, k5, Iam6, Fvm6, Fcm6, Offm6, k6,
+    ) = _entries(
+        in_parameters, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+        22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44,
+        45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67,
+        68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88,
+    )
+    (
+        q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12,
+    ) = _entries(
+        in_q, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,
+    )
+    qd1, qd2, qd3, qd4, qd5, qd6, qd7, qd8, qd9, qd10, qd11, qd12 = _entries(in_qd)
+    tau1, tau2, tau3, tau4, tau5, tau6 = _entries(in_tau)
+    tau_ext1, tau_ext2, tau_ext3, tau_ext4, tau_ext5, tau_ext6 = _entries(in_tau_ext)
+    (
+        width1, width2, width3, width4, width5, width6, width7, width8, width9, width10, width11,
+        width12,
+    ) = _entries(
+        in_width,
+    )
+    t1 = k1*q7
+    t2 = (Fvm1*qd1 + (Offm1 - (tau1 + t1)) + Fcm1*(qd1/ca.sqrt(qd1*qd1 + width1*width1)))/Iam1
+    t3 = k2*q8
+    t4 = (Fvm2*qd2 + (Offm2 - (tau2 + t3)) + Fcm2*(qd2/ca.sqrt(qd2*qd2 + width2*width2)))/Iam2
+    t5 = k3*q9
+    t6 = (Fvm3*qd3 + (Offm3 - (tau3 + t5)) + Fcm3*(qd3/ca.sqrt(qd3*qd3 + width3*width3)))/Iam3
+    t7 = k4*q10
+    t8 = (Fvm4*qd4 + (Offm4 - (tau4 + t7)) + Fcm4*(qd4/ca.sqrt(qd4*qd4 + width4*width4)))/Iam4
+    t9 = k5*q11
+    t10 = (Fvm5*qd5 + (Offm5 - (tau5 + t9)) + Fcm5*(qd5/ca.sqrt(qd5*qd5 + width5*width5)))/Iam5
+    t11 = k6*q12
+    t12 = Fvm6*qd6 + (Offm6 - (tau6 + t11)) + Fcm6*(qd6/ca.sqrt(qd6*qd6 + width6*width6))
+    t13 = t12/Iam6
+    t14 = qd6 + qd12
+    t15 = q2 + q8
+    t16 = q9 + (q3 + t15)
+    t17 = ca.cos(t16)
+    W1_3 = qd1 + qd7
+    W3_1 = W1_3*t17
+    t18 = q4 + q10
+    t19 = ca.sin(t18)
+    t20 = qd3 + qd9
+    W2_3 = qd2 + qd8
+    W3_3 = W2_3 + t20
+    t21 = ca.cos(t18)
+    W4_2n = t21*W3_3 + t19*W3_1
+    t22 = t19*W3_3 - t21*W3_1
+    t23 = t22*W4_2n
+    WP3_2n = W3_3*W3_1
+    U4_12 = WP3_2n + t23
+    t24 = q5 + q11
+    t25 = ca.cos(t24)
+    t26 = ca.sin(t16)
+    W3_2n = W1_3*t26
+    WP3_1n = W3_3*W3_2n
+    U3_32n = 2.0*WP3_1n
+    U3_12n = W3_1*W3_2n
+    U4_23 = t19*U3_12n + t21*U3_32n
+    t27 = qd4 + qd10
+    W4_3 = t27 - W3_2n
+    t28 = W4_3*W4_2n
+    WP4_1n = t28 + U4_23
+    U4_32n = t28 + WP4_1n
+    t29 = ca.sin(t24)
+    t30 = t29*U4_32n - t25*U4_12
+    t31 = qd5 + qd11
+    W5_3 = t31 + W4_2n
+    W5_1 = t29*W4_3 - t25*t22
+    t32 = W5_1*W5_3
+    WP5_2n = t32 - t30
+    U5_31 = t32 + WP5_2n
+    t33 = q6 + q12
+    t34 = ca.sin(t33)
+    t35 = ca.cos(t33)
+    S6_22 = 0.5*(XX6R + ZZ6)
+    S6_11n = XX6R - S6_22
+    t36 = (S6_22 + S6_11n)*t35 - 2.0*XY6*t34
+    t37 = t35*t36
+    Su6_11n = S6_11n - t37
+    Uu6_12n = t32 - WP5_2n
+    Su6_22 = S6_22 - t37
+    t38 = W5_3*W5_3
+    t39 = W5_1*W5_1
+    t40 = t39 - t38
+    Su6_12 = XY6 + t34*t36
+    U5_23 = t29*U4_12 + t25*U4_32n
+    W5_2 = t29*t22 + t25*W4_3
+    t41 = W5_2*W5_3
+    U5_32 = t41 + (t41 - U5_23)
+    S6_23n = YZ6 + 0.29*MY6
+    S6_13n = XZ6 + 0.29*MX6
+    Su6_13n = S6_13n*t34 + S6_23n*t35
+    t42 = t19*U3_32n - t21*U3_12n
+    t43 = t22*W4_3
+    t44 = t43 + t42
+    t45 = W5_2*W5_1
+    t46 = t45 + t44
+    Su6_23 = S6_13n*t35 - S6_23n*t34
+    t47 = ca.sin(t15)
+    t48 = 1.3*t47
+    WPu2_1 = W1_3*W2_3
+    Uu2_32 = 2.0*WPu2_1
+    VPu3_3 = Uu2_32*t48
+    VPu4_2n = 2.05*WP3_1n + (VPu3_3 - 0.11*WP3_2n)
+    t49 = ca.cos(t15)
+    t50 = 1.3*t49
+    Uu2_22n = W2_3*W2_3
+    U1_11n = W1_3*W1_3
+    Uu2_11n = U1_11n + Uu2_22n
+    VPu2_1n = 0.5*U1_11n
+    VPu3_1n = VPu2_1n + Uu2_11n*t50
+    VPu3_2n = 9.81 + Uu2_22n*t48
+    t51 = W3_1*W3_1
+    t52 = U1_11n - t51
+    Uu3_22n = W3_3*W3_3
+    U3_11n = Uu3_22n + t52
+    VPu4_1 = 1.025*U3_12n + (0.055*U3_11n - (VPu3_2n*t17 - VPu3_1n*t26))
+    VP4_2n = t19*VPu4_1 + t21*VPu4_2n
+    MSu6_1 = MX6*t34 + MY6*t35
+    t53 = Su6_23*t46 - (Su6_13n*U5_32 - (Su6_12*t40 - (Su6_22*Uu6_12n + Su6_11n*U5_31)))
+    t54 = t19*VPu4_2n - t21*VPu4_1
+    VP3_2 = VPu3_1n*t17 + VPu3_2n*t26
+    U3_22n = Uu3_22n + t51
+    VPu4_3 = 1.025*U3_22n + (0.055*U3_12n + VP3_2)
+    VP5_1 = t29*VPu4_3 - t25*t54
+    MSu6_2n = MX6*t35 - MY6*t34
+    Nu6_3 = MSu6_2n*VP5_1 - (MSu6_1*VP4_2n + t53)
+    t55 = Fv6*t14 + (Off6 + (Nu6_3 + (t11 - tau_ext6)))
+    t56 = t55 + Fc6*(t14/ca.sqrt(t14*t14 + width12*width12))
+    t57 = S6_22 - S6_11n
+    t58 = 1.0/(Ia6 + t57)
+    t59 = t58*Su6_23
+    W6_3 = t14 + W5_2
+    t60 = W5_1*W6_3
+    Uu6_31 = t60 - (t46 - t60)
+    t61 = W6_3*W6_3
+    t62 = W5_3*W6_3
+    WPu6_1 = U5_32 - t62
+    Uu6_32n = t62 - WPu6_1
+    U5_21 = t45 - t44
+    t63 = 0.5*(XX5R + ZZ5R)
+    S5_11n = XX5R - t63
+    t64 = Su6_12*Uu6_32n - (Su6_23*Uu6_12n + (Su6_13n*(t39 - t61) - Su6_11n*Uu6_31))
+    S5_22 = t63 - (ZZ6 - S6_22)
+    t65 = W4_3*W4_3
+    t66 = t22*t22
+    U4_22n = t66 + t65
+    t67 = t39 - U4_22n
+    t68 = YZ5*t30 - (XZ5*U5_23 - (XY5*(t39 + t67) - (S5_22*t46 + (S5_11n*U5_21 + t64))))
+    VP5_2 = t29*t54 + t25*VPu4_3
+    t69 = MX5 + MSu6_1
+    t70 = t69*VP5_2 - (MY5R*VP5_1 - t68)
+    t71 = Fv5*t31 + (Off5 + (t70 - (tau_ext5 - (t9 - t59*t56))))
+    t72 = Fc5*(t31/ca.sqrt(t31*t31 + width11*width11)) + t71
+    t73 = S5_11n + Su6_11n
+    t74 = S5_22 - t73
+    t75 = 1.0/(Ia5 + t74 - Su6_23*t59)
+    t76 = t29*Su6_13n + t57*t25
+    t77 = YZ5 + Su6_23
+    t78 = XZ5 + Su6_12
+    t79 = t29*t78 + t25*t77
+    t80 = t79 - t76*t59
+    t81 = t80*t75
+    t82 = t58*t76
+    t83 = MSu6_2n*VP5_2 - (Su6_12*Uu6_31 - (Su6_23*(t38 - t61) + Su6_22*Uu6_32n))
+    t84 = XY5 + Su6_13n
+    t85 = t84*U5_31 - (MY5R*VP4_2n + (XZ5*U5_21 - (YZ5*(t38 + t67) - (S5_22*U5_32 - t83))))
+    t86 = MX5*VP4_2n - (XY5*U5_32 - (YZ5*t46 + (XZ5*t40 - (Nu6_3 + S5_11n*U5_31))))
+    n5_2n = t25*t86 + t29*t85
+    U4_21n = WP3_2n - t23
+    t87 = 0.5*(XX4R + ZZ4R)
+    S4_11n = XX4R - t87
+    S4_22 = t87 - (ZZ5R - t63)
+    t88 = U3_22n - t66
+    t89 = YZ4*t42 - (XZ4*U4_23 - (XY4*(t66 - t88) - (S4_22*U4_12 - (S4_11n*U4_21n - n5_2n))))
+    t90 = MY4R*t54 - (MX4*VP4_2n - t89)
+    t91 = Fv4*t27 + (Off4 + (t90 - (tau_ext4 - (t7 - (t82*t56 + t81*t72)))))
+    t92 = Fc4*(t27/ca.sqrt(t27*t27 + width10*width10)) + t91
+    t93 = t29*(S5_22 + t73) + t25*(2.0*t84)
+    t94 = t25*t93 + (XZ4 - t84)
+    t95 = YZ4 - t79
+    t96 = t21*t95 + t19*t94
+    t97 = MY4R - MSu6_2n
+    t98 = t25*t69 - MY5R*t29
+    t99 = MX4 + t98
+    t100 = t19*t99 + t21*t97
+    t101 = 1.025*t100
+    t102 = t25*MSu6_2n
+    t103 = t21*t102 - t19*MSu6_1
+    t104 = t25*Su6_13n - t57*t29
+    t105 = t19*t104 - t21*Su6_23
+    t106 = t29*MSu6_2n
+    t107 = 0.055*t106 + (t105 - 1.025*t103)
+    t108 = t29*t69 + MY5R*t25
+    t109 = t21*t108
+    t110 = t25*t78 - t29*t77
+    t111 = t19*t110 - t21*t74
+    t112 = t59*t107 - (0.055*t98 + (t111 + 1.025*t109))
+    t113 = t81*t112 - (t82*t107 - (t101 + t96))
+    t114 = t29*t93
+    t115 = t114 - (S4_11n + t73)
+    t116 = S4_22 + Su6_22
+    t117 = t116 + t115
+    t118 = 1.0/(t80*t81 + (t76*t82 - (Ia4 + t117)))
+    t119 = t118*t113
+    t120 = t75*t112
+    t121 = t58*t107
+    t122 = t43 + t44
+    t123 = XZ4*U4_21n - (XY4*t122 - (YZ4*(t65 - t88) + (S4_22*U4_32n - (t29*t86 - t25*t85))))
+    t124 = MY4R*VPu4_3 - t123
+    t125 = MX4*VPu4_3 + (XY4*U4_32n + (YZ4*U4_12 + (XZ4*(t66 - t65) + (t70 + S4_11n*t122))))
+    n4_2n = t21*t125 - t19*t124
+    Uu6_11n = t38 + t61
+    U5_11n = t38 - t67
+    t126 = MY5R*t46 - (MX5*U5_11n - (MSu6_2n*Uu6_12n - MSu6_1*Uu6_11n))
+    Fu6_3 = MSu6_2n*Uu6_32n + MSu6_1*Uu6_31
+    U5_22n = t39 + t38
+    t127 = MY5R*U5_22n - (MX5*U5_21 + Fu6_3)
+    f5_2n = t25*t127 - t29*t126
+    t128 = 0.975609756097561*MY3R
+    f4_3n = MY4R*U4_32n + (MX4*t122 + (t128*VPu4_3 + f5_2n))
+    U4_11n = t65 + t88
+    t129 = MY4R*U4_12 - (MX4*U4_11n - (t128*t54 + (t29*t127 + t25*t126)))
+    Uu6_22n = t39 + t61
+    t130 = MY4R*U4_22n + (MX4*U4_21n - (t128*VP4_2n - (MY5R*U5_32 - MSu6_2n*Uu6_22n)))
+    t131 = t69*U5_31 + t130
+    t132 = t19*t131 + t21*t129
+    S3_12n = XY3R - 0.055*MY3R
+    MS3_1 = MX3R - 0.05365853658536585*MY3R
+    t133 = 1.025*MY3R
+    t134 = ZZ4R - t87
+    t135 = 0.5*(XX3R + ZZ3R)
+    t136 = t135 - (t134 - t133)
+    t137 = XX3R - t135
+    S3_11n = t137 - 0.002951219512195122*MY3R
+    t138 = MS3_1*VP3_2 + (S3_12n*(t51 - t52) + (1.025*t132 + (0.055*f4_3n + n4_2n)))
+    n3_3 = (S3_11n + t136)*U3_12n + t138
+    t139 = Fv3*t20 + (Off3 + (n3_3 - (tau_ext3 - (t5 + (t121*t56 - (t120*t72 + t119*t92))))))
+    t140 = Fc3*(t20/ca.sqrt(t20*t20 + width9*width9)) + t139
+    t141 = t48*t17 - (0.055 + t50*t26)
+    t142 = t21*t99 - t19*t97
+    t143 = MX3R + t142
+    t144 = t50*t17 + (1.025 + t48*t26)
+    t145 = MY3R + t108
+    t146 = t145*t144 - t143*t141
+    t147 = 0.055*MX3R
+    t148 = XY4 - t110
+    t149 = t21*(2.0*t148) + t19*(t116 - t115)
+    t150 = t19*t149
+    t151 = t150 + (t147 - (t137 - t147) + t115)
+    S3_22 = t135 - t134
+    t152 = t114 - (S5_22 + (t133 + (S3_22 + t133)))
+    t153 = t152 - t151
+    t154 = 0.055*t143 + 1.025*t145
+    t155 = t154 + t153
+    t156 = t106*t141 - (t105 - t103*t144)
+    t157 = t59*t156 - (t98*t141 - (t111 + t109*t144))
+    t158 = t100*t144
+    t159 = t81*t157 - (t82*t156 + (t96 + t158))
+    t160 = t119*t159 - (t120*t157 + (t121*t156 - (t155 + t146)))
+    t161 = 1.0/(t113*t119 - (t112*t120 + (t107*t121 + (t155 - (Ia3 - t154)))))
+    t162 = t161*t160
+    t163 = t118*t159
+    t164 = t75*t157
+    t165 = t58*t156
+    F3_1n = MS3_1*U3_11n
+    t166 = t132 - F3_1n
+    F3_2n = MS3_1*U3_12n
+    t167 = f4_3n + F3_2n
+    t168 = n3_3 - (tau_ext2 - (t3 - (t165*t56 - (t164*t72 + (t163*t92 + t162*t140)))))
+    f3_1 = t17*t167 - t26*t166
+    t169 = 2.0*XY2*t49
+    S2_22 = 0.5*(XX2R + ZZ2R)
+    t170 = XX2R - S2_22
+    S2_11n = t170 - 1.648780487804878*MY3R
+    Su2_12 = XY2 - t49*((S2_22 + S2_11n)*t47 + t169)
+    t171 = MY2*t47
+    MS2_1 = MX2R + 1.2682926829268293*MY3R
+    MSu2_1 = MS2_1*t49 - t171
+    MSu2_2 = MS2_1*t47 + MY2*t49
+    t172 = 9.81*MSu2_1 - (U1_11n*Su2_12 - (t48*f3_1 - (t50*(t26*t167 + t17*t166) + t168)))
+    t173 = 1.6293 - t15
+    t174 = ca.sqrt(0.97741405 + 0.39874956*ca.cos(t173))
+    t175 = F02*(0.09968739*ca.sin(t173)/(t174*(1.4767799349556487 - t174)))
+    t176 = Fv2*W2_3 + (Off2 + (t175 + (VPu2_1n*MSu2_2 - t172)))
+    t177 = Fc2*(W2_3/ca.sqrt(Uu2_22n + width8*width8)) + t176
+    t178 = t21*t149 - (XZ3 + t148)
+    Su2_23n = XZ2R*t47 + YZ2*t49
+    t179 = YZ3 - t96
+    t180 = 0.055*t26 + (0.5 + t50 + 1.025*t17)
+    t181 = (t19*t102 + t21*MSu6_1)*t180 - (t76*t26 - (t21*t104 + t19*Su6_23)*t17)
+    t182 = t59*t181 + (t19*t108*t180 + (t79*t26 - (t21*t110 + t19*t74)*t17))
+    t183 = t19*t95 - t21*t94
+    t184 = t81*t182 - (t82*t181 - (t142*t180 - (t26*t117 + t17*t183)))
+    t185 = t164*t182 + (t165*t181 - (t26*(t158 - t179) + (Su2_23n - t17*(t178 - t100*t141))))
+    t186 = t119*t184 - (t120*t182 + (t121*t181 + (t26*(t101 - t179) - t17*(0.055*t100 + t178))))
+    t187 = t162*t186 - (t163*t184 - t185)
+    t188 = t159*t163 - (t157*t164 + (t156*t165 + (t146 + (t153 - (S2_22 - t170 - t146)))))
+    t189 = 1.0/(t160*t162 - t188)
+    t190 = t189*t187
+    t191 = t161*t186
+    t192 = t118*t184
+    t193 = t75*t182
+    t194 = t58*t181
+    f4_2n = t21*t131 - t19*t129
+    t195 = 2.0*S3_12n
+    t196 = YZ3*(Uu3_22n - t52) + (2.0*t136*WP3_1n + (1.025*f4_2n - (t19*t125 + t21*t124)))
+    t197 = tau_ext1 - (t1 - (t194*t56 - (t193*t72 + (t192*t92 + (t191*t140 - t190*t177)))))
+    t198 = YZ3*U3_12n + (XZ3*(Uu3_22n - t51) + (2.0*S3_11n*WP3_2n + (t90 + 0.055*f4_2n)))
+    t199 = t17*(XZ3*U3_12n + (t195*WP3_2n + t196)) + t197
+    F3_3 = 2.0*MS3_1*WP3_2n
+    f3_3 = F3_3 + f4_2n
+    Su2_13n = XZ2R*t49 - YZ2*t47
+    t200 = Uu2_22n*Su2_13n - (t50*f3_3 - (t26*(MS3_1*VPu3_3 + (t195*WP3_1n - t198)) - t199))
+    Fu2_3 = Uu2_32*MSu2_2
+    f2_3 = Fu2_3 + f3_3
+    t201 = Fv1*W1_3 + (Off1 - (0.5*f2_3 + (Uu2_32*Su2_12 - t200)))
+    S1_11 = 0.5*ZZ1R
+    S1_22 = S1_11 - (ZZ2R - S2_22 + (ZZ3R - t135))
+    t202 = t47*(t169 + (S2_22 + t170)*t47) + (MX2R*t49 - (t171 + (t170 - (S1_11 + S1_22))))
+    t203 = 2.0*(t180*(t143*t26 + t145*t17)) - (t151 - (t150 - (t116 + t202)))
+    t204 = t181*t194 + (t17*(t26*(2.0*(S3_12n - 1.025*MX3R - t183)) + t17*(t152 + t151)) + t203)
+    t205 = 1.0/(t187*t190 - (t186*t191 - (t184*t192 - (t182*t193 + t204))))
+    t206 = t205*(Fc1*(W1_3/ca.sqrt(U1_11n + width7*width7)) + t201)
+    t207 = t189*t177 + t190*t206
+    t208 = t161*t140 + (t191*t206 - t162*t207)
+    t209 = t118*t92 - (t192*t206 - (t163*t207 + t119*t208))
+    t210 = t75*t72 + (t193*t206 - (t164*t207 + (t120*t208 - t81*t209)))
+    return ca.Function(
+        "flexible_direct_dynamics_smooth",
+        [in_parameters, in_q, in_qd, in_tau, in_tau_ext, in_width],
+        [
+            _packed(
+                1,
+                -t2, -t4, -t6, -t8, -t10, -t13, t2 - t206, t4 + t207, t6 - t208, t8 + t209,
+                t10 - t210,
+                t194*t206 - (t165*t207 + (t121*t208 + (t82*t209 - (t13 + t59*t210)))) - t58*t56,
+            ),
+        ],
+        ["parameters", "q", "qd", "tau", "tau_ext", "width"],
         ["qdd"],
     )
 
@@ -5668,8 +7062,12 @@ _BUILDERS = {
     "bias": _build_bias,
     "direct_dynamics": _build_direct_dynamics,
     "direct_dynamics_loaded": _build_direct_dynamics_loaded,
+    "direct_dynamics_sliding": _build_direct_dynamics_sliding,
+    "direct_dynamics_smooth": _build_direct_dynamics_smooth,
     "dynamics": _build_dynamics,
     "flexible_direct_dynamics": _build_flexible_direct_dynamics,
+    "flexible_direct_dynamics_sliding": _build_flexible_direct_dynamics_sliding,
+    "flexible_direct_dynamics_smooth": _build_flexible_direct_dynamics_smooth,
     "flexible_inverse_dynamics": _build_flexible_inverse_dynamics,
     "flexible_regressor": _build_flexible_regressor,
     "gravity": _build_gravity,
