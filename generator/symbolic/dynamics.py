@@ -12,7 +12,7 @@ from generator.symbolic.bodies import INERTIAL, Body, bodies
 from generator.symbolic.direct import solve
 from generator.symbolic.effect_torques import JointMotion
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import is_last, offset_along_axis, slid_origin
+from generator.symbolic.gauge import is_last, slid_origins
 from generator.symbolic.kinematics import screws, velocities
 from generator.symbolic.lean_screws import Screws, own_screws
 from generator.symbolic.newton_euler import Motion, Wrench
@@ -69,7 +69,7 @@ class Dynamics:
     @cached_property
     def gravity(self) -> Array:
         """Torque of the bodies' weight alone; balancers and offsets are effects and are not in it."""
-        return strategy.torques(self.chain, self.matter, self.still, self.still, self.strategies.gravity)
+        return strategy.gravity(self.chain, self.matter, self.strategies.gravity)
 
     @cached_property
     def inertia_matrix(self) -> Array:
@@ -124,19 +124,13 @@ class Dynamics:
 
     def _motion_and_screws(self) -> tuple[Mapping[int, Motion], Screws, Mapping[int, Node]]:
         """Motion and screws of a point of every frame in its own axes, and the origin's offset along z from it."""
-        zero = self.chain.program.zero
-        offsets = {frame.number: zero for frame in self.chain.frames}
         if self.strategies.torque is None:
+            offsets = {frame.number: self.chain.program.zero for frame in self.chain.frames}
             return newton_euler.motions(self.chain, self.qd, self.qdd), screws(self.chain), offsets
-        positions = {frame.number: frame.position for frame in self.chain.frames}
-        for frame in self.chain.frames:
-            if frame.revolute and is_last(self.chain, frame):
-                offsets[frame.number], positions[frame.number] = offset_along_axis(frame), slid_origin(frame)
-            elif frame.parent is not None:
-                back = array(self.chain.program, [0, 0, offsets[frame.parent.number]])
-                positions[frame.number] = frame.position + back
-        motion = lean_newton_euler.own_motions(self.chain, positions, self.qd, self.qdd)
-        return motion, own_screws(self.chain, positions), offsets
+        tips = {frame.number for frame in self.chain.frames if frame.revolute and is_last(self.chain, frame)}
+        origins = slid_origins(self.chain, tips)
+        motion = lean_newton_euler.own_motions(self.chain, origins, self.qd, self.qdd)
+        return motion, own_screws(self.chain, origins.positions), origins.offsets
 
     def _torques(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None) -> Array:
         if wrench is None:

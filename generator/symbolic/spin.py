@@ -31,6 +31,33 @@ class Spin:
         return Spin(back @ self.w, back @ self.ww @ entry, back @ self.wd, back @ self.u @ entry)
 
 
+@dataclass(frozen=True)
+class Turning:
+    """What the moment of a body needs of its rotation: ``u`` (3 x 3), ``differences`` w3 w3 - w2 w2 and cyclic (3).
+
+    ``about_z`` is wd3 where w1 w2 is zero, so that U12 and U21 are wd3 but for the sign, else None.
+    """
+
+    u: Array
+    differences: Array
+    about_z: Node | None
+
+
+def turning(spin: Spin) -> Turning:
+    """A rotation as the moments need it."""
+    ww = spin.ww
+    differences = [ww[2, 2] - ww[1, 1], ww[0, 0] - ww[2, 2], ww[1, 1] - ww[0, 0]]
+    about_z = spin.wd[2] if ww[0, 1] is ww[0, 1].program.zero else None
+    return Turning(spin.u, np.array(differences, dtype=object), about_z)
+
+
+def turning_tip(carried: Spin, rate: Node, acceleration: Node) -> Turning:
+    """As ``with_rate``, where nothing is carried: fewer operations, without angular acceleration and products."""
+    u = carried.u + added_u(carried, rate, acceleration)
+    differences = [u[2, 2] - u[1, 1], u[0, 0] - u[2, 2], carried.ww[1, 1] - carried.ww[0, 0]]
+    return Turning(u, np.array(differences, dtype=object), None)
+
+
 def standing(program: Program) -> Spin:
     """The base."""
     return Spin(zeros(program, 3), zeros(program, 3, 3), zeros(program, 3), zeros(program, 3, 3))
@@ -64,13 +91,35 @@ def with_rate(carried: Spin, rate: Node, acceleration: Node) -> Spin:
     return _completed(w, carried.ww[:2, :2], carried.u[:, 2], carried.wd[2] + acceleration)
 
 
-def in_own_axes(unspun: Spin, spun: Spun) -> Spin:
-    """The same rotation in the frame's own axes."""
+def added_u(carried: Spin, rate: Node, acceleration: Node) -> Array:
+    """U of a body in unspun axes without that of what carries it: what its ``rate`` about z adds (3 x 3).
+
+    skew(z) acceleration + skew(z)^2 rate^2 + 2 skew(w) skew(z) rate; nothing moves along z itself, so that the third
+    column is zero.
+    """
+    zero = rate.program.zero
+    x, y, z = carried.w
+    inward = -(rate * (z + (z + rate)))
+    # With z = 0 the products are those of w itself, which is used elsewhere.
+    last = [2 * (rate * x), 2 * (rate * y)] if z is zero else [(2 * rate) * x, (2 * rate) * y]
+    rows = [[inward, -acceleration, zero], [acceleration, inward, zero], [*last, zero]]
+    return np.array(rows, dtype=object)
+
+
+def in_own_axes(unspun: Spin, spun: Spun, carries_rates: bool = True) -> Spin:
+    """The same rotation in the frame's own axes.
+
+    The last row of U takes fewer operations where no frame asks for the angular acceleration (``carries_rates``).
+    """
     w, column = spun.to_own(unspun.w), spun.to_own(unspun.u[:, 2])
     first = w[0] * w[0]
     mixed = w[0] * w[1]
     across = np.array([[first, mixed], [mixed, -(column[2] + first)]], dtype=object)
-    return _completed(w, across, column, unspun.wd[2])
+    own = _completed(w, across, column, unspun.wd[2])
+    if not carries_rates:
+        twice = 2 * w[2]
+        own.u[2, :2] = [twice * w[0] - column[0], twice * w[1] - column[1]]
+    return own
 
 
 def _completed(w: Array, across: Array, column: Array, spin_up: Node) -> Spin:
@@ -90,22 +139,31 @@ def _completed(w: Array, across: Array, column: Array, spin_up: Node) -> Spin:
     return Spin(w, ww, wd, u)
 
 
-def moment(spin: Spin, sigma: Array, about_z: Node) -> Array:
+def moment(turning: Turning, sigma: Array, about_z: Node) -> Array:
     """The moment that turns a body about its origin: vee(U S - (U S)^T) with S = (tr J / 2) I - J its pseudo-inertia.
 
     Equal to J wd + w x J w; written by differences of products of w, which are shared over the body's six terms.
     ``about_z`` is S11 + S22, which may be known where S11 and S22 change.
     """
-    u, ww, s = spin.u, spin.ww, sigma
-    zero = about_z.program.zero
-    x = u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + (ww[2, 2] - ww[1, 1]) * s[1, 2]
-    y = u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + (ww[0, 0] - ww[2, 2]) * s[0, 2]
-    z = spin.wd[2] * about_z if ww[0, 1] is zero else u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1]
+    u, d, s = turning.u, turning.differences, sigma
+    x = u[2, 1] * s[1, 1] - u[1, 2] * s[2, 2] + d[0] * s[1, 2]
+    y = u[0, 2] * s[2, 2] - u[2, 0] * s[0, 0] + d[1] * s[0, 2]
+    z = u[1, 0] * s[0, 0] - u[0, 1] * s[1, 1] if turning.about_z is None else turning.about_z * about_z
     return np.array(
         [
             x + u[2, 0] * s[0, 1] - u[1, 0] * s[0, 2],
             y + u[0, 1] * s[1, 2] - u[2, 1] * s[0, 1],
-            z + (ww[1, 1] - ww[0, 0]) * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
+            z + d[2] * s[0, 1] + u[1, 2] * s[0, 2] - u[0, 2] * s[1, 2],
         ],
         dtype=object,
     )
+
+
+def moment_of(u: Array, t: Array) -> Array:
+    """vee(U T - (U T)^T) for any matrix T of second moments (3 x 3), symmetric or not."""
+    n = []
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        mixed = (u[k, k] - u[j, j]) * t[k, j] if t[k, j] is t[j, k] else u[k, k] * t[k, j] - u[j, j] * t[j, k]
+        n.append(u[k, j] * t[j, j] - u[j, k] * t[k, k] + mixed + (u[k, i] * t[i, j] - u[j, i] * t[i, k]))
+    return np.array(n, dtype=object)

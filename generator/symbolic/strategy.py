@@ -6,13 +6,14 @@ The textbook recursion is always among the candidates, so that no chain gets lon
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
 
-from generator.symbolic import inertia, lean_inertia, lean_newton_euler, newton_euler
+from generator.symbolic import inertia, lean_gravity, lean_inertia, lean_newton_euler, newton_euler
 from generator.symbolic.bodies import Body
-from generator.symbolic.frames import Chain
-from generator.symbolic.gauge import Gauge
+from generator.symbolic.frames import Chain, Frame
+from generator.symbolic.gauge import Gauge, is_last, slid_origins
+from generator.symbolic.lean_gravity import GravityStrategy
 from generator.symbolic.lean_inertia import InertiaStrategy
 from generator.symbolic.lean_newton_euler import Strategy
 from generator.symbolic.segments import segments
@@ -43,7 +44,7 @@ class Strategies:
     """The chosen ways for torques, for gravity alone and for the inertia matrix; None is the textbook recursion."""
 
     torque: Strategy | None = None
-    gravity: Strategy | None = None
+    gravity: GravityStrategy | None = None
     inertia: InertiaStrategy | None = None
     choices: Mapping[str, Choice] | None = None
 
@@ -58,6 +59,14 @@ def torques(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way
     return lean_newton_euler.inverse_dynamics(chain, matter, qd, qdd, way)
 
 
+def gravity(chain: Chain, matter: Mapping[int, Body], way: GravityStrategy | None) -> Array:
+    """Torques of the bodies' weight, written in the given way."""
+    if way is None:
+        still = [chain.program.zero] * chain.dof
+        return newton_euler.inverse_dynamics(chain, newton_euler.motions(chain, still, still), matter)
+    return lean_gravity.gravity(chain, matter, way)
+
+
 def inertia_matrix(chain: Chain, matter: Mapping[int, Body], way: InertiaStrategy | None) -> Array:
     """Inertia matrix of the bodies, written in the given way."""
     return inertia.inertia_matrix(chain, matter) if way is None else lean_inertia.inertia_matrix(chain, matter, way)
@@ -65,39 +74,46 @@ def inertia_matrix(chain: Chain, matter: Mapping[int, Body], way: InertiaStrateg
 
 def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes) -> Strategies:
     """The shortest ways for a chain."""
-    still = [chain.program.zero] * chain.dof
-    torque, torque_choice = _shortest_torque(chain, lambda way: torques(chain, matter, qd, qdd, way))
-    gravity, gravity_choice = _shortest_torque(chain, lambda way: torques(chain, matter, still, still, way))
-    meeting = [InertiaStrategy()]
-    meeting += [InertiaStrategy(j, block_unspun) for j in _meetings(chain) for block_unspun in (False, True)]
-    matrix, matrix_choice = _shortest(chain, lambda way: inertia_matrix(chain, matter, way), meeting)
-    choices = {"torques": torque_choice, "gravity": gravity_choice, "inertia matrix": matrix_choice}
-    return Strategies(torque, gravity, matrix, choices)
+    torque = _Search(chain, lambda way: torques(chain, matter, qd, qdd, way))
+    torque.among(Strategy(bodies, Gauge(slide)) for bodies in _unspun_candidates(chain) for slide in _slides(chain))
+    if torque.best is not None:
+        torque.among(_balanced(chain, torque.best))
+        torque.among(_slid_otherwise(chain, torque.best))
+        torque.among(replace(torque.best, gauge=gauge) for gauge in _in_units(chain, torque.best.gauge))
+    weight = _Search(chain, lambda way: gravity(chain, matter, way))
+    weight.among(GravityStrategy(Gauge(slide)) for slide in _slides(chain))
+    matrix = _Search(chain, lambda way: inertia_matrix(chain, matter, way))
+    matrix.among(InertiaStrategy(gauge=Gauge(slide)) for slide in _slides(chain))
+    slide = matrix.best.gauge if matrix.best is not None else Gauge()
+    matrix.among(InertiaStrategy(j, unspun, slide) for j in _meetings(chain) for unspun in (False, True))
+    if matrix.best is not None:
+        matrix.among(replace(matrix.best, gauge=gauge) for gauge in _in_units(chain, matrix.best.gauge))
+    choices = {"torques": torque.choice, "gravity": weight.choice, "inertia matrix": matrix.choice}
+    return Strategies(torque.best, weight.best, matrix.best, choices)
 
 
-def _shortest_torque(chain: Chain, write: Callable[[Strategy | None], Array]) -> tuple[Strategy | None, Choice]:
-    """First the axes that bodies work in, then the joints that keep a mass."""
-    axes = [Strategy(unspun=bodies) for bodies in _unspun_candidates(chain)]
-    best, choice = _shortest(chain, write, axes)
-    if best is None:
-        return best, choice
-    balanced = [
-        Strategy(best.unspun, Gauge(best.gauge.slide, (frame.number,)))
-        for frame in chain.frames
-        if _balances(chain, frame.number)
-    ]
-    return _shortest(chain, write, [best, *balanced[:_MEETINGS]])
+class _Search(Generic[_Way]):
+    """The shortest of the ways tried so far; the textbook recursion is the first."""
 
+    def __init__(self, chain: Chain, write: Callable[[_Way | None], Array]) -> None:
+        self._chain = chain
+        self._write = write
+        self._textbook = self._least = operations(chain, write(None))
+        self._tried: set[_Way] = set()
+        self.best: _Way | None = None
 
-def _shortest(chain: Chain, write: Callable[[_Way | None], Array], ways: Iterable[_Way]) -> tuple[_Way | None, Choice]:
-    textbook = operations(chain, write(None))
-    best: _Way | None = None
-    least = textbook
-    for way in ways:
-        count = operations(chain, write(way))
-        if count < least:
-            best, least = way, count
-    return best, Choice("textbook recursion" if best is None else str(best), least, textbook)
+    def among(self, ways: Iterable[_Way]) -> None:
+        for way in ways:
+            if way in self._tried:
+                continue
+            self._tried.add(way)
+            count = operations(self._chain, self._write(way))
+            if count < self._least:
+                self.best, self._least = way, count
+
+    @property
+    def choice(self) -> Choice:
+        return Choice("textbook recursion" if self.best is None else str(self.best), self._least, self._textbook)
 
 
 def operations(chain: Chain, results: Array) -> int:
@@ -107,21 +123,60 @@ def operations(chain: Chain, results: Array) -> int:
 
 
 def _unspun_candidates(chain: Chain) -> list[frozenset[int]]:
-    """Bodies that may gain from unspun axes: those inside a segment, those at the tips, both, none."""
+    """Bodies that may gain from unspun axes: those inside a segment, on a first frame, at the tips, unions, none."""
     spun = segments(chain)
     carriers = {frame.parent.number for frame in chain.frames if frame.parent is not None and frame.has_body()}
     inside = frozenset(
         frame.parent.number for frame in chain.frames if spun[frame.number].continues and frame.parent is not None
     )
     tips = frozenset(frame.number for frame in chain.frames if frame.revolute and frame.number not in carriers)
-    return list(dict.fromkeys([frozenset(), inside, tips, inside | tips]))
+    second = frozenset(frame.number for frame in chain.frames if lean_newton_euler.is_second(frame))
+    return list(dict.fromkeys(near | far for far in (tips, frozenset()) for near in (frozenset(), inside, second)))
 
 
-def _balances(chain: Chain, number: int) -> bool:
-    """Whether a mass behind a joint can balance its antecedent: the joint turns and stands away from it, across z."""
-    frame = chain.frames[number - 1]
+def _slides(chain: Chain) -> list[frozenset[int]]:
+    """Frames to slide: none, those at the tips, all that can."""
+    able = _able_to_slide(chain)
+    tips = frozenset(j for j in able if is_last(chain, chain.frames[j - 1]))
+    return list(dict.fromkeys([frozenset(), tips, able]))
+
+
+def _able_to_slide(chain: Chain) -> frozenset[int]:
+    """Revolute joints whose frame does not stand next to its antecedent's origin."""
     zero = chain.program.zero
-    return frame.revolute and frame.parent is not None and any(p is not zero for p in frame.position[:2])
+    return frozenset(
+        f.number
+        for f in chain.frames
+        if f.revolute and f.has_body() and f.rotation[:, 2] @ f.position is not zero
+    )
+
+
+def _slid_otherwise(chain: Chain, best: Strategy) -> list[Strategy]:
+    """The same with one frame slid more or less."""
+    gauges = [replace(best.gauge, slide=best.gauge.slide ^ {j}) for j in sorted(_able_to_slide(chain))]
+    return [replace(best, gauge=gauge) for gauge in gauges]
+
+
+def _balanced(chain: Chain, best: Strategy) -> list[Strategy]:
+    """The same with a mass kept behind a joint, whose frame then stays where it is."""
+    joints = [frame.number for frame in chain.frames if _balances(chain, frame)][:_MEETINGS]
+    return [replace(best, gauge=Gauge(best.gauge.slide - {j}, frozenset({j}))) for j in joints]
+
+
+def _in_units(chain: Chain, gauge: Gauge) -> list[Gauge]:
+    """The same in units of each fixed length of the chain; a force of a prismatic joint would have to be turned back."""
+    if any(frame.prismatic for frame in chain.frames):
+        return []
+    positions = slid_origins(chain, gauge.slide).positions.values()
+    lengths = {abs(entry.number) for position in positions for entry in position if entry.number}
+    return [replace(gauge, unit=length) for length in sorted(lengths, reverse=True)]
+
+
+def _balances(chain: Chain, frame: Frame) -> bool:
+    """Whether a mass behind a joint can balance its antecedent: the joint turns and stands away from it, across z."""
+    if not frame.revolute or frame.parent is None:
+        return False
+    return any(entry.number for entry in frame.position[:2])
 
 
 def _meetings(chain: Chain) -> list[int]:
