@@ -18,22 +18,27 @@ from generator.symbolic.vectors import Array, skew, zeros
 
 @dataclass(frozen=True)
 class Spin:
-    """Rotation of a body in some axes: ``w`` (3), products ``ww`` = w w^T (3 x 3), ``wd`` (3), ``u`` (3 x 3)."""
+    """Rotation of a body in some axes: ``w`` (3), products ``ww`` = w w^T (3 x 3), ``wd`` (3), ``u`` (3 x 3).
+
+    ``differences`` are w3 w3 - w2 w2, w1 w1 - w3 w3, w2 w2 - w1 w1.
+    """
 
     w: Array
     ww: Array
     wd: Array
     u: Array
+    differences: Array
 
     def turned(self, entry: Array) -> Spin:
         """The same rotation in the axes that are the columns of ``entry``, a matrix of zeros and signs."""
         back = entry.T
-        return Spin(back @ self.w, back @ self.ww @ entry, back @ self.wd, back @ self.u @ entry)
+        ww = back @ self.ww @ entry
+        return Spin(back @ self.w, ww, back @ self.wd, back @ self.u @ entry, _differences(ww))
 
 
 @dataclass(frozen=True)
 class Turning:
-    """What the moment of a body needs of its rotation: ``u`` (3 x 3), ``differences`` w3 w3 - w2 w2 and cyclic (3).
+    """What the moment of a body needs of its rotation: ``u`` (3 x 3) and ``differences`` of products of w (3).
 
     ``about_z`` is wd3 where w1 w2 is zero, so that U12 and U21 are wd3 but for the sign, else None.
     """
@@ -45,22 +50,27 @@ class Turning:
 
 def turning(spin: Spin) -> Turning:
     """A rotation as the moments need it."""
-    ww = spin.ww
-    differences = [ww[2, 2] - ww[1, 1], ww[0, 0] - ww[2, 2], ww[1, 1] - ww[0, 0]]
-    about_z = spin.wd[2] if ww[0, 1] is ww[0, 1].program.zero else None
-    return Turning(spin.u, np.array(differences, dtype=object), about_z)
+    alone = spin.ww[0, 1] is spin.ww[0, 1].program.zero
+    return Turning(spin.u, spin.differences, spin.wd[2] if alone else None)
 
 
 def turning_tip(carried: Spin, rate: Node, acceleration: Node) -> Turning:
     """As ``with_rate``, where nothing is carried: fewer operations, without angular acceleration and products."""
     u = carried.u + added_u(carried, rate, acceleration)
-    differences = [u[2, 2] - u[1, 1], u[0, 0] - u[2, 2], carried.ww[1, 1] - carried.ww[0, 0]]
+    fast = (carried.w[2] + rate) * (carried.w[2] + rate)
+    u[0, 0], u[1, 1] = -(carried.ww[1, 1] + fast), -(carried.ww[0, 0] + fast)
+    differences = [fast - carried.ww[1, 1], carried.ww[0, 0] - fast, carried.differences[2]]
     return Turning(u, np.array(differences, dtype=object), None)
+
+
+def _differences(ww: Array) -> Array:
+    return np.array([ww[2, 2] - ww[1, 1], ww[0, 0] - ww[2, 2], ww[1, 1] - ww[0, 0]], dtype=object)
 
 
 def standing(program: Program) -> Spin:
     """The base."""
-    return Spin(zeros(program, 3), zeros(program, 3, 3), zeros(program, 3), zeros(program, 3, 3))
+    nothing, none = zeros(program, 3), zeros(program, 3, 3)
+    return Spin(nothing, none, nothing, none, nothing)
 
 
 def spin_from_rates(w: Array, wd: Array) -> Spin:
@@ -72,7 +82,7 @@ def spin_from_rates(w: Array, wd: Array) -> Spin:
     u = skew(wd) + ww
     for i in range(3):
         u[i, i] = -(ww[(i + 1) % 3, (i + 1) % 3] + ww[(i + 2) % 3, (i + 2) % 3])
-    return Spin(w, ww, wd, u)
+    return Spin(w, ww, wd, u, _differences(ww))
 
 
 def entered(spun: Spun, before: Spin) -> Spin:
@@ -116,6 +126,12 @@ def in_own_axes(unspun: Spin, spun: Spun, carries_rates: bool = True) -> Spin:
     mixed = w[0] * w[1]
     across = np.array([[first, mixed], [mixed, -(column[2] + first)]], dtype=object)
     own = _completed(w, across, column, unspun.wd[2])
+    # With U33 known, two sums of squares give the whole diagonal and the differences.
+    p33 = w[2] * w[2]
+    difference = first - p33
+    own.u[0, 0], own.u[1, 1] = column[2] + difference, -(first + p33)
+    other = column[2] - own.u[1, 1]
+    own.differences[:] = [other, difference, -(other + difference)]
     if not carries_rates:
         twice = 2 * w[2]
         own.u[2, :2] = [twice * w[0] - column[0], twice * w[1] - column[1]]
@@ -136,7 +152,7 @@ def _completed(w: Array, across: Array, column: Array, spin_up: Node) -> Spin:
         ],
         dtype=object,
     )
-    return Spin(w, ww, wd, u)
+    return Spin(w, ww, wd, u, _differences(ww))
 
 
 def moment(turning: Turning, sigma: Array, about_z: Node) -> Array:
