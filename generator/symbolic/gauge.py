@@ -23,7 +23,8 @@ class Gauge:
     """Which freedoms to use beyond S33 = MZ = M = 0.
 
     ``slide`` names joints whose frame moves along the axis to the point next to the antecedent's origin; ``balance``
-    names joints that keep a mass at their origin, such that one first moment of their antecedent vanishes.
+    names joints that keep a mass at their origin, such that one first moment of their antecedent vanishes; ``unit`` [m]
+    is the unit of length, which can make a length of the chain 1.
     """
 
     slide: frozenset[int] = frozenset()
@@ -41,7 +42,11 @@ class Gauge:
 
 @dataclass(frozen=True)
 class Regauged:
-    """The bodies after the choice by frame number, and the origins of the frames in their antecedents."""
+    """The bodies after the choice by frame number, the frames' origins in their antecedents, and the free fall.
+
+    Lengths, moments and the free fall are in the unit of length of the choice, with a unit of mass that leaves inertias
+    and torques as they are.
+    """
 
     parts: Mapping[int, Matter]
     positions: Mapping[int, Array]
@@ -69,12 +74,12 @@ def regauge(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge) -> Regauged:
         parts[j] = Matter(part.sigma - leaving.sigma, part.moment - leaving.moment, part.mass - leaving.mass)
         if frame.parent is not None:
             parts[frame.parent.number] = below + moved(leaving, frame.rotation, positions[j])
-    for j, part in parts.items():
-        named("S", j, part.sigma)
-        named("MS", j, part.moment)
     unit = gauge.unit
-    parts = {j: Matter(part.sigma, unit * part.moment, unit * unit * part.mass) for j, part in parts.items()}
-    return Regauged(parts, {j: position / unit for j, position in positions.items()}, chain.gravity / unit)
+    scaled = {
+        j: Matter(named("S", j, part.sigma), named("MS", j, unit * part.moment), unit * unit * part.mass)
+        for j, part in parts.items()
+    }
+    return Regauged(scaled, {j: position / unit for j, position in positions.items()}, chain.gravity / unit)
 
 
 def _leaving(frame: Frame, part: Matter) -> Matter:

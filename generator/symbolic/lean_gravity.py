@@ -73,14 +73,15 @@ def _upward(chain: Chain, spun: Mapping[int, Spun], up: Array) -> dict[int, Arra
             result[frame.number] = result[frame.parent.number]
         else:
             k = frame.parent.number
-            result[frame.number] = link.entry.T @ named("g", k, spun[k].to_own(result[k]))
+            result[frame.number] = link.entry.T @ spun[k].to_own(result[k])
     return result
 
 
 def _size(gravity: Array) -> Node:
     """The first component of gravity that is not zero, one if there is none."""
     program = gravity[0].program
-    return next((component for component in gravity if component is not program.zero), program.one)
+    size: Node = next((component for component in gravity if component is not program.zero), program.one)
+    return size
 
 
 def _add(moments: dict[int, Array], j: int, more: Array) -> None:

@@ -14,25 +14,14 @@ import numpy as np
 
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import Gauge, Origins, Regauged, is_last, regauge
+from generator.symbolic.gauge import Gauge, Regauged, is_last, regauge
+from generator.symbolic.lean_motion import LeanMotion, motions
 from generator.symbolic.matter import Matter, about_z, unspun
-from generator.symbolic.newton_euler import Motion, Wrench
+from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun, segments
-from generator.symbolic.spin import (
-    Spin,
-    Turning,
-    added_u,
-    entered,
-    in_own_axes,
-    moment,
-    moment_of,
-    standing,
-    turning,
-    turning_tip,
-    with_rate,
-)
+from generator.symbolic.spin import Turning, added_u, moment, moment_of, turning, turning_tip
 from generator.symbolic.statements import Node
-from generator.symbolic.vectors import Array, Nodes, array, cross, named, zeros
+from generator.symbolic.vectors import Array, Nodes, cross, named, zeros
 
 
 @dataclass(frozen=True)
@@ -47,31 +36,9 @@ class Strategy:
         return f"segments of parallel axes, pseudo-inertias{still}{self.gauge}"
 
 
-@dataclass(frozen=True)
-class LeanMotion:
-    """Motion of a frame: rotation in unspun and own axes, acceleration of the origin in unspun and own axes.
-
-    ``carried`` is the antecedent's rotation and ``a_carried`` the acceleration of its origin, in unspun axes.
-    """
-
-    carried: Spin
-    a_carried: Array
-    unspun: Spin
-    own: Spin
-    a_unspun: Array
-    a_own: Array
-
-
 def inverse_dynamics(chain: Chain, bodies: Mapping[int, Body], qd: Nodes, qdd: Nodes, strategy: Strategy) -> Array:
     """Joint torques of the bodies alone, as ``newton_euler.inverse_dynamics`` gives them."""
     return _Recursion(chain, segments(chain), regauge(chain, bodies, strategy.gauge), strategy, qd, qdd).torques()
-
-
-def own_motions(chain: Chain, origins: Origins, qd: Nodes, qdd: Nodes) -> dict[int, Motion]:
-    """Motion of every frame in its own axes, as ``newton_euler.motions`` gives it, for origins put elsewhere."""
-    nothing = Regauged({}, origins.positions, chain.gravity)
-    motion = _Recursion(chain, segments(chain), nothing, Strategy(), qd, qdd).motions
-    return {j: Motion(own.own.w, own.own.wd, own.own.u, own.a_own) for j, own in motion.items()}
 
 
 @dataclass(frozen=True)
@@ -87,46 +54,12 @@ class _Recursion:
 
     @cached_property
     def motions(self) -> dict[int, LeanMotion]:
-        program = self.chain.program
-        result: dict[int, LeanMotion] = {}
-        for frame in self.chain.frames:
-            j, link = frame.number, self.spun[frame.number]
-            carried, a_carried, a = self._carried(frame, result)
-            rotation = carried
-            if frame.coordinate is not None:
-                rate, acceleration = self.qd[frame.coordinate], self.qdd[frame.coordinate]
-                if frame.revolute:
-                    rotation = with_rate(carried, rate, acceleration)
-                else:
-                    slide = array(program, [0, 0, rate])
-                    a = a + 2 * cross(carried.w, slide) + array(program, [0, 0, acceleration])
-            if frame.revolute:
-                own = in_own_axes(rotation, link, self._hands_rates_on(frame))
-            else:
-                own = _turned_by(rotation, link)
-            _named_motion(j, rotation, own)
-            a, a_own = named("VPu", j, a), named("VP", j, link.to_own(a))
-            result[j] = LeanMotion(carried, a_carried, rotation, own, a, a_own)
-        return result
-
-    def _carried(self, frame: Frame, result: Mapping[int, LeanMotion]) -> tuple[Spin, Array, Array]:
-        """In the frame's unspun axes, the antecedent's rotation and the acceleration of its origin and of the frame's."""
-        link = self.spun[frame.number]
-        if frame.parent is None:
-            a = link.entry.T @ -self.chosen.gravity
-            return entered(link, standing(self.chain.program)), a, a
-        before = result[frame.parent.number]
-        position = self.chosen.positions[frame.number]
-        if link.continues:
-            arm = self.spun[frame.parent.number].to_unspun(position)
-            return before.unspun, before.a_unspun, before.a_unspun + before.unspun.u @ arm
-        a_carried, a = link.entry.T @ before.a_own, link.entry.T @ (before.a_own + before.own.u @ position)
-        return entered(link, before.own), a_carried, a
+        still = {frame.number for frame in self.chain.frames if not self._hands_rates_on(frame)}
+        chosen = self.chosen
+        return motions(self.chain, self.spun, chosen.positions, chosen.gravity, self.qd, self.qdd, still)
 
     def _hands_rates_on(self, frame: Frame) -> bool:
         """Whether a frame that this one carries asks for its angular acceleration."""
-        if not self.chosen.parts:
-            return True
         carried = [other for other in self.chain.frames if other.parent is frame and other.has_body()]
         return not all(self._is_unspun_tip(other) for other in carried)
 
@@ -139,27 +72,15 @@ class _Recursion:
         summed: dict[int, Wrench] = {}
         for frame in reversed(self.chain.frames):
             j, link = frame.number, self.spun[frame.number]
-            part = self.chosen.parts.get(j)
-            apart: tuple[Node, Wrench] | None = None
-            if part is not None:
-                if j in self.strategy.unspun and is_second(frame):
-                    apart = self._apart(frame, part)
-                elif j in self.strategy.unspun:
-                    _add(summed, j, _named_wrench("u", j, self._unspun_wrench(frame, part)))
-                else:
-                    motion = self.motions[j]
-                    wrench = _wrench(turning(motion.own), motion.a_own, part, about_z(part))
-                    _add(own, j, _named_wrench("", j, wrench))
+            apart = self._add_body(frame, own, summed)
             if j in own:
                 _add(summed, j, Wrench(link.to_unspun(own[j].f), link.to_unspun(own[j].n)))
             total = summed.get(j)
             if total is not None:
                 named("f", j, total.f)
                 named("n", j, total.n)
-                if frame.coordinate is not None:
-                    torques[frame.coordinate] = total.n[2] if frame.revolute else total.f[2]
-            if apart is not None:
-                torques[frame.coordinate] = torques[frame.coordinate] + apart[0]
+            if frame.coordinate is not None:
+                torques[frame.coordinate] = self._torque(frame, total, apart)
             if frame.parent is None:
                 continue
             k, position = frame.parent.number, self.chosen.positions[j]
@@ -172,6 +93,27 @@ class _Recursion:
             if apart is not None:
                 _add(own, k, Wrench(link.entry @ apart[1].f, link.entry @ apart[1].n))
         return torques
+
+    def _add_body(self, frame: Frame, own: dict[int, Wrench], summed: dict[int, Wrench]) -> tuple[Node, Wrench] | None:
+        """Adds the wrench of a frame's body where it belongs; what ``_apart`` gives of one that is reckoned so."""
+        j = frame.number
+        part = self.chosen.parts.get(j)
+        if part is None:
+            return None
+        if j not in self.strategy.unspun:
+            motion = self.motions[j]
+            _add(own, j, _named_wrench("", j, _wrench(turning(motion.own), motion.a_own, part, about_z(part))))
+        elif is_second(frame):
+            return self._apart(frame, part)
+        else:
+            _add(summed, j, _named_wrench("u", j, self._unspun_wrench(frame, part)))
+        return None
+
+    def _torque(self, frame: Frame, total: Wrench | None, apart: tuple[Node, Wrench] | None) -> Node:
+        torque: Node = self.chain.program.zero
+        if total is not None:
+            torque = total.n[2] if frame.revolute else total.f[2]
+        return torque if apart is None else torque + apart[0]
 
     def _unspun_wrench(self, frame: Frame, part: Matter) -> Wrench:
         j = frame.number
@@ -208,21 +150,6 @@ class _Recursion:
 def is_second(frame: Frame) -> bool:
     """Whether the antecedent turns about one fixed axis, so that most of its U is zero."""
     return frame.revolute and frame.parent is not None and frame.parent.parent is None and frame.joint.alpha != 0
-
-
-def _named_motion(j: int, unspun_rotation: Spin, own: Spin) -> None:
-    """Names for a reviewer; a u marks unspun axes."""
-    for mark, rotation in (("", own), ("u", unspun_rotation)):
-        named(f"W{mark}", j, rotation.w)
-        named(f"WP{mark}", j, rotation.wd)
-        named(f"U{mark}", j, rotation.u)
-
-
-def _turned_by(rotation: Spin, link: Spun) -> Spin:
-    """The rotation of a frame that does not spin in its own axes, which a constant angle turns."""
-    zero, one = link.cosine.program.zero, link.cosine.program.one
-    c, s = link.cosine, link.sine
-    return rotation.turned(np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]], dtype=object))
 
 
 def _named_wrench(mark: str, j: int, wrench: Wrench) -> Wrench:

@@ -5,24 +5,30 @@ The textbook recursion is always among the candidates, so that no chain gets lon
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
-from generator.symbolic import inertia, lean_gravity, lean_inertia, lean_newton_euler, newton_euler
+from generator.symbolic import inertia, lean_gravity, lean_inertia, lean_newton_euler, newton_euler, regressor
 from generator.symbolic.bodies import Body
-from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import Gauge, is_last, slid_origins
+from generator.symbolic.candidates import (
+    balanced,
+    in_units,
+    meetings,
+    slid_otherwise,
+    slides,
+    unspun_candidates,
+)
+from generator.symbolic.frames import Chain
+from generator.symbolic.gauge import Gauge
 from generator.symbolic.lean_gravity import GravityStrategy
 from generator.symbolic.lean_inertia import InertiaStrategy
 from generator.symbolic.lean_newton_euler import Strategy
-from generator.symbolic.segments import segments
-from generator.symbolic.vectors import Array, Nodes
+from generator.symbolic.regressor import RegressorStrategy
+from generator.symbolic.statements import Node
+from generator.symbolic.vectors import Array, Nodes, array
 
 _Way = TypeVar("_Way")
-
-#: Frames tried as the place where screws and wrenches meet, from the base, where the shortest place of a chain is.
-_MEETINGS = 8
 
 
 @dataclass(frozen=True)
@@ -41,12 +47,20 @@ class Choice:
 
 @dataclass(frozen=True)
 class Strategies:
-    """The chosen ways for torques, for gravity alone and for the inertia matrix; None is the textbook recursion."""
+    """The chosen ways for torques, gravity alone, the inertia matrix and regressors; None is the textbook recursion."""
 
     torque: Strategy | None = None
     gravity: GravityStrategy | None = None
     inertia: InertiaStrategy | None = None
+    regressor: RegressorStrategy | None = None
     choices: Mapping[str, Choice] | None = None
+
+    @property
+    def gravity_beside_inertia(self) -> GravityStrategy | None:
+        """The way for gravity where the inertia matrix is computed too: from the same composite bodies."""
+        if self.gravity is None or self.inertia is None:
+            return self.gravity
+        return GravityStrategy(self.inertia.gauge, weighed=False)
 
 
 TEXTBOOK = Strategies()
@@ -72,24 +86,36 @@ def inertia_matrix(chain: Chain, matter: Mapping[int, Body], way: InertiaStrateg
     return inertia.inertia_matrix(chain, matter) if way is None else lean_inertia.inertia_matrix(chain, matter, way)
 
 
-def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes) -> Strategies:
-    """The shortest ways for a chain."""
-    torque = _Search(chain, lambda way: torques(chain, matter, qd, qdd, way))
-    torque.among(Strategy(bodies, Gauge(slide)) for bodies in _unspun_candidates(chain) for slide in _slides(chain))
-    if torque.best is not None:
-        torque.among(_balanced(chain, torque.best))
-        torque.among(_slid_otherwise(chain, torque.best))
-        torque.among(replace(torque.best, gauge=gauge) for gauge in _in_units(chain, torque.best.gauge))
-    weight = _Search(chain, lambda way: gravity(chain, matter, way))
-    weight.among(GravityStrategy(Gauge(slide)) for slide in _slides(chain))
-    matrix = _Search(chain, lambda way: inertia_matrix(chain, matter, way))
-    matrix.among(InertiaStrategy(gauge=Gauge(slide)) for slide in _slides(chain))
+def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, names: Collection[str]) -> Strategies:
+    """The shortest ways for a chain; ``names`` are the parameters whose columns a regressor has."""
+    matrix: _Search[InertiaStrategy] = _Search(chain, lambda way: inertia_matrix(chain, matter, way))
+    matrix.among(InertiaStrategy(gauge=Gauge(slide)) for slide in slides(chain))
     slide = matrix.best.gauge if matrix.best is not None else Gauge()
-    matrix.among(InertiaStrategy(j, unspun, slide) for j in _meetings(chain) for unspun in (False, True))
+    matrix.among(InertiaStrategy(j, unspun, slide) for j in meetings(chain) for unspun in (False, True))
     if matrix.best is not None:
-        matrix.among(replace(matrix.best, gauge=gauge) for gauge in _in_units(chain, matrix.best.gauge))
-    choices = {"torques": torque.choice, "gravity": weight.choice, "inertia matrix": matrix.choice}
-    return Strategies(torque.best, weight.best, matrix.best, choices)
+        matrix.among(replace(matrix.best, gauge=gauge) for gauge in in_units(chain, matrix.best.gauge))
+    torque: _Search[Strategy] = _Search(chain, lambda way: torques(chain, matter, qd, qdd, way))
+    torque.among(Strategy(bodies, Gauge(slide)) for bodies in unspun_candidates(chain) for slide in slides(chain))
+    if torque.best is not None:
+        torque.among(balanced(chain, torque.best))
+        torque.among(slid_otherwise(chain, torque.best))
+        # The unit of the inertia matrix first: where both are asked for, they share what is in one unit.
+        unit = matrix.best.gauge.unit if matrix.best is not None else None
+        gauges = sorted(in_units(chain, torque.best.gauge), key=lambda gauge: gauge.unit != unit)
+        torque.among([replace(torque.best, gauge=gauge) for gauge in gauges])
+    weight: _Search[GravityStrategy] = _Search(chain, lambda way: gravity(chain, matter, way))
+    weight.among(GravityStrategy(Gauge(slide)) for slide in slides(chain))
+    columns: _Search[RegressorStrategy] = _Search(
+        chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way))
+    )
+    columns.among(RegressorStrategy(slide) for slide in slides(chain))
+    choices = {
+        "torques": torque.choice,
+        "gravity": weight.choice,
+        "inertia matrix": matrix.choice,
+        "regressor": columns.choice,
+    }
+    return Strategies(torque.best, weight.best, matrix.best, columns.best, choices)
 
 
 class _Search(Generic[_Way]):
@@ -116,71 +142,11 @@ class _Search(Generic[_Way]):
         return Choice("textbook recursion" if self.best is None else str(self.best), self._least, self._textbook)
 
 
+def _entries(chain: Chain, columns: Mapping[str, Mapping[int, Node]]) -> Array:
+    return array(chain.program, [entry for column in columns.values() for entry in column.values()])
+
+
 def operations(chain: Chain, results: Array) -> int:
     """Multiplications, additions and divisions per call of some results."""
     nodes = chain.program.reachable(results.ravel())
     return chain.program.count(node for node in nodes if not node.parameter_only).total
-
-
-def _unspun_candidates(chain: Chain) -> list[frozenset[int]]:
-    """Bodies that may gain from unspun axes: those inside a segment, on a first frame, at the tips, unions, none."""
-    spun = segments(chain)
-    carriers = {frame.parent.number for frame in chain.frames if frame.parent is not None and frame.has_body()}
-    inside = frozenset(
-        frame.parent.number for frame in chain.frames if spun[frame.number].continues and frame.parent is not None
-    )
-    tips = frozenset(frame.number for frame in chain.frames if frame.revolute and frame.number not in carriers)
-    second = frozenset(frame.number for frame in chain.frames if lean_newton_euler.is_second(frame))
-    return list(dict.fromkeys(near | far for far in (tips, frozenset()) for near in (frozenset(), inside, second)))
-
-
-def _slides(chain: Chain) -> list[frozenset[int]]:
-    """Frames to slide: none, those at the tips, all that can."""
-    able = _able_to_slide(chain)
-    tips = frozenset(j for j in able if is_last(chain, chain.frames[j - 1]))
-    return list(dict.fromkeys([frozenset(), tips, able]))
-
-
-def _able_to_slide(chain: Chain) -> frozenset[int]:
-    """Revolute joints whose frame does not stand next to its antecedent's origin."""
-    zero = chain.program.zero
-    return frozenset(
-        f.number
-        for f in chain.frames
-        if f.revolute and f.has_body() and f.rotation[:, 2] @ f.position is not zero
-    )
-
-
-def _slid_otherwise(chain: Chain, best: Strategy) -> list[Strategy]:
-    """The same with one frame slid more or less."""
-    gauges = [replace(best.gauge, slide=best.gauge.slide ^ {j}) for j in sorted(_able_to_slide(chain))]
-    return [replace(best, gauge=gauge) for gauge in gauges]
-
-
-def _balanced(chain: Chain, best: Strategy) -> list[Strategy]:
-    """The same with a mass kept behind a joint, whose frame then stays where it is."""
-    joints = [frame.number for frame in chain.frames if _balances(chain, frame)][:_MEETINGS]
-    return [replace(best, gauge=Gauge(best.gauge.slide - {j}, frozenset({j}))) for j in joints]
-
-
-def _in_units(chain: Chain, gauge: Gauge) -> list[Gauge]:
-    """The same in units of each fixed length of the chain; a force of a prismatic joint would have to be turned back."""
-    if any(frame.prismatic for frame in chain.frames):
-        return []
-    positions = slid_origins(chain, gauge.slide).positions.values()
-    lengths = {abs(entry.number) for position in positions for entry in position if entry.number}
-    return [replace(gauge, unit=length) for length in sorted(lengths, reverse=True)]
-
-
-def _balances(chain: Chain, frame: Frame) -> bool:
-    """Whether a mass behind a joint can balance its antecedent: the joint turns and stands away from it, across z."""
-    if not frame.revolute or frame.parent is None:
-        return False
-    return any(entry.number for entry in frame.position[:2])
-
-
-def _meetings(chain: Chain) -> list[int]:
-    """Last frames of the segments, from the base."""
-    spun = segments(chain)
-    inside = {f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None}
-    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()][:_MEETINGS]
