@@ -176,12 +176,12 @@ class Program:
         return self._intern("neg", (a,))
 
     def add(self, a: Node, b: Node) -> Node:
-        if a.number is not None and b.number is not None:
-            return self.constant(a.number + b.number)
         if a is self.zero:
             return b
         if b is self.zero:
             return a
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number + b.number)
         negative_a, size_a = self._sign_and_size(a)
         negative_b, size_b = self._sign_and_size(b)
         if size_a is size_b:
@@ -196,10 +196,10 @@ class Program:
         return self._intern("add", (size_a, size_b))
 
     def multiply(self, a: Node, b: Node) -> Node:
-        if a.number is not None and b.number is not None:
-            return self.constant(a.number * b.number)
         if a is self.zero or b is self.zero:
             return self.zero
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number * b.number)
         negative_a, size_a = self._sign_and_size(a)
         negative_b, size_b = self._sign_and_size(b)
         if negative_a != negative_b:
