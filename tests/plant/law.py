@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -33,6 +34,8 @@ class Law:
     unit: str
     typical: Value
     values: Mapping[str, Value] = field(default_factory=dict)
+    #: Beyond it the law makes no sense: more Coulomb friction replaced than there is.
+    largest: Value = inf
     torque: str = ""
     friction: bool = False
     of_links: bool = False

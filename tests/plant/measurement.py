@@ -83,11 +83,11 @@ def _noise(noise: Noise, shape: tuple[int, ...], rng: np.random.Generator) -> Ar
     """Of unit variance, with the spectrum that Noise states."""
     a = float(np.exp(-2 * np.pi * noise.corner / noise.rate))
     white, driven = rng.normal(size=(2, *shape))
+    driven[1:] *= np.sqrt(1 - a**2)
     low = np.empty(shape)
-    low[0] = driven[0]
-    steps = np.sqrt(1 - a**2) * driven
-    for k in range(1, len(low)):
-        low[k] = a * low[k - 1] + steps[k]
+    last = np.zeros(shape[1])
+    for k, kick in enumerate(driven):
+        low[k] = last = a * last + kick
     return np.asarray(np.sqrt(noise.share) * low + np.sqrt(1 - noise.share) * white)
 
 

@@ -19,6 +19,7 @@ struct loop {
     double measured[JOINTS], speed[JOINTS], integral[JOINTS];
     double target[JOINTS], asked[JOINTS], current[JOINTS], command[JOINTS]; /* currents: clipped, as if not clipped */
     double heat[JOINTS];
+    double keep, keep_half; /* of a current in a step and in half of one */
     struct mid mid;
 };
 
@@ -88,7 +89,7 @@ static void control(const struct plant *p, struct loop *s, double period, const 
 
 static void drive_torques(const struct plant *p, struct loop *s, double h, double *tau)
 {
-    const double keep = exp(-h / p->lag), half = exp(-0.5 * h / p->lag);
+    const double keep = s->keep, half = s->keep_half;
     double rotor[JOINTS];
     for (int i = 0; i < p->n; ++i) {
         const double middle = s->target[i] + (s->current[i] - s->target[i]) * half;
@@ -158,7 +159,7 @@ static int step(struct plant *p, struct loop *s, double t, double h)
         }
     }
     if (solve(s->m, A, b)) return 1;
-    memcpy(s->mid.a, b, sizeof b);
+    memcpy(s->mid.a, b, sizeof(double) * (size_t)s->m);
     for (int i = 0; i < s->m; ++i) {
         s->v[i] += h * b[i];
         s->x[i] = x[i] + 0.5 * h * s->v[i];
@@ -203,10 +204,12 @@ static void write(const struct plant *p, const struct loop *at, const struct mid
  * ``per_row`` ticks. The robot starts on the reference. Returns the number of rows, -1 where the motion ran away. */
 int plant_run(struct plant *p, double h, int per_tick, int ticks, int per_row, const double *qr, const double *qdr, double *rows)
 {
-    struct loop s;
+    struct loop s, before;
     memset(&s, 0, sizeof s);
     const int n = p->n, width = 11 * n + p->effects;
     s.m = n;
+    s.keep = exp(-h / p->lag);
+    s.keep_half = exp(-0.5 * h / p->lag);
     for (int j = 0; j < n; ++j) {
         s.motor[j] = p->flexible[j] ? s.m++ : j;
         s.x[j] = s.x[s.motor[j]] = (qr[j] - p->encoder_offset[j]) / p->encoder_scale[j];
@@ -223,9 +226,10 @@ int plant_run(struct plant *p, double h, int per_tick, int ticks, int per_row, c
     for (int tick = 0; tick < ticks; ++tick) {
         control(p, &s, h * per_tick, qr + tick * n, qdr + tick * n);
         for (int k = 0; k < per_tick; ++k) {
-            const struct loop before = s;
+            const int logged = k == 0 && tick % per_row == 0;
+            if (logged) before = s;
             if (step(p, &s, p->start_time + h * (tick * per_tick + k), h)) return -1;
-            if (k == 0 && tick % per_row == 0) write(p, &before, tick ? &before.mid : &s.mid, &s.mid, rows + written++ * width);
+            if (logged) write(p, &before, tick ? &before.mid : &s.mid, &s.mid, rows + written++ * width);
         }
     }
     return written;

@@ -21,6 +21,7 @@ LAW = Law(
     about="current saturation",
     unit="1",
     typical=0.5,
+    largest=0.98,
     change=_change,
     reading="command",
 )

@@ -11,6 +11,7 @@ LAW = Law(
     about="friction rising gradually from zero speed",
     unit="N m",
     typical=lambda robot, j: 0.6 * robot.chain[j].coulomb,
+    largest=lambda robot, j: robot.chain[j].coulomb,
     values={"speed": lambda robot, j: 0.03 * robot.chain[j].range[2], "distance": stiff_way},
     torque="""
 const double smooth = 0.63661977236758134 * atan(v / speed);

@@ -9,6 +9,7 @@ LAW = Law(
     about="presliding displacement (LuGre)",
     unit="N m",
     typical=lambda robot, j: 0.8 * robot.chain[j].coulomb,
+    largest=lambda robot, j: robot.chain[j].coulomb,
     values={"way": 1e-2, "speed": lambda robot, j: 0.02 * robot.chain[j].range[2], "distance": stiff_way},
     torque="""
 const double x = v / speed, strength = 1.0 + 0.15 * exp(-x * x);

@@ -26,6 +26,7 @@ LAW = Law(
     about="drift of the torque constant",
     unit="1",
     typical=0.3,
+    largest=0.9,
     values={"time": 60.0, "rated": lambda robot, j: 0.3 * robot.chain[j].peak, "start": 0.0},
     change=_change,
 )

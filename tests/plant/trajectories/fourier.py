@@ -25,12 +25,19 @@ def fourier(
 
         def at(times: Array) -> tuple[Array, Array, Array]:
             c, s = np.cos(np.outer(times, w)), np.sin(np.outer(times, w))
-            return c @ a.T + s @ b.T, (c * w) @ b.T - (s * w) @ a.T, -(c * w**2) @ a.T - (s * w**2) @ b.T
+            return _sum(c, a) + _sum(s, b), _sum(c * w, b) - _sum(s * w, a), -_sum(c * w**2, a) - _sum(s * w**2, b)
 
         fine = at(np.linspace(0, period, 200 * harmonics, endpoint=False))
         peaks = [np.max(np.abs(x), axis=0) for x in fine]
         scale = share * np.min([half / peaks[0], speed / peaks[1], acceleration / peaks[2]], axis=0)
-        q, qd, _ = at(np.mod(t, period))
-        return centre + scale * q, scale * qd
+        rows = round(period / (t[1] - t[0]))
+        q, qd, _ = at(t[:rows])
+        again = np.arange(len(t)) % rows
+        return (centre + scale * q)[again], (scale * qd)[again]
 
     return Trajectory(motion, period * periods, period if before is None else before, period)
+
+
+def _sum(waves: Array, weights: Array) -> Array:
+    # Not the product of matrices, whose threads cost more than they save and need not add in the same order everywhere.
+    return np.asarray(np.einsum("tk,jk->tj", waves, weights))
