@@ -1,4 +1,6 @@
-"""The C core: put together from c/ and the laws, compiled once per content into a folder for temporary files, and bound."""
+"""The C core: put together from c/ and the laws, compiled once per content into a folder for temporary files, and
+bound.
+"""
 
 from __future__ import annotations
 
@@ -79,7 +81,9 @@ def laws_in_c() -> str:
 @cache
 def library() -> ctypes.CDLL:
     """The compiled core; raises CalledProcessError, with the compiler's words, where it does not compile."""
-    sources = {path.name: path.read_text(encoding="utf-8") for path in sorted(_C.glob("*.[ch]"))} | {"laws.c": laws_in_c()}
+    sources = {path.name: path.read_text(encoding="utf-8") for path in sorted(_C.glob("*.[ch]"))} | {
+        "laws.c": laws_in_c()
+    }
     compiler = os.environ.get("CC", "cc")
     content = "\0".join([compiler, *_FLAGS, *(part for item in sources.items() for part in item)])
     key = hashlib.sha256(content.encode()).hexdigest()[:24]

@@ -57,11 +57,11 @@ class Effect:
         if self.weights is not None:
             return np.array(self.weights, dtype=float)
         j = self.joint - 1
-        unit = np.eye(robot.joints)
+        unit: NDArray[np.float64] = np.eye(robot.joints)
         if not self.what.of_rotor:
-            return unit[j]
+            return np.asarray(unit[j])
         row = robot.ratios[j] / robot.ratios[j, j]
-        return row if np.count_nonzero(row) > 1 else unit[j] + unit[j - 1]
+        return np.asarray(row if np.count_nonzero(row) > 1 else unit[j] + unit[j - 1])
 
     def sized(self, size: float) -> Effect:
         """The same effect, of another size."""

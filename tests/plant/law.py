@@ -1,7 +1,7 @@
 """What a law of the simulated robot is: one file of ``laws/`` each, found by being there.
 
-A law either is a torque, written in C, or changes the robot before it moves (``change``), or what is read of it afterwards
-(``reading``). Torques have the sign of the inverse model: positive ones must be supplied by the motor.
+A law either is a torque, written in C, or changes the robot before it moves (``change``), or what is read of it
+afterwards (``reading``). Torques have the sign of the inverse model: positive ones must be supplied by the motor.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ Value = float | Callable[["Robot", int], float]
 
 @dataclass(frozen=True)
 class Law:
-    """``size`` scales the law continuously; 0 is none of it. ``unit`` is that of size; on a prismatic joint m stands for rad.
+    """``size`` scales the law continuously; 0 is none of it. ``unit`` is that of size; on a prismatic joint m stands
+    for rad.
 
     ``torque`` is the body of a C function. It sees size, the values by name, t and h [s], of the joint (or of the sum
-    over weighted joints): q, qd link side, th, v motor side, load (torque that the gear transmits) and friction (of all laws that are
-    friction, before this one); v_other of the effect's other joint; rotor, the motor's angle; state s[]; bristle(),
-    wander(), coldness() of c/parts.c.
+    over weighted joints): q, qd link side, th, v motor side, load (torque that the gear transmits) and friction (of
+    all laws that are friction, before this one); v_other of the effect's other joint; rotor, the motor's angle; state
+    s[]; bristle(), wander(), coldness() of c/parts.c.
     """
 
     about: str
@@ -42,7 +43,7 @@ class Law:
     #: Acts along the motor's share of the joints' speeds, where the effect has no weights of its own.
     of_rotor: bool = False
     change: Callable[[Machine, Effect], None] | None = None
-    #: Names a correction of the readings: command (of currents), delay (of positions), link_latency; size is its amount.
+    #: Names what it does to the readings: command (of currents), delay (of positions), link_latency; size is its amount.
     reading: str = ""
     #: Not meant to be in any library of candidates.
     outside: bool = False
@@ -54,6 +55,8 @@ def value_of(value: Value, robot: Robot, joint: int) -> float:
 
 
 def stiff_way(robot: Robot, joint: int) -> float:
-    """Way [rad] after which a stiff bristle of the joint's Coulomb friction slips: as stiff as the rotor at 1000 rad/s."""
+    """Way [rad] after which a stiff bristle of the joint's Coulomb friction slips: as stiff as the rotor at 1000
+    rad/s.
+    """
     here = robot.chain[joint]
     return max(5e-6, here.coulomb / (here.rotor * 1e6))

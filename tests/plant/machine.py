@@ -88,12 +88,16 @@ class Machine:
         return tau
 
     def law_torques(self, q: Array, qd: Array, step: float, start_time: float = 0.0) -> Array:
-        """Torque of each effect (T x effects that are torques) along a motion (T x n each) sampled every ``step`` seconds."""
+        """Torque of each effect (T x effects that are torques) along a motion (T x n each) sampled every ``step``
+        seconds.
+        """
         plant = self.in_c()
         plant.start_time = start_time
         q, qd = (np.ascontiguousarray(x, dtype=float) for x in (q, qd))
         out = np.zeros((len(q), len(self.torques)))
-        library().plant_replay(ctypes.byref(plant), ctypes.c_double(step), len(q), pointer(q), pointer(qd), pointer(out))
+        library().plant_replay(
+            ctypes.byref(plant), ctypes.c_double(step), len(q), pointer(q), pointer(qd), pointer(out)
+        )
         return out
 
     def fastest(self, q: Array) -> float:
@@ -108,7 +112,9 @@ class Machine:
         at[elastic] = n + np.arange(m)
         A[np.ix_(at, at)] += self.rotor
         for k, j in enumerate(elastic):
-            K[np.ix_([j, n + k], [j, n + k])] += self.stiffness[j] * np.array([[1.0, -1.0], [-1.0, 1.0]])
+            apart = np.zeros(n + m)
+            apart[[int(j), n + k]] = 1.0, -1.0
+            K += self.stiffness[j] * np.outer(apart, apart)
         return float(np.sqrt(np.max(np.linalg.eigvals(np.linalg.solve(A, K)).real)))
 
     def in_c(self) -> CPlant:

@@ -12,10 +12,12 @@ from tests.plant.run import Noise, Run
 
 @dataclass(frozen=True)
 class Sensors:
-    """``noise`` is the standard deviation of a current's noise over the rms of that current, for all motors or for each.
+    """``noise`` is the standard deviation of a current's noise over the rms of that current, for all motors or for
+    each.
 
-    ``colour`` is the share of its variance below a corner [Hz]. ``link_encoders`` logs qs with ``link_bits`` a turn, ``temperature`` the
-    housings in kelvin above the hall, with a sensor's noise. ``quantised`` False is a motor encoder without steps in the log.
+    ``colour`` is the share of its variance below a corner [Hz]. ``link_encoders`` logs qs with ``link_bits`` a turn,
+    ``temperature`` the housings in kelvin above the hall, with a sensor's noise. ``quantised`` False is a motor
+    encoder without steps in the log.
     """
 
     noise: float | tuple[float, ...] = 0.02
@@ -45,7 +47,9 @@ def measure(run: Run, sensors: Sensors, seed: int) -> Run:
         step = 2 * np.pi / 2**sensors.link_bits
         qs = step * np.rint(late(run, truth.q, truth.qd, truth.qdd, reading(run, "link_latency")) / step)
     temperature = _temperature(run, rng) if sensors.temperature else None
-    return replace(run, qm=qm, i=current + std * _noise(noise, current.shape, rng), qs=qs, temperature=temperature, noise=noise)
+    return replace(
+        run, qm=qm, i=current + std * _noise(noise, current.shape, rng), qs=qs, temperature=temperature, noise=noise
+    )
 
 
 def reading(run: Run, which: str) -> float:
@@ -92,7 +96,9 @@ def _noise(noise: Noise, shape: tuple[int, ...], rng: np.random.Generator) -> Ar
 
 
 def _temperature(run: Run, rng: np.random.Generator) -> Array:
-    """Housings (T x n) [K] above the hall: 25 K when warm, by the same two exponentials as the warm-up of friction, to 0.1 K."""
+    """Housings (T x n) [K] above the hall: 25 K when warm, by the same two exponentials as the warm-up of friction,
+    to 0.1 K.
+    """
     n = run.robot.joints
     fast, slow = np.full(n, 25.0), np.full(n, 400.0)
     for effect in run.effects:

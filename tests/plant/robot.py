@@ -22,9 +22,10 @@ BODY = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 class Joint:
     """One joint, its body and its drive.
 
-    ``dh`` is (alpha, d, theta, r) of modified Denavit-Hartenberg at q = 0. ``range`` are limits of q, then the largest speed and
-    acceleration. ``rotor``, ``viscous``, ``coulomb``, ``offset`` are on the joint side. ``stiffness`` is that of the drive train, where an
-    effect makes it elastic. ``ratio`` is text: a fraction. ``peak`` is the largest current [A].
+    ``dh`` is (alpha, d, theta, r) of modified Denavit-Hartenberg at q = 0. ``range`` are limits of q, then the
+    largest speed and acceleration. ``rotor``, ``viscous``, ``coulomb``, ``offset`` are on the joint side.
+    ``stiffness`` is that of the drive train, where an effect makes it elastic. ``ratio`` is text: a fraction.
+    ``peak`` is the largest current [A].
     """
 
     dh: tuple[float, float, float, float]
@@ -43,11 +44,12 @@ class Joint:
 
 @dataclass(frozen=True)
 class Robot:
-    """Joints in order; ``coupling`` are elements (motor, joint, text of a fraction), from 1, of the matrix of ratios off its diagonal.
+    """Joints in order; ``coupling`` are elements (motor, joint, text of a fraction), from 1, of the matrix of ratios
+    off its diagonal.
 
-    ``tool`` is the distance of the tool along z of the last frame. ``base`` is roll, pitch, yaw of frame 0. ``own`` are
-    effects that the robot has besides rotor inertia, viscous and Coulomb friction and offset: a balancer, a wrist's coupling.
-    ``speed_loop`` is the bandwidth [rad/s] of its speed controllers.
+    ``tool`` is the distance of the tool along z of the last frame. ``base`` is roll, pitch, yaw of frame 0. ``own``
+    are effects that the robot has besides rotor inertia, viscous and Coulomb friction and offset: a balancer, a
+    wrist's coupling. ``speed_loop`` is the bandwidth [rad/s] of its speed controllers.
     """
 
     name: str
@@ -86,7 +88,7 @@ class Robot:
     def centre(self) -> Array:
         """Where the arm moves about (n)."""
         low, high = np.array([joint.range[:2] for joint in self.chain]).T
-        return np.array(self.home) if self.home else 0.5 * (low + high)
+        return np.array(self.home if self.home else 0.5 * (low + high), dtype=float)
 
 
 def fraction(text: str) -> float:
@@ -101,10 +103,12 @@ def rotation(roll: float, pitch: float, yaw: float) -> Array:
     about_x = np.array([[1, 0, 0], [0, a, -d], [0, d, a]])
     about_y = np.array([[b, 0, e], [0, 1, 0], [-e, 0, b]])
     about_z = np.array([[c, -f, 0], [f, c, 0], [0, 0, 1]])
-    return about_z @ about_y @ about_x
+    return np.asarray(about_z @ about_y @ about_x)
 
 
-def bar(mass: float, start: tuple[float, float, float], end: tuple[float, float, float], radius: float) -> tuple[float, ...]:
+def bar(
+    mass: float, start: tuple[float, float, float], end: tuple[float, float, float], radius: float
+) -> tuple[float, ...]:
     """Ten numbers, in the order of BODY, of a solid round bar between two points of its frame."""
     a, b = np.array(start), np.array(end)
     length, centre = float(np.linalg.norm(b - a)), (a + b) / 2

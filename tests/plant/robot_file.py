@@ -1,8 +1,10 @@
-"""The robot file of a simulated robot, as docs/robot_file.md has it: what is known of it before a run, written from its data alone."""
+"""The robot file of a simulated robot, as docs/robot_file.md has it: what is known of it before a run, written from
+its data alone.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from math import isclose, pi
 
 from tests.plant.robot import BODY, Robot
@@ -14,15 +16,20 @@ PRIOR = "known"
 def robot_file(robot: Robot, leave_out: Collection[str] = ()) -> str:
     """YAML with the geometry, the drives, rotor inertia, friction, offset and the balancer, and their true values.
 
-    ``leave_out`` are ids of the generator's effects. The coupling of a wrist's rotors and elastic drive trains are not written.
+    ``leave_out`` are ids of the generator's effects. The coupling of a wrist's rotors and elastic drive trains are
+    not written.
     """
     lines = [f"name: {robot.name}", "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]"]
     if any(robot.base):
-        lines.append(f"base: {{rotation: [{', '.join(f'{angle} rad' for angle in robot.base)}], translation: [0 m, 0 m, 0 m]}}")
+        lines.append(
+            f"base: {{rotation: [{', '.join(f'{angle} rad' for angle in robot.base)}], translation: [0 m, 0 m, 0 m]}}"
+        )
     lines.append("joints:")
     for j, joint in enumerate(robot.chain, 1):
         alpha, d, theta, r = joint.dh
-        angle, along = (_angle(theta), _plus(f"q{j}", r, "m")) if joint.prismatic else (_turn(f"q{j}", theta), _length(r))
+        angle, along = (
+            (_angle(theta), _plus(f"q{j}", r, "m")) if joint.prismatic else (_turn(f"q{j}", theta), _length(r))
+        )
         unit = "m" if joint.prismatic else "rad"
         limits = f"[{joint.range[0]!r} {unit}, {joint.range[1]!r} {unit}]"
         lines.append(
@@ -64,14 +71,21 @@ def _standard(robot: Robot, kept: dict[str, str]) -> dict[str, tuple[float, str]
         for name, value in zip(BODY, joint.body, strict=True):
             unit = "kg" if name == "M" else ("kg m" if name[0] == "M" else "kg m2")
             values[f"{name}{j}"] = (float(value), unit)
-        units = ("kg", "N s/m", "N", "N") if joint.prismatic else ("kg m2", "N m s/rad", "N m", "N m")
-        numbers = dict(zip(("Ia", "Fv", "Fc", "Off"), zip((joint.rotor, joint.viscous, joint.coulomb, joint.offset), units, strict=True), strict=True))
-        values |= {f"{stem}{j}": numbers[stem] for stem in kept.values()}
+        inertia, viscous, force = ("kg", "N s/m", "N") if joint.prismatic else ("kg m2", "N m s/rad", "N m")
+        drive = {
+            "Ia": (joint.rotor, inertia),
+            "Fv": (joint.viscous, viscous),
+            "Fc": (joint.coulomb, force),
+            "Off": (joint.offset, force),
+        }
+        values |= {f"{stem}{j}": drive[stem] for stem in kept.values()}
     return values
 
 
-def _crank(value, robot: Robot) -> str:
-    return ", ".join(f"{name}: {value(name, robot)!r} {unit}" for name, unit in (("d21", "m"), ("d22", "m"), ("phi", "rad")))
+def _crank(value: Callable[[str, Robot], float], robot: Robot) -> str:
+    return ", ".join(
+        f"{name}: {value(name, robot)!r} {unit}" for name, unit in (("d21", "m"), ("d22", "m"), ("phi", "rad"))
+    )
 
 
 def _balancer(name: str, joint: int, values: str) -> str:

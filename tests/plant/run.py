@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 class Truth:
     """Without noise and quantisation, at the logged instants (T x n each), on the joint side.
 
-    ``q`` are the links, ``th`` the motors over the true ratios; ``current`` flows, ``command`` was asked for; ``heat`` of the windings;
-    ``friction`` of all laws that are friction; ``load`` is what the gears transmit; ``torque`` (T x m) of each effect that is a torque.
+    ``q`` are the links, ``th`` the motors over the true ratios; ``current`` flows, ``command`` was asked for;
+    ``heat`` of the windings; ``friction`` of all laws that are friction; ``load`` is what the gears transmit;
+    ``torque`` (T x m) of each effect that is a torque.
     """
 
     q: Array
@@ -51,7 +52,7 @@ class Noise:
     rate: float
 
     def shape(self, frequency: Array) -> Array:
-        """One-sided power spectral density [1/Hz] at 0 < f < rate/2 for a standard deviation of one."""
+        """One-sided power spectral density [1/Hz] at 0 <= f < rate/2 for a standard deviation of one."""
         a = np.exp(-2 * np.pi * self.corner / self.rate)
         z = np.exp(-2j * np.pi * np.asarray(frequency) / self.rate)
         coloured = (1 - a**2) / np.abs(1 - a * z) ** 2
@@ -62,9 +63,10 @@ class Noise:
 class Run:
     """Logged signals at ``rate`` [Hz]: T rows.
 
-    ``t`` [s]; ``qm`` motor angles and ``i`` currents (T x n); ``qs`` link-side encoders and ``temperature`` where there are such
-    sensors; ``reference`` of the joints. ``q`` and ``tau`` are qm and i by the ratios and constants of the robot's data. ``period`` is in
-    rows, 0 without one. ``steps`` of integration were made in a controller's period.
+    ``t`` [s]; ``qm`` motor angles and ``i`` currents (T x n); ``qs`` link-side encoders and ``temperature`` where
+    there are such sensors; ``reference`` of the joints. ``q`` and ``tau`` are qm and i by the ratios and constants of
+    the robot's data. ``period`` is in rows, 0 without one. ``steps`` of integration were made in a controller's
+    period.
     """
 
     robot: Robot
@@ -115,7 +117,8 @@ class Run:
 
 
 def write_csv(run: Run, path: Path, position: str = "qm", effort: str = "i", reference: bool = False) -> None:
-    """A run file: header, then a row a sample. ``position`` is qm or q, ``effort`` i, taum or tau; qr on request; qs and temp where logged.
+    """A run file: header, then a row a sample. ``position`` is qm or q, ``effort`` i, taum or tau; qr on request; qs
+    and temp where logged.
 
     Raises ValueError for other words.
     """

@@ -28,7 +28,8 @@ _CHANNELS = ("q", "qd", "qdd", "th", "thd", "thdd", "current", "command", "heat"
 class Controller:
     """Rates [Hz] of control and logging, the current loop's lag and the speed filter's time constant [s].
 
-    ``position_share`` and ``integral_share`` are the bandwidths of the position loop and of the integrator over that of the speed loop.
+    ``position_share`` and ``integral_share`` are the bandwidths of the position loop and of the integrator over that
+    of the speed loop.
     """
 
     rate: float = 2000.0
@@ -39,9 +40,10 @@ class Controller:
     integral_share: float = 0.25
 
 
-#: As ``own_effects`` makes them, for those who want to leave one out.
 def own_effects(robot: Robot) -> tuple[Effect, ...]:
-    """Viscous and Coulomb friction and offset of every joint, then the effects of the robot's own: what it has unless told otherwise."""
+    """Viscous and Coulomb friction and offset of every joint, then the robot's own effects: what it has unless told
+    otherwise.
+    """
     joints = range(1, robot.joints + 1)
     simple = [Effect(law, j) for law in ("viscous", "coulomb") for j in joints]
     offsets = [Effect("offset", j, robot.chain[j - 1].offset) for j in joints]
@@ -60,8 +62,8 @@ def make_run(
 ) -> Run:
     """Play a trajectory on a robot with its ``own`` effects (None: all of ``own_effects``) and more ``effects``.
 
-    ``seed`` is that of the noise; ``start_time`` [s] is when the log begins on the clock of warm-up, ripple's wandering, collisions.
-    Raises ValueError for rates that do not divide, and where the motion runs away.
+    ``seed`` is that of the noise; ``start_time`` [s] is when the log begins on the clock of warm-up, ripple's
+    wandering, collisions. Raises ValueError for rates that do not divide, and where the motion runs away.
     """
     sensors, controller = sensors or Sensors(), controller or Controller()
     everything = (*(own_effects(robot) if own is None else own), *effects)
@@ -84,7 +86,9 @@ def make_run(
     )
 
 
-def _play(machine: Machine, trajectory: Trajectory, controller: Controller, start_time: float) -> tuple[Truth, Array, int]:
+def _play(
+    machine: Machine, trajectory: Trajectory, controller: Controller, start_time: float
+) -> tuple[Truth, Array, int]:
     robot, n = machine.robot, machine.robot.joints
     per_row = _whole(controller.rate / controller.log_rate, "control and log rate")
     skipped = _whole(trajectory.before * controller.log_rate, "time before the log")
@@ -111,7 +115,7 @@ def _play(machine: Machine, trajectory: Trajectory, controller: Controller, star
     rows = rows[skipped:-1]
     channels = {name: rows[:, k * n : (k + 1) * n] for k, name in enumerate(_CHANNELS)}
     truth = Truth(**channels, torque=rows[:, len(_CHANNELS) * n :])
-    return truth, qr[:: per_row][skipped:-1], per_tick
+    return truth, qr[::per_row][skipped:-1], per_tick
 
 
 def _whole(value: float, what: str) -> int:

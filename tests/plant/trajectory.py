@@ -19,7 +19,8 @@ Motion: TypeAlias = Callable[[Robot, Array], tuple[Array, Array]]
 
 @dataclass(frozen=True)
 class Trajectory:
-    """``duration`` [s] is logged, after ``before`` [s] of the same motion that is not. ``period`` [s] is 0 without one.
+    """``duration`` [s] is logged, after ``before`` [s] of the same motion that is not. ``period`` [s] is 0 without
+    one.
 
     ``motion`` is asked for times from 0, the start of ``before``.
     """

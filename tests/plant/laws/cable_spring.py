@@ -1,5 +1,4 @@
-"""A bundle of cables that holds the link back: a spring that hardens by a tenth at one radian.
-"""
+"""A bundle of cables that holds the link back: a spring that hardens by a tenth at one radian."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A blow of some hundredths of a second, as Hertz's contact makes it, on a joint and weaker on those before."""
+"""A blow of some hundredths of a second, as Hertz's contact makes it; an effect's weights spread it over joints."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Shear thinning: size v / (1 + |v| / speed), which bends where a power law or a cube root would not.
-"""
+"""Shear thinning: size v / (1 + |v| / speed), which bends where a power law or a cube root would not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""An amplifier that clips below the drive's peak, while the log holds the current that was asked for; size is the part cut off.
+"""An amplifier that clips below the drive's peak, while the log holds the current that was asked for; size is the
+part cut off.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ def _change(machine: Machine, effect: Effect) -> None:
 LAW = Law(
     about="current saturation",
     unit="1",
-    typical=0.5,
+    typical=0.7,
     largest=0.98,
     change=_change,
     reading="command",

@@ -1,4 +1,5 @@
-"""A gas cylinder on a crank whose gas keeps its temperature: force times chamber is constant; size is the force at q = 0.
+"""A gas cylinder on a crank whose gas keeps its temperature: force times chamber is constant; size is the force at q
+= 0.
 """
 
 from __future__ import annotations

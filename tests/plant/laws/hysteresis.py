@@ -1,5 +1,4 @@
-"""Hysteresis by Bouc and Wen, which goes round over a way far longer than presliding.
-"""
+"""Hysteresis by Bouc and Wen, which goes round over a way far longer than presliding."""
 
 from __future__ import annotations
 

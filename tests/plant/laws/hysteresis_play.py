@@ -1,5 +1,4 @@
-"""Hysteresis by Prandtl and Ishlinskii: six stops of spread ways, each a spring that slips at its end.
-"""
+"""Hysteresis by Prandtl and Ishlinskii: six stops of spread ways, each a spring that slips at its end."""
 
 from __future__ import annotations
 

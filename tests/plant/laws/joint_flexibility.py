@@ -1,4 +1,5 @@
-"""An elastic drive train with states of its own: motor and link between a linear spring, lightly damped. size is its compliance.
+"""An elastic drive train with states of its own: motor and link between a linear spring, lightly damped. size is its
+compliance.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ if TYPE_CHECKING:
 
 
 def _change(machine: Machine, effect: Effect) -> None:
-    machine.make_elastic(effect.joint - 1, 1 / effect.amount(machine.robot), effect.value("damping_ratio", machine.robot))
+    machine.make_elastic(
+        effect.joint - 1, 1 / effect.amount(machine.robot), effect.value("damping_ratio", machine.robot)
+    )
 
 
 LAW = Law(

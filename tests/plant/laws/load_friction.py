@@ -1,5 +1,4 @@
-"""Coulomb friction that grows with the torque through the gear, rounded at no load: size sqrt(load^2 + floor^2).
-"""
+"""Coulomb friction that grows with the torque through the gear, rounded at no load: size sqrt(load^2 + floor^2)."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""A body in the tool's frame: size is its mass, off the axis, with a solid body's inertia.
-"""
+"""A body in the tool's frame: size is its mass, off the axis, with a solid body's inertia."""
 
 from __future__ import annotations
 

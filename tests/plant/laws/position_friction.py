@@ -1,5 +1,4 @@
-"""Coulomb friction that varies along a turn of the joint, with a second harmonic: an eccentric bearing.
-"""
+"""Coulomb friction that varies along a turn of the joint, with a second harmonic: an eccentric bearing."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Presliding by Dahl with exponent 2: dz/dx = (1 - z sign(v))^2 / way, which creeps to its end like a hyperbola.
-"""
+"""Presliding by Dahl with exponent 2: dz/dx = (1 - z sign(v))^2 / way, which creeps to its end like a hyperbola."""
 
 from __future__ import annotations
 

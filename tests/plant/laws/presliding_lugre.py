@@ -1,4 +1,5 @@
-"""Presliding by LuGre: size of the Coulomb friction sits on soft bristles, which are stiffer against breakaway than in motion.
+"""Presliding by LuGre: size of the Coulomb friction sits on soft bristles, which are stiffer against breakaway than
+in motion.
 """
 
 from __future__ import annotations

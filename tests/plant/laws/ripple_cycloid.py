@@ -1,4 +1,5 @@
-"""Ripple of a cycloid gear: as many waves a turn of the joint as it has pins, and half the waves as sharp, wandering by a tenth.
+"""Ripple of a cycloid gear: as many waves a turn of the joint as it has pins, and half the waves as sharp, wandering
+by a tenth.
 """
 
 from __future__ import annotations

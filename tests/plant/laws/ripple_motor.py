@@ -1,5 +1,4 @@
-"""Torque ripple at an order of the motor's turn, with a weak second harmonic and a slowly wandering amplitude.
-"""
+"""Torque ripple at an order of the motor's turn, with a weak second harmonic and a slowly wandering amplitude."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Ripple of a strain wave gear: twice a turn of the wave generator, stronger under load, wandering by a tenth.
-"""
+"""Ripple of a strain wave gear: twice a turn of the wave generator, stronger under load, wandering by a tenth."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""A spring on a crank, by the moment of its force about the joint; size is its stiffness.
-"""
+"""A spring on a crank, by the moment of its force about the joint; size is its stiffness."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A motor whose torque constant falls with the winding's heat: a first-order winding, heated by the square of the current.
+"""A motor whose torque constant falls with the winding's heat: a first-order winding, heated by the square of the
+current.
 
 size is the part of the constant that is lost at the rated current for ever.
 """

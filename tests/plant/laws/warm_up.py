@@ -1,4 +1,5 @@
-"""Friction that falls as oil and housing warm up: friction grows by size at a cold start and returns by two exponentials.
+"""Friction that falls as oil and housing warm up: friction grows by size at a cold start and returns by two
+exponentials.
 """
 
 from __future__ import annotations

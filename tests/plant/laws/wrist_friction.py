@@ -1,5 +1,4 @@
-"""Friction of a wrist's rotor, which turns with a sum of joints: Coulomb and viscous, back on all of them.
-"""
+"""Friction of a wrist's rotor, which turns with a sum of joints: Coulomb and viscous, back on all of them."""
 
 from __future__ import annotations
 

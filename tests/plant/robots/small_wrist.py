@@ -1,4 +1,6 @@
-"""A small six-axis arm whose last two axes share their drives: lengths and ratios of a table-top robot, bodies made up of bars."""
+"""A small six-axis arm whose last two axes share their drives: lengths and ratios of a table-top robot, bodies made
+up of bars.
+"""
 
 from __future__ import annotations
 

@@ -9,11 +9,18 @@ from tests.plant.trajectory import Array, Trajectory, limits
 
 
 def fourier(
-    seed: int, period: float = 10.0, periods: int = 4, harmonics: int = 6, share: float = 0.7, before: float | None = None
+    seed: int,
+    period: float = 10.0,
+    periods: int = 4,
+    harmonics: int = 6,
+    share: float = 0.7,
+    before: float | None = None,
 ) -> Trajectory:
-    """Random series about the robot's centre, each joint scaled until one limit of range, speed or acceleration is met to ``share``.
+    """Random series about the robot's centre, each joint scaled until one limit of range, speed or acceleration is
+    met to ``share``.
 
-    ``period`` [s] must hold a whole number of logged samples. One period is played before the log begins, or ``before`` [s].
+    ``period`` [s] must hold a whole number of logged samples. One period is played before the log begins, or
+    ``before`` [s].
     """
 
     def motion(robot: Robot, t: Array) -> tuple[Array, Array]:

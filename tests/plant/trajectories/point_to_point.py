@@ -11,8 +11,8 @@ from tests.plant.trajectory import Array, Trajectory, limits
 def point_to_point(
     seed: int, duration: float = 40.0, smooth: bool = False, share: float = 0.7, rest: float = 0.3
 ) -> Trajectory:
-    """Trapezoids of speed, or where ``smooth`` polynomials of degree five, within ``share`` of the limits; two seconds of rest are
-    played before the log begins.
+    """Trapezoids of speed, or where ``smooth`` polynomials of degree five, within ``share`` of the limits; two
+    seconds of rest are played before the log begins.
     """
 
     def motion(robot: Robot, t: Array) -> tuple[Array, Array]:
@@ -46,7 +46,7 @@ def _quintic(t: Array, last: float) -> tuple[Array, Array]:
 
 
 def _trapezoid_time(way: Array, speed: Array, acceleration: Array) -> Array:
-    # Ramps as long as the slowest joint's; the largest speed is way / (last - ramp), the acceleration that over the ramp.
+    # Ramps as long as the slowest joint's; the largest speed is way / (last - ramp), reached in one ramp.
     ramp = float(np.max(speed / acceleration))
     return np.asarray(np.maximum(ramp + np.maximum(way / speed, way / (acceleration * ramp)), 2 * ramp))
 

@@ -11,7 +11,9 @@ from tests.plant.trajectory import Array, Trajectory, limits
 def speed_sweeps(
     joint: int, levels: tuple[float, ...] = (0.05, 0.1, 0.2, 0.4, 0.7), share: float = 0.6, duration: float = 40.0
 ) -> Trajectory:
-    """One joint (from 1) back and forth at constant speeds, ``levels`` of its largest, within ``share`` of its range; the others rest."""
+    """One joint (from 1) back and forth at constant speeds, ``levels`` of its largest, within ``share`` of its range;
+    the others rest.
+    """
 
     def motion(robot: Robot, t: Array) -> tuple[Array, Array]:
         centre, half, speed, acceleration = limits(robot)
@@ -25,7 +27,9 @@ def speed_sweeps(
 
 
 def _back_and_forth(t: Array, levels: tuple[float, ...], half: float, speed: float, acceleration: float) -> Array:
-    """Speeds (T) of there and back, for each level as often as it fits; ways are cut to a second and a half where it is slow."""
+    """Speeds (T) of there and back, for each level as often as it fits; ways are cut to a second and a half where it
+    is slow.
+    """
     result = np.zeros(len(t))
     now, k = 1.0, 0
     while now < t[-1]:
@@ -41,7 +45,9 @@ def _back_and_forth(t: Array, levels: tuple[float, ...], half: float, speed: flo
 
 
 def slow_reversals(seed: int, period: float = 10.0, periods: int = 4, share: float = 0.03) -> Trajectory:
-    """All joints in slow oscillation of a few harmonics, ``share`` of the range, so that they reverse often at low speed."""
+    """All joints in slow oscillation of a few harmonics, ``share`` of the range, so that they reverse often at low
+    speed.
+    """
 
     def motion(robot: Robot, t: Array) -> tuple[Array, Array]:
         rng = np.random.default_rng([seed, 3])
