@@ -43,7 +43,7 @@ class Law:
     #: Acts along the motor's share of the joints' speeds, where the effect has no weights of its own.
     of_rotor: bool = False
     change: Callable[[Machine, Effect], None] | None = None
-    #: Names what it does to the readings: command (of currents), delay (of positions), link_latency; size is its amount.
+    #: What it does to the readings: command (of currents), delay (of positions) or link_latency; size is its amount.
     reading: str = ""
     #: Not meant to be in any library of candidates.
     outside: bool = False

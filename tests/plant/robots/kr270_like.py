@@ -63,7 +63,10 @@ ROBOT = Robot(
     tool=0.0,
     own=(
         Effect(
-            "spring_balancer", 2, 39500.0, {"d21": 0.6964, "d22": 0.1847, "phi": -1.6148, "free_length": 7380.0 / 39500.0}
+            law="spring_balancer",
+            joint=2,
+            size=39500.0,
+            values={"d21": 0.6964, "d22": 0.1847, "phi": -1.6148, "free_length": 7380.0 / 39500.0},
         ),
     ),
     speed_loop=80.0,

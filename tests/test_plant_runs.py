@@ -1,0 +1,339 @@
+"""Runs of the simulated robot of ``tests/plant``: control, sensors, effects and their size, run files, robot files."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.commands import process
+from tests.plant.effect import Effect
+from tests.plant.library import LAWS
+from tests.plant.machine import Machine
+from tests.plant.measurement import Sensors
+from tests.plant.robot import Array, Robot
+from tests.plant.robot_file import PRIOR, robot_file
+from tests.plant.robots import ROBOTS
+from tests.plant.run import Run, write_csv
+from tests.plant.simulate import Controller, make_run, own_effects
+from tests.plant.size import effect_torque, scale_effect, torque_with, torque_without, whitened_size
+from tests.plant.trajectories.fourier import fourier
+from tests.plant.trajectories.point_to_point import point_to_point
+from tests.plant.trajectories.sweeps import slow_reversals, speed_sweeps
+from tests.plant.trajectory import Trajectory
+
+ARM = ROBOTS["three_axis"]
+SHORT = fourier(3, period=5.0, periods=2, harmonics=4)
+QUIET = Sensors(noise=0.0)
+
+
+@pytest.fixture(params=sorted(ROBOTS))
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return ROBOTS[request.param]
+
+
+@pytest.fixture(scope="module")
+def run() -> Run:
+    return make_run(ARM, fourier(1, period=5.0, periods=8), seed=3)
+
+
+WAYS = {
+    "fourier": SHORT,
+    "trapezoid": point_to_point(1, 8.0),
+    "smooth": point_to_point(2, 8.0, smooth=True),
+    "sweeps": speed_sweeps(2, duration=12.0),
+    "slow": slow_reversals(4, 5.0, 2),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_references_keep_the_limits_and_their_speed_is_the_slope(robot: Robot, way: str) -> None:
+    rate = 1000.0
+    q, qd = WAYS[way].sample(robot, rate)
+    low, high, speed, acceleration = np.array([joint.range for joint in robot.chain]).T
+    assert np.all((low <= q) & (q <= high))
+    assert np.all(np.abs(qd) <= speed)
+    assert np.all(np.abs(np.diff(qd, axis=0)) * rate <= acceleration * 1.001)
+    between = 0.5 * (qd[1:] + qd[:-1]) / rate
+    np.testing.assert_allclose(np.diff(q, axis=0), between, atol=2e-6 * np.max(np.abs(high - low)))
+    moved = np.ptp(q, axis=0) > 0
+    assert np.count_nonzero(moved) == (1 if way == "sweeps" else robot.joints)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_loop_tracks(robot: Robot, way: str) -> None:
+    played = make_run(robot, WAYS[way], sensors=QUIET)
+    error = np.max(np.abs(played.q - played.reference), axis=0)
+    low, high, *_ = np.array([joint.range for joint in robot.chain]).T
+    assert np.all(error < 0.02 * (high - low))
+    assert np.all(np.abs(played.i) < 0.99 * robot.column("peak"))
+
+
+def test_a_logged_current_is_that_of_the_logged_instant(robot: Robot) -> None:
+    played = make_run(robot, fourier(2, period=5.0, periods=2), sensors=Sensors(noise=0.02))
+    truth, machine = played.truth, played.machine
+    needed = machine.rigid_torques(truth.q, truth.qd, truth.qdd)
+    for k, effect in enumerate(machine.torques):
+        needed += np.outer(truth.torque[:, k], effect.along(robot))
+    left = np.sqrt(np.mean((torque_with(played) - needed) ** 2, axis=0))
+    assert np.all(left < 0.02 * played.torque_noise)
+
+
+def test_periods_differ_by_noise_alone(run: Run) -> None:
+    rows = run.period
+    assert rows == 2500
+    periods = run.i.reshape(8, rows, -1)
+    clean = run.truth.current.reshape(8, rows, -1)
+    assert run.noise is not None
+    for before, after in pairwise(range(8)):
+        assert np.all(np.std(clean[after] - clean[before], axis=0) < 0.02 * run.noise.std)
+    spread = np.std(periods - np.mean(periods, axis=0), axis=(0, 1)) * np.sqrt(8 / 7)
+    np.testing.assert_allclose(spread, run.noise.std, rtol=0.05)
+    lines = np.abs(np.fft.rfft(run.truth.current, axis=0))
+    between = np.ones(len(lines), dtype=bool)
+    between[::8] = False
+    assert np.max(lines[between]) < 1e-3 * np.max(lines[1:])
+
+
+def test_the_noise_has_the_spectrum_that_is_stated() -> None:
+    still = Trajectory(
+        lambda robot, t: (np.tile(robot.centre, (len(t), 1)), np.zeros((len(t), robot.joints))), 400.0, 0.5
+    )
+    level = (0.01, 0.02, 0.04)
+    played = make_run(ARM, still, seed=5, sensors=Sensors(noise=level, colour=(0.6, 12.0)))
+    assert played.noise is not None
+    rms = np.sqrt(np.mean(played.truth.current**2, axis=0))
+    np.testing.assert_allclose(played.noise.std, np.array(level) * rms, rtol=1e-12)
+    noise = (played.i - played.truth.current) / played.noise.std
+    np.testing.assert_allclose(np.std(noise, axis=0), 1.0, rtol=0.02)
+    parts = noise.reshape(400, -1, ARM.joints)
+    density = np.mean(np.abs(np.fft.rfft(parts, axis=1)) ** 2, axis=(0, 2)) * 2 / (parts.shape[1] * played.rate)
+    f = np.fft.rfftfreq(parts.shape[1], 1 / played.rate)
+    for low, high in ((3, 8), (8, 20), (20, 60), (60, 150), (150, 245)):
+        band = (f >= low) & (f < high)
+        assert np.mean(density[band]) == pytest.approx(np.mean(played.noise.shape(f[band])), rel=0.05)
+    fine = np.linspace(0, played.rate / 2, 20001)[:-1]
+    assert np.mean(played.noise.shape(fine)) * played.rate / 2 == pytest.approx(1.0, rel=1e-3)
+
+
+def test_encoders_have_steps() -> None:
+    coarse = replace(ARM, encoder_bits=14)
+    played = make_run(coarse, SHORT, sensors=Sensors(noise=0.0, link_encoders=True, link_bits=16))
+    step = 2 * np.pi / 2**14
+    np.testing.assert_allclose(played.qm / step, np.rint(played.qm / step), atol=1e-6)
+    angle = played.truth.q @ coarse.ratios.T
+    assert 0.4 * step < np.max(np.abs(played.qm - angle)) <= 0.5001 * step
+    assert played.qs is not None
+    assert np.max(np.abs(played.qs - played.truth.q)) <= np.pi / 2**16 * 1.0001
+
+
+def test_late_readings_are_the_past() -> None:
+    delay = 3.3e-3
+    effects = [Effect("delay", size=delay), Effect("link_latency", size=2 * delay)]
+    late = make_run(ARM, SHORT, effects, sensors=Sensors(noise=0.0, quantised=False, link_encoders=True, link_bits=40))
+    plain = make_run(ARM, SHORT, sensors=Sensors(noise=0.0, quantised=False))
+    fine = make_run(
+        ARM, SHORT, sensors=Sensors(noise=0.0, quantised=False), controller=Controller(rate=2000.0, log_rate=2000.0)
+    )
+    np.testing.assert_array_equal(late.i, plain.i)
+    assert late.qs is not None
+    for column in range(ARM.joints):
+        past = np.interp(late.t[10:] - delay, fine.t, fine.q[:, column])
+        np.testing.assert_allclose(late.q[10:, column], past, atol=2e-6)
+        past = np.interp(late.t[10:] - 2 * delay, fine.t, fine.q[:, column])
+        np.testing.assert_allclose(late.qs[10:, column], past, atol=2e-6)
+
+
+def test_amplifiers_clip() -> None:
+    whole = make_run(ARM, SHORT, sensors=QUIET)
+    clipping = Effect("current_saturation", 2, 0.72)
+    played = make_run(ARM, SHORT, [clipping], sensors=QUIET)
+    limit = ARM.chain[1].peak * 0.28
+    assert np.max(np.abs(whole.truth.current[:, 1])) > 1.1 * limit
+    assert np.max(np.abs(played.truth.current[:, 1])) <= limit * (1 + 1e-12)
+    np.testing.assert_array_equal(played.i[:, 1], played.truth.command[:, 1])
+    assert np.max(np.abs(played.i[:, 1])) > 1.05 * limit
+    assert whitened_size(make_run(ARM, SHORT, [clipping]), effect_torque(played, clipping), joints=[2]) > 0.5
+
+
+def test_it_is_the_same_for_the_same_seed() -> None:
+    effects = [Effect("ripple_motor", 3), Effect("joint_flexibility", 2)]
+    first, again, other = (make_run(ARM, SHORT, effects, seed=seed) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(first.i, again.i)
+    np.testing.assert_array_equal(first.qm, again.qm)
+    np.testing.assert_array_equal(first.qm, other.qm)
+    assert np.all(np.std(first.i - other.i, axis=0) > 0)
+
+
+@pytest.mark.parametrize("law", sorted(LAWS))
+def test_every_law_acts_and_vanishes_with_its_size(law: str) -> None:
+    joint = 3 if law.startswith("wrist") else 2
+    values = {"place": float(ARM.centre[1])} if law in ("soft_stop", "position_bump", "sticky_spot") else {}
+    effect = Effect(law, joint, values=values, other=1)
+    effect = effect.sized(effect.amount(ARM))
+    sensors = Sensors(link_encoders=True)
+    played = make_run(ARM, SHORT, [effect], sensors=sensors)
+    if law == "link_latency":
+        plain = make_run(ARM, SHORT, sensors=sensors)
+        assert played.qs is not None
+        assert plain.qs is not None
+        assert np.max(np.abs(played.qs - plain.qs)) > 1e-4
+        return
+    size = whitened_size(played, effect_torque(played, effect), limit=50.0)
+    assert size > 0.1
+    # What is elastic cannot be followed to no compliance at all: its steps become too short.
+    part = 0.05 if law in ("joint_flexibility", "backlash") else 1e-4
+    little = effect.sized(part * effect.amount(ARM))
+    played = make_run(ARM, SHORT, [little], sensors=sensors)
+    assert whitened_size(played, effect_torque(played, little), limit=50.0) < max(0.03, 1.5 * part * size)
+
+
+def test_what_an_effect_adds_is_what_changes_along_the_same_motion() -> None:
+    """A payload, a gain, a wrong ratio, a tilt and an offset of an encoder, each worked out by hand."""
+
+    def rigid(machine: Machine, scale: float = 1.0, shift: float = 0.0) -> Array:
+        column = np.array([1.0, scale, 1.0])
+        truth = played.truth
+        return machine.rigid_torques(truth.q * column + [0, shift, 0], truth.qd * column, truth.qdd * column)
+
+    own = [effect for effect in own_effects(ARM) if effect.law in ("viscous", "coulomb")]
+    nominal = Machine(ARM, tuple(own))
+    viscous = ARM.chain[1].viscous
+    for effect in (
+        Effect("payload", size=8.0),
+        Effect("base_tilt", size=0.03),
+        Effect("torque_gain", 2, -0.1),
+        Effect("encoder_offset", 2, 0.02),
+        Effect("gear_ratio", 2, 0.02),
+    ):
+        played = make_run(ARM, SHORT, [effect], own=own)
+        if effect.law == "torque_gain":
+            expected = np.zeros_like(played.q)
+            expected[:, 1] = torque_with(played)[:, 1] * 0.1
+        else:
+            scale = 1.02 if effect.law == "gear_ratio" else 1.0
+            shift = 0.02 if effect.law == "encoder_offset" else 0.0
+            expected = rigid(played.machine) - rigid(nominal, scale, shift)
+            if effect.law == "gear_ratio":
+                # The log divides by the nominal ratio what acts over the true one.
+                acting = rigid(played.machine) + _own_torque(played)
+                expected = acting / np.array([1.0, 1.02, 1.0]) - rigid(nominal, scale) - _own_torque(played)
+                expected[:, 1] -= 0.02 * viscous * played.truth.qd[:, 1]
+        found = effect_torque(played, effect)
+        left = whitened_size(played, found - expected, limit=50.0)
+        assert left < 0.03, effect.law
+        assert whitened_size(played, expected, limit=50.0) > 0.2, effect.law
+
+
+def _own_torque(run: Run) -> Array:
+    torques = (np.outer(run.truth.torque[:, k], effect.along(ARM)) for k, effect in enumerate(run.machine.torques))
+    return np.sum(list(torques), axis=0)
+
+
+def test_noise_has_size_one_and_is_lost_by_a_projection(run: Run) -> None:
+    noise = run.tau - torque_with(run)
+    assert whitened_size(run, noise) == pytest.approx(1.0, abs=0.02)
+    assert whitened_size(run, noise, limit=20.0) == pytest.approx(1.0, abs=0.05)
+    basis = np.stack([noise, np.ones_like(noise), np.zeros_like(noise)], axis=2)
+    assert whitened_size(run, noise, basis) < 1e-9
+    basis[..., 0] = np.random.default_rng(1).normal(size=noise.shape)
+    assert whitened_size(run, noise, basis) == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("effect", "target"),
+    [
+        (Effect("stribeck", 3), 1.0),
+        (Effect("payload"), 0.5),
+        (Effect("joint_flexibility", 2), 1.0),
+        (Effect("current_saturation", 2), 2.0),
+        (Effect("encoder_offset", 2, -0.01), 1.0),
+    ],
+)
+def test_an_effect_is_scaled_to_a_size(effect: Effect, target: float) -> None:
+    found, _ = scale_effect(ARM, SHORT, effect, target, seed=4)
+    again = make_run(ARM, SHORT, [found], seed=9)
+    assert whitened_size(again, effect_torque(again, found)) == pytest.approx(target, rel=0.03)
+    assert np.sign(found.amount(ARM)) == np.sign(effect.amount(ARM))
+
+
+def test_sizes_out_of_reach_are_refused() -> None:
+    with pytest.raises(ValueError, match="does not come to 1000"):
+        scale_effect(ARM, SHORT, Effect("gradual_rise", 1), 1000.0)
+    played = make_run(ARM, SHORT)
+    with pytest.raises(ValueError, match="no payload"):
+        torque_without(played, Effect("payload"))
+    with pytest.raises(ValueError, match="ran away"):
+        make_run(ARM, SHORT, [Effect("offset", 1, 1e12)])
+    with pytest.raises(ValueError, match="not whole"):
+        make_run(ARM, fourier(1, period=5.0005))
+
+
+def test_warm_up_is_seen_in_friction_and_in_the_thermometer() -> None:
+    warm = Effect("warm_up", 2, 0.5)
+    cold, later = (
+        make_run(ARM, SHORT, [warm], sensors=Sensors(temperature=True), start_time=start) for start in (0.0, 3600.0)
+    )
+    ratio = effect_torque(cold, warm)[:, 1] / cold.truth.friction[:, 1]
+    moving = np.abs(cold.truth.qd[:, 1]) > 0.1
+    fading = 0.5 * (0.6 * np.exp(-cold.t / 25) + 0.4 * np.exp(-cold.t / 400))
+    np.testing.assert_allclose(ratio[moving], fading[moving], rtol=1e-3)
+    assert np.max(np.abs(effect_torque(later, warm))) < 0.01 * np.max(np.abs(effect_torque(cold, warm)))
+    assert cold.temperature is not None
+    assert later.temperature is not None
+    assert np.all(cold.temperature[0] < 1)
+    assert np.all(later.temperature[0] > 24)
+
+
+def test_run_files_hold_what_was_logged(tmp_path: Path) -> None:
+    played = make_run(ROBOTS["small_wrist"], SHORT, sensors=Sensors(link_encoders=True, temperature=True))
+    write_csv(played, tmp_path / "A.csv", reference=True)
+    header = (tmp_path / "A.csv").read_text().splitlines()[0].split(",")
+    each = [f"{name}{j}" for name in ("qm", "i", "qs", "qr", "temp") for j in range(1, 7)]
+    assert header == ["t", *each]
+    table = np.genfromtxt(tmp_path / "A.csv", delimiter=",", names=True)
+    assert len(table) == 5000
+    np.testing.assert_allclose(np.diff(table["t"]), 0.002, atol=1e-12)
+    np.testing.assert_allclose(table["i5"], played.i[:, 4], rtol=1e-10)
+    # Motor 6 turns with the sum of axes 5 and 6.
+    np.testing.assert_allclose(table["qm6"], 32 * (played.q[:, 4] + played.q[:, 5]), atol=1e-9)
+    write_csv(played, tmp_path / "B.csv", "q", "tau")
+    table = np.genfromtxt(tmp_path / "B.csv", delimiter=",", names=True)
+    constant = 0.06 * 32
+    np.testing.assert_allclose(table["tau6"], constant * played.i[:, 5], rtol=1e-9)
+    np.testing.assert_allclose(table["tau5"], 0.06 * 45 * played.i[:, 4] + constant * played.i[:, 5], rtol=1e-9)
+    with pytest.raises(ValueError, match="expected qm or q"):
+        write_csv(played, tmp_path / "C.csv", "x")
+
+
+def test_robot_files_are_accepted_and_mean_the_same_robot(robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / f"{robot.name}.yaml"
+    path.write_text(robot_file(robot))
+    q, qd, qdd = np.random.default_rng(4).uniform(0.1, 1, (3, 1, robot.joints))
+    words = [
+        word for name, x in (("q", q), ("qd", qd), ("qdd", qdd)) for word in (f"--{name}", *map(repr, x[0].tolist()))
+    ]
+    done = process("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words)
+    assert done.status == 0, done.err
+    machine = Machine(robot, own_effects(robot))
+    # The file has no word for a wrist's coupled rotor.
+    plain = Machine(robot, tuple(effect for effect in own_effects(robot) if not effect.law.startswith("wrist")))
+    expected = plain.rigid_torques(q, qd, qdd)[0]
+    torques = machine.law_torques(np.repeat(q, 2, axis=0), np.repeat(qd, 2, axis=0), 1.0)[-1]
+    for effect, torque in zip(machine.torques, torques, strict=True):
+        expected += 0.0 if effect.law == "wrist_friction" else torque * effect.along(robot)
+    np.testing.assert_allclose(json.loads(done.out)["tau"], expected, rtol=1e-9, atol=1e-9)
+
+
+def test_forty_seconds_take_how_long(robot: Robot, capsys: pytest.CaptureFixture[str]) -> None:
+    make_run(robot, SHORT)
+    start = time.perf_counter()
+    played = make_run(robot, fourier(1), [Effect("stribeck", 2), Effect("joint_flexibility", 2)])
+    with capsys.disabled():
+        print(f"\n{robot.name}: {len(played.t)} rows of {robot.joints} axes in {time.perf_counter() - start:.2f} s")
+    assert len(played.t) == 20000
