@@ -288,7 +288,8 @@ def test_laws_with_memory_go_round(law: str) -> None:
 def test_dry_friction_holds_and_lets_go() -> None:
     wheel = Robot("wheel", (WHEEL,))
     for push, moves in ((0.4, False), (1.2, True)):
-        effects = [Effect("coulomb", 1, 20.0), Effect("offset", 1, -push * 20.0)]
+        damping = Effect("viscous", 1, 0.0 if moves else 2000.0)
+        effects = [Effect("coulomb", 1, 20.0), Effect("offset", 1, -push * 20.0), damping]
         run = make_run(wheel, resting(0.0, 1.0), effects, own=())
         way = Effect("coulomb").value("distance", wheel)
         if moves:

@@ -63,6 +63,17 @@ class Effect:
         row = robot.ratios[j] / robot.ratios[j, j]
         return np.asarray(row if np.count_nonzero(row) > 1 else unit[j] + unit[j - 1])
 
+    def record(self, robot: Robot) -> dict[str, object]:
+        """What it is on a robot, for a study's own books."""
+        return {
+            "law": self.law,
+            "joint": self.joint,
+            "along": self.along(robot).tolist(),
+            "size": self.amount(robot),
+            "unit": self.what.unit,
+            "values": dict(zip(self.what.values, self.all_values(robot), strict=True)),
+        }
+
     def sized(self, size: float) -> Effect:
         """The same effect, of another size."""
         return replace(self, size=size)

@@ -55,8 +55,8 @@ def value_of(value: Value, robot: Robot, joint: int) -> float:
 
 
 def stiff_way(robot: Robot, joint: int) -> float:
-    """Way [rad] after which a stiff bristle of the joint's Coulomb friction slips: as stiff as the rotor at 1000
+    """Way [rad] after which a stiff bristle of the joint's Coulomb friction slips: as stiff as the rotor at 2000
     rad/s.
     """
     here = robot.chain[joint]
-    return max(5e-6, here.coulomb / (here.rotor * 1e6))
+    return max(2e-6, here.coulomb / (here.rotor * 2000.0**2))

@@ -15,15 +15,15 @@ class Sensors:
     """``noise`` is the standard deviation of a current's noise over the rms of that current, for all motors or for
     each.
 
-    ``colour`` is the share of its variance below a corner [Hz]. ``link_encoders`` logs qs with ``link_bits`` a turn,
-    ``temperature`` the housings in kelvin above the hall, with a sensor's noise. ``quantised`` False is a motor
-    encoder without steps in the log.
+    ``colour`` is the share of its variance below a corner [Hz]. So many joints, from the first, have
+    ``link_encoders``, logged as qs with ``link_bits`` a turn. ``temperature`` logs the housings in kelvin above the
+    hall, with a sensor's noise. ``quantised`` False is a motor encoder without steps in the log.
     """
 
     noise: float | tuple[float, ...] = 0.02
     colour: tuple[float, float] = (0.7, 8.0)
     quantised: bool = True
-    link_encoders: bool = False
+    link_encoders: int = 0
     link_bits: int = 22
     temperature: bool = False
 
@@ -45,7 +45,8 @@ def measure(run: Run, sensors: Sensors, seed: int) -> Run:
     qs = None
     if sensors.link_encoders:
         step = 2 * np.pi / 2**sensors.link_bits
-        qs = step * np.rint(late(run, truth.q, truth.qd, truth.qdd, reading(run, "link_latency")) / step)
+        links = late(run, truth.q, truth.qd, truth.qdd, reading(run, "link_latency"))[:, : sensors.link_encoders]
+        qs = step * np.rint(links / step)
     temperature = _temperature(run, rng) if sensors.temperature else None
     return replace(
         run, qm=qm, i=current + std * _noise(noise, current.shape, rng), qs=qs, temperature=temperature, noise=noise

@@ -17,8 +17,8 @@ from tests.plant.robot import Array, Robot
 from tests.plant.run import Run, Truth
 from tests.plant.trajectory import Trajectory
 
-#: Longest step of integration [s], and the part of a radian that the fastest drive train may turn in one.
-_STEP, _TURN = 1.25e-4, 0.35
+#: The part of a radian that the fastest drive train may swing through in one step of integration.
+_SWING = 0.35
 
 #: Channels of a row, n each, before the effects' torques.
 _CHANNELS = ("q", "qd", "qdd", "th", "thd", "thdd", "current", "command", "heat", "friction", "load")
@@ -29,7 +29,7 @@ class Controller:
     """Rates [Hz] of control and logging, the current loop's lag and the speed filter's time constant [s].
 
     ``position_share`` and ``integral_share`` are the bandwidths of the position loop and of the integrator over that
-    of the speed loop.
+    of the speed loop. ``longest_step`` [s] is that of integration, not of the controller.
     """
 
     rate: float = 2000.0
@@ -38,6 +38,7 @@ class Controller:
     speed_filter: float = 1e-3
     position_share: float = 0.2
     integral_share: float = 0.25
+    longest_step: float = 1.25e-4
 
 
 def own_effects(robot: Robot) -> tuple[Effect, ...]:
@@ -97,7 +98,7 @@ def _play(
     qr, qdr = trajectory.sample(robot, controller.rate)
     period = 1 / controller.rate
     middle = np.mean(qr, axis=0)
-    per_tick = ceil(max(period / _STEP, period * machine.fastest(middle) / _TURN))
+    per_tick = ceil(max(period / controller.longest_step, period * machine.fastest(middle) / _SWING))
     plant = machine.in_c()
     plant.start_time = start_time - trajectory.before
     plant.lag, plant.speed_filter = controller.lag, controller.speed_filter
