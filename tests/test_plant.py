@@ -15,7 +15,7 @@ from tests.commands import ROOT
 from tests.plant.effect import Effect
 from tests.plant.library import LAWS, TORQUES
 from tests.plant.machine import FREE_FALL, Machine
-from tests.plant.robot import BODY, Array, Joint, Robot, fraction
+from tests.plant.robot import BODY, Array, Joint, Robot, bar, fraction
 from tests.plant.robots import ROBOTS
 from tests.plant.run import Run
 from tests.plant.simulate import make_run, own_effects
@@ -38,9 +38,21 @@ WHEEL = Joint(
 )
 
 
-@pytest.fixture(params=sorted(ROBOTS))
+def crooked() -> Robot:
+    """Six joints anyhow, every other one prismatic."""
+    rng = np.random.default_rng(7)
+    chain = []
+    for j in range(6):
+        start, end = rng.uniform(-0.5, 0.5, (2, 3))
+        body = bar(float(rng.uniform(1, 5)), tuple(start), tuple(end), 0.1)
+        alpha, d, theta, r = rng.uniform(-2, 2, 4).tolist()
+        chain.append(replace(WHEEL, dh=(alpha, d, theta, r), body=body, prismatic=j % 2 == 1))
+    return Robot("crooked", tuple(chain), base=(0.3, -0.5, 0.9))
+
+
+@pytest.fixture(params=["crooked", *sorted(ROBOTS)])
 def robot(request: pytest.FixtureRequest) -> Robot:
-    return ROBOTS[request.param]
+    return crooked() if request.param == "crooked" else ROBOTS[request.param]
 
 
 def imported(path: Path) -> Iterator[str]:
@@ -298,7 +310,9 @@ def test_dry_friction_holds_and_lets_go() -> None:
             assert np.max(np.abs(run.truth.q)) < 3 * way
 
 
-def test_a_gear_transmits_what_is_behind_it(robot: Robot) -> None:
+@pytest.mark.parametrize("name", sorted(ROBOTS))
+def test_a_gear_transmits_what_is_behind_it(name: str) -> None:
+    robot = ROBOTS[name]
     run = make_run(robot, resting(robot.centre, 0.5))
     expected = Machine(robot, own_effects(robot)).rigid_torques(*(run.truth.q, run.truth.qd, run.truth.qdd))
     expected -= run.truth.qdd @ run.machine.rotor
