@@ -13,7 +13,7 @@ from tests.plant.robot import Array
 from tests.plant.robots import ROBOTS
 from tests.plant.run import Run
 from tests.plant.simulate import make_run, own_effects
-from tests.plant.size import effect_torque, scale_effect, torque_with, torque_without, whitened_size
+from tests.plant.size import effect_torque, free_fit, scale_effect, torque_with, torque_without, whitened_size
 from tests.plant.trajectories.fourier import fourier
 
 ARM = ROBOTS["three_axis"]
@@ -120,6 +120,21 @@ def test_an_effect_is_scaled_to_a_size(effect: Effect, target: float) -> None:
     again = make_run(ARM, SHORT, [found], seed=9)
     assert whitened_size(again, effect_torque(again, found)) == pytest.approx(target, rel=0.03)
     assert np.sign(found.amount(ARM)) == np.sign(effect.amount(ARM))
+
+
+@pytest.mark.parametrize("name", ["three_axis", "small_wrist", "scara_like"])
+def test_a_free_fit_absorbs_a_payload_and_no_stribeck(name: str) -> None:
+    robot = ROBOTS[name]
+    payload, stribeck = Effect("payload"), Effect("stribeck", 2)
+    played = make_run(robot, fourier(6, period=5.0, periods=2), [payload, stribeck])
+    basis = free_fit(played, stribeck)
+    assert basis.shape == (*played.q.shape, basis.shape[2])
+    known = whitened_size(played, effect_torque(played, payload), limit=20.0)
+    assert whitened_size(played, effect_torque(played, payload), basis, limit=20.0) < 0.05 * known + 0.02
+    assert whitened_size(played, torque_with(played), free_fit(played), limit=20.0) < 0.03
+    raw = whitened_size(played, effect_torque(played, stribeck), limit=20.0, joints=[2])
+    left = whitened_size(played, effect_torque(played, stribeck), basis, limit=20.0, joints=[2])
+    assert 0.3 * raw < left < raw
 
 
 def test_sizes_out_of_reach_are_refused() -> None:

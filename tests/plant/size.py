@@ -126,6 +126,36 @@ def whitened_size(
     return float(np.sqrt(np.mean(whitened[:, list(kept)] ** 2)))
 
 
+def free_fit(run: Run, effect: Effect | None = None) -> Array:
+    """Torques (T x n x b) per unit of all that a free fit adjusts: bodies, rotors, and the sizes of what acts beside
+    ``effect``.
+
+    The motion is the true one of the motors. Effects that change the robot beside ``effect`` are left out, but for a
+    wrist's rotor.
+    """
+    robot, truth = run.robot, run.truth
+    columns = []
+    machine = Machine(robot, ())
+    machine.gravity, machine.rotor[:] = run.machine.gravity, 0.0
+    bodies = machine.body
+    for j in range(robot.joints):
+        for k in range(bodies.shape[1]):
+            machine.body = np.zeros_like(bodies)
+            machine.body[j, k] = 1.0
+            columns.append(machine.rigid_torques(truth.th, truth.thd, truth.thdd))
+    rotors = [np.eye(robot.joints)[j] for j in range(robot.joints)]
+    for other in run.effects:
+        if other == effect:
+            continue
+        if other.law == "wrist_inertia":
+            rotors.append(other.along(robot))
+        elif other.what.torque and other.amount(robot):
+            torque = run.truth.torque[:, run.machine.torques.index(other)]
+            columns.append(np.outer(torque, other.along(robot)) / other.amount(robot))
+    columns += [np.outer(truth.thdd @ along, along) for along in rotors]
+    return np.stack(columns, axis=2)
+
+
 def scale_effect(
     robot: Robot,
     trajectory: Trajectory,
