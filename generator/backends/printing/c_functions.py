@@ -25,7 +25,7 @@ MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": 
 #: Angles whose sines and cosines are computed side by side at most: the arrays' sizes are multiples of it.
 BLOCK = 4
 #: Zeros in a row that are worth a loop.
-_RUN = 4
+_RUN = 16
 
 
 @dataclass(frozen=True)
@@ -128,10 +128,10 @@ def _results(
         entries = enumerate(zip(output.nodes, values, strict=False))
         for is_zero, run in groupby(entries, lambda entry: entry[1][0].number == 0):
             places = [(place, value) for place, (node, value) in run if node not in written]
-            if is_zero and len(places) >= _RUN:
-                yield Result(argument.name, places[0][0], len(places), places[0][1])
-            else:
-                yield from (Result(argument.name, place, 1, value) for place, value in places)
+            looped = len(places) // BLOCK * BLOCK if is_zero and len(places) >= _RUN else 0
+            if looped:
+                yield Result(argument.name, places[0][0], looped, places[0][1])
+            yield from (Result(argument.name, place, 1, value) for place, value in places[looped:])
 
 
 def _sines_and_cosines(
