@@ -22,8 +22,9 @@ from generator.symbolic.function import Function, Signal
 #: The operations that <math.h> computes: its function for double; the one for float has an f behind.
 MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": "fabs", "pow": "pow"}
 
-#: Angles whose sines and cosines are computed side by side at most: the arrays' sizes are multiples of it.
+#: Angles whose sines and cosines one call computes side by side.
 BLOCK = 4
+_ZERO = "R(0.0)"
 #: Zeros in a row that are worth a loop.
 _RUN = 16
 
@@ -137,18 +138,21 @@ def _results(
 def _sines_and_cosines(
     prefix: str, nodes: Sequence[Node], angles: Sequence[Node], texts: Sequence[str], names: Identifiers
 ) -> tuple[Sequence[str], Sequence[str]]:
-    """The call that computes them side by side; the arrays are filled up with zeros to whole blocks."""
-    angle, sine, cosine = (names.claim(name) for name in ("angle", "sine", "cosine"))
-    size = -(-len(angles) // BLOCK) * BLOCK
-    entries = listed(texts, LINE - 8)
-    statements = [f"const {prefix}_real {angle}[{size}] = {{", *(f"    {line}" for line in entries), "};"]
-    if len(entries) == 1:
-        statements = [f"const {prefix}_real {angle}[{size}] = {{ {entries[0][:-1]} }};"]
-    statements += [
-        f"{prefix}_real {sine}[{size}];",
-        f"{prefix}_real {cosine}[{size}];",
-        f"{prefix}_sines_cosines({len(angles)}, {angle}, {sine}, {cosine});",
-    ]
+    """Calls that compute them side by side, a block of angles each; the last block is filled up with zeros."""
+    sine, cosine = names.claim("sine"), names.claim("cosine")
+    blocks = -(-len(texts) // BLOCK)
+    filled = [*texts, *[_ZERO] * (blocks * BLOCK - len(texts))]
+    statements = [f"{prefix}_real {sine}[{blocks * BLOCK}];", f"{prefix}_real {cosine}[{blocks * BLOCK}];"]
+    for start in range(0, len(texts), BLOCK):
+        count = min(BLOCK, len(texts) - start)
+        results = (f"&{sine}[{start}]", f"&{cosine}[{start}]") if start else (sine, cosine)
+        arguments = [str(count), *filled[start : start + BLOCK], *results]
+        line = f"{prefix}_sines_cosines({', '.join(arguments)});"
+        if len(line) > LINE - 4:
+            *first, last = listed(arguments, LINE - 8)
+            statements += [f"{prefix}_sines_cosines(", *(f"    {words}" for words in first), f"    {last[:-1]});"]
+        else:
+            statements.append(line)
     arrays = {"sin": sine, "cos": cosine}
     return statements, [f"{arrays[node.operation]}[{angles.index(node.arguments[0])}]" for node in nodes]
 
