@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from generator.backends.printing.c_functions import MATHEMATICS, CFunction, c_function, c_language
+from generator.backends.printing.c_functions import BLOCK, MATHEMATICS, CFunction, c_function, c_language
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare
@@ -24,7 +24,7 @@ from generator.version import VERSION
 NAME = "c"
 
 #: Macros of the header: no parameter's constant may be called like one of them.
-_MACROS = ("H", "NQ", "NPARAMETERS", "NSTANDARD", "USE_FLOAT", "STATIC_ASSERT")
+_MACROS = ("H", "NQ", "NPARAMETERS", "NSTANDARD", "USE_FLOAT", "USE_LIBM", "LANES", "STATIC_ASSERT")
 
 
 @dataclass(frozen=True)
@@ -82,11 +82,16 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "packed": [_packed(function) for function in functions if function.source.sparsity],
         "sets": _values(model, constants),
     }
-    used = _operations([prepared.nodes, *prepared.moving.values()])
+    moving = _operations(prepared.moving.values())
+    used = moving | _operations([prepared.nodes])
+    angles = bool(moving & {"sin", "cos"})
+    used |= {"sin", "cos"} if angles else set()
     source = {
         "prepare": _prepare(prepared, prefix, constants),
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "uses_sign": "sign" in used,
+        "uses_angles": angles,
+        "block": BLOCK,
     }
     return {
         f"{prefix}.h": render("c/header.h.jinja", **context),
