@@ -1,0 +1,127 @@
+"""C99 over many samples: inverse dynamics, observation matrices and their normal equations, several samples at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from generator.backends.printing.c_functions import MATHEMATICS
+from generator.backends.printing.identifiers import C_RESERVED, Identifiers
+from generator.backends.printing.language import LINE, Language
+from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare, signal_of
+from generator.backends.printing.signals import listed, paragraph
+from generator.backends.printing.straight_line import straight_line
+from generator.backends.printing.templates import render
+from generator.symbolic.function import Function, Sparsity
+from generator.symbolic.model import Model
+from generator.symbolic.statements import Node
+from generator.version import VERSION
+
+NAME = "batch"
+
+#: What the batch functions are made of.
+_DYNAMICS, _REGRESSOR = "inverse_dynamics", "regressor_packed"
+_INPUTS = ("q", "qd", "qdd")
+
+#: Operations on lanes, under the names that the template gives them.
+_LANGUAGE = Language(
+    calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign")},
+    statement="const lanes {name} = {value};",
+    literal="R({value})",
+    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "pitch", *_INPUTS},
+)
+
+
+@dataclass(frozen=True)
+class LaneFunction:
+    """The program of a function on lanes: its statements, and the lanes of each output entry in order.
+
+    ``unread`` are the inputs that the program does not read.
+    """
+
+    statements: tuple[str, ...]
+    results: tuple[str, ...]
+    reads_prepared: bool
+    unread: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the structural nonzeros of the regressor stand.
+
+    An entry is a nonzero of joint j or, after the last one of each joint, that joint's torque. ``start`` is the first
+    entry of each joint and behind them the number of entries; ``columns`` are lines of the columns of all entries, in
+    order, and the width of the matrix for each torque; ``places`` the entries of the nonzeros, row by row.
+    """
+
+    joints: int
+    width: int
+    start: tuple[int, ...]
+    columns: tuple[str, ...]
+    places: tuple[int, ...]
+
+
+def emit(model: Model) -> dict[str, str | bytes]:
+    """The header and the source by their paths; nothing for a model without the functions that they are made of."""
+    if not {_DYNAMICS, _REGRESSOR} <= model.functions.keys():
+        return {}
+    prefix = model.robot.name
+    prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})
+    dynamics, regressor = model.functions[_DYNAMICS], model.functions[_REGRESSOR]
+    assert regressor.sparsity is not None
+    used = {node.operation for name in (_DYNAMICS, _REGRESSOR) for node in prepared.moving[name]}
+    context = {
+        "prefix": prefix,
+        "macro": prefix.upper(),
+        "robot": model.robot,
+        "version": VERSION,
+        "title": paragraph(f"{prefix}: {model.robot.description}", LINE - 3),
+        "layout": layout(regressor.sparsity),
+        "dynamics": lane_function(dynamics, prepared),
+        "regressor": lane_function(regressor, prepared),
+        "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
+        "uses_sign": "sign" in used,
+    }
+    return {
+        f"{prefix}_batch.h": render("batch/header.h.jinja", **context),
+        f"{prefix}_batch.c": render("batch/source.c.jinja", **context),
+    }
+
+
+def layout(sparsity: Sparsity) -> Layout:
+    """The entries of a regressor of this structure."""
+    joints, width = sparsity.shape
+    counts = [sparsity.rows.count(joint) for joint in range(joints)]
+    start = tuple(sum(counts[:joint]) + joint for joint in range(joints + 1))
+    places = tuple(place + row for place, row in enumerate(sparsity.rows))
+    columns = dict.fromkeys(range(start[-1]), width) | dict(zip(places, sparsity.columns, strict=True))
+    return Layout(joints, width, start, tuple(listed(map(str, columns.values()), LINE - 4)), places)
+
+
+def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
+    """A function whose signals are lanes, each with one sample, and whose parameters are read from ``prepared``."""
+    nodes = prepared.moving[function.name]
+    fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
+    signals = {
+        node: f"{signal_of(node)}[{index(node)}]"
+        for node in nodes
+        if node.operation == "input" and not is_parameter(node)
+    }
+    read = {signal_of(node) for node in signals}
+    block = straight_line(nodes, function.roots, fields | signals, _LANGUAGE, Identifiers(_LANGUAGE.reserved))
+    results = (_lanes(node, text) for node, text in zip(function.roots, block.results, strict=True))
+    return LaneFunction(
+        block.statements,
+        tuple(results),
+        _reads(nodes, function.roots, fields),
+        tuple(name for name in _INPUTS if name not in read),
+    )
+
+
+def _reads(nodes: Sequence[Node], roots: Sequence[Node], fields: Mapping[Node, str]) -> bool:
+    return any(node in fields for user in nodes for node in (user, *user.arguments)) or any(r in fields for r in roots)
+
+
+def _lanes(node: Node, text: str) -> str:
+    """The text of a result; a number or a parameter is the same in every lane."""
+    return f"lanes_splat({text})" if node.number is not None or node.parameter_only else text
