@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 
 from generator.backends.printing.c_functions import MATHEMATICS
 from generator.backends.printing.identifiers import C_RESERVED, Identifiers
@@ -22,6 +23,7 @@ NAME = "batch"
 #: What the batch functions are made of.
 _DYNAMICS, _REGRESSOR = "inverse_dynamics", "regressor_packed"
 _INPUTS = ("q", "qd", "qdd")
+_TRIGONOMETRY = ("sin", "cos")
 
 #: Operations on lanes, under the names that the template gives them.
 _LANGUAGE = Language(
@@ -80,7 +82,9 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "dynamics": lane_function(dynamics, prepared),
         "regressor": lane_function(regressor, prepared),
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
+        "trigonometry": [name for name in _TRIGONOMETRY if name in used],
         "uses_sign": "sign" in used,
+        "spread": _spread([*prepared.moving[_DYNAMICS], *prepared.moving[_REGRESSOR]]),
     }
     return {
         f"{prefix}_batch.h": render("batch/header.h.jinja", **context),
@@ -116,6 +120,33 @@ def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
         _reads(nodes, function.roots, fields),
         tuple(name for name in _INPUTS if name not in read),
     )
+
+
+def _spread(nodes: Sequence[Node]) -> int | None:
+    """A number that no angle of a sine or cosine exceeds while the positions' norm is at most 1, and in proportion.
+
+    None where an angle is no sum of positions and constants.
+    """
+    bounds: dict[Node, float | None] = {}
+    for node in nodes:
+        bounds[node] = _bound(node, [_known(argument, bounds) for argument in node.arguments])
+    angles = [bounds[node.arguments[0]] for node in nodes if node.operation in _TRIGONOMETRY]
+    known = [bound for bound in angles if bound is not None]
+    return ceil(max(known, default=1.0)) if len(known) == len(angles) else None
+
+
+def _known(node: Node, bounds: Mapping[Node, float | None]) -> float | None:
+    return float(abs(node.number)) if node.number is not None else bounds.get(node)
+
+
+def _bound(node: Node, arguments: Sequence[float | None]) -> float | None:
+    """The largest magnitude of a sum of positions, each at most 1, and constants; None for any other node."""
+    if node.operation == "input" and signal_of(node) == "q":
+        return 1.0
+    known = [bound for bound in arguments if bound is not None]
+    if node.operation in ("add", "sub", "neg") and len(known) == len(arguments):
+        return sum(known)
+    return None
 
 
 def _reads(nodes: Sequence[Node], roots: Sequence[Node], fields: Mapping[Node, str]) -> bool:
