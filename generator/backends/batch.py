@@ -9,11 +9,12 @@ from math import ceil
 from generator.backends.printing.c_functions import MATHEMATICS
 from generator.backends.printing.identifiers import C_RESERVED, Identifiers
 from generator.backends.printing.language import LINE, Language
+from generator.backends.printing.observation import layout
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare, signal_of
-from generator.backends.printing.signals import listed, paragraph
+from generator.backends.printing.signals import paragraph
 from generator.backends.printing.straight_line import straight_line
 from generator.backends.printing.templates import render
-from generator.symbolic.function import Function, Sparsity
+from generator.symbolic.function import Function
 from generator.symbolic.model import Model
 from generator.symbolic.statements import Node
 from generator.version import VERSION
@@ -47,22 +48,6 @@ class LaneFunction:
     unread: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Layout:
-    """Where the structural nonzeros of the regressor stand.
-
-    An entry is a nonzero of joint j or, after the last one of each joint, that joint's torque. ``start`` is the first
-    entry of each joint and behind them the number of entries; ``columns`` are lines of the columns of all entries, in
-    order, and the width of the matrix for each torque; ``places`` the entries of the nonzeros, row by row.
-    """
-
-    joints: int
-    width: int
-    start: tuple[int, ...]
-    columns: tuple[str, ...]
-    places: tuple[int, ...]
-
-
 def emit(model: Model) -> dict[str, str | bytes]:
     """The header and the source by their paths; nothing for a model without the functions that they are made of."""
     if not {_DYNAMICS, _REGRESSOR} <= model.functions.keys():
@@ -90,16 +75,6 @@ def emit(model: Model) -> dict[str, str | bytes]:
         f"{prefix}_batch.h": render("batch/header.h.jinja", **context),
         f"{prefix}_batch.c": render("batch/source.c.jinja", **context),
     }
-
-
-def layout(sparsity: Sparsity) -> Layout:
-    """The entries of a regressor of this structure."""
-    joints, width = sparsity.shape
-    counts = [sparsity.rows.count(joint) for joint in range(joints)]
-    start = tuple(sum(counts[:joint]) + joint for joint in range(joints + 1))
-    places = tuple(place + row for place, row in enumerate(sparsity.rows))
-    columns = dict.fromkeys(range(start[-1]), width) | dict(zip(places, sparsity.columns, strict=True))
-    return Layout(joints, width, start, tuple(listed(map(str, columns.values()), LINE - 4)), places)
 
 
 def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
