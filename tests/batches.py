@@ -30,15 +30,15 @@ class Filter:
 
     def applied(self, y: Array) -> Array:
         """Each column of ``y`` (samples first) by numpy's convolution, each r-th value of it."""
-        flat = y.reshape(len(y), -1)
         if len(y) < len(self.taps):
             return np.zeros((0, *y.shape[1:]))
+        flat = y.reshape(len(y), -1)
         columns = [np.convolve(column, self.taps[::-1], "valid")[:: self.decimation] for column in flat.T]
         return np.stack(columns, axis=-1).reshape(-1, *y.shape[1:])
 
 
 class Batch:
-    """The batch functions of the robot ``name`` whose C is in ``folder``, compiled strictly with ``flags``."""
+    """The batch functions of the robot ``name`` whose C is in ``folder``, compiled strictly with ``flags`` (once)."""
 
     def __init__(self, folder: Path, name: str, flags: Sequence[str] = ("-O1",), compiler: str = "gcc") -> None:
         self.name = name
@@ -48,7 +48,8 @@ class Batch:
         library = folder / f"lib{name}{key}.so"
         sources = [folder / "c" / f"{name}.c", folder / "batch" / f"{name}_batch.c"]
         include, shared = f"-I{folder / 'c'}", ("-shared", "-fPIC")
-        run([compiler, "-std=c99", *_WARNINGS, *shared, *flags, include, *sources, "-o", library, "-lm"])
+        if not library.exists():
+            run([compiler, "-std=c99", *_WARNINGS, *shared, *flags, include, *sources, "-o", library, "-lm"])
         self._ffi = cffi.FFI()
         self._ffi.cdef(_declarations(folder, name, flags))
         self._library = self._ffi.dlopen(str(library))

@@ -41,6 +41,7 @@ FILTERS = {
     "not symmetric": Filter((0.1, -0.2, 0.3, 0.4, 1.5), 2),
 }
 DOUBLE, SINGLE = 1e-13, 2e-5
+USUAL = ("-O2", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fopenmp")
 
 Array = NDArray[Any]
 
@@ -69,7 +70,7 @@ class Arm:
 
     def signals(self, n: int) -> tuple[Array, Array, Array]:
         q, qd, qdd = np.random.default_rng(n).uniform(-2.0, 2.0, (3, n, self.model.dof))
-        qd[:, 0] = 0.0  # sign(0)
+        qd[:1, 0] = 0.0  # sign(0)
         return q, qd, qdd
 
     def regressor(self, q: Array, qd: Array, qdd: Array) -> Array:
@@ -79,6 +80,14 @@ class Arm:
 
     def torques(self, q: Array, qd: Array, qdd: Array) -> Array:
         return self._called("inverse_dynamics", {"parameters": self.parameters, "q": q, "qd": qd, "qdd": qdd})
+
+    @property
+    def felt(self) -> Array:
+        """Which columns of [W_j tau_j] are no structural zeros, for each joint (NQ, NBASE + 1)."""
+        result = np.zeros((self.model.dof, len(self.model.base_parameters) + 1), bool)
+        result[self.numpy.SPARSITY["regressor_packed"]] = True
+        result[:, -1] = True
+        return result
 
     def _called(self, name: str, arguments: dict[str, Array]) -> Array:
         function = self.numpy.FUNCTIONS[name]
@@ -103,7 +112,7 @@ def arm(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 @pytest.fixture(scope="module")
 def batch(arm: Arm) -> Batch:
     """The functions as a user compiles them for the machine at hand."""
-    return arm.batch("-O2", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fopenmp")
+    return arm.batch(*USUAL)
 
 
 def agree(found: Array, wanted: Array, tolerance: float = DOUBLE) -> bool:
@@ -165,13 +174,14 @@ def test_triangular_factor(arm: Arm, batch: Batch, chosen: Filter | None, n: int
     tau = arm.torques(*signals) + np.random.default_rng(1).normal(size=(n, arm.model.dof))
     apply = chosen.applied if chosen else (lambda y: y)
     found = batch.normal("observation_qr", [*signals, tau], chosen)
-    for R, A in zip(found, stacked(apply(arm.regressor(*signals)), apply(tau)), strict=True):
+    blocks = stacked(apply(arm.regressor(*signals)), apply(tau))
+    for R, A, felt in zip(found, blocks, arm.felt, strict=True):
         assert agree(R, np.triu(R), 0.0)
         assert (np.diag(R) >= 0).all()
         assert agree(R.T @ R, A.T @ A)
-        felt = np.flatnonzero(np.any(A, axis=0))
-        assert not R[:, np.setdiff1d(np.arange(len(R)), felt)].any()
-        if len(A) > 2 * len(felt):
+        assert not R[:, ~felt].any()
+        assert not R[~felt].any()
+        if len(A) > 2 * np.count_nonzero(felt):
             wanted = np.linalg.qr(A[:, felt], mode="r")
             wanted *= np.sign(np.diag(wanted))[:, None]
             assert agree(R[np.ix_(felt, felt)], wanted, DOUBLE * np.linalg.cond(A[:, felt]))
@@ -191,7 +201,7 @@ def test_the_factor_keeps_digits_that_the_gram_matrix_loses(arm: Arm, batch: Bat
         assert abs(R[-1, -1] - wanted) <= 1e-14 * scale
         kept = G[np.ix_(felt, felt)]
         square = kept[-1, -1] - kept[-1, :-1] @ np.linalg.solve(kept[:-1, :-1], kept[:-1, -1])
-        assert abs(square - wanted**2) > wanted**2
+        assert abs(square - wanted**2) > 0.5 * wanted**2
 
 
 def test_dependent_columns_give_no_nan(arm: Arm, batch: Batch) -> None:
@@ -222,8 +232,9 @@ import sys
 from pathlib import Path
 import numpy as np
 from tests.batches import Batch, Filter
+from tests.test_batch import USUAL
 folder, name, out = sys.argv[1:]
-batch = Batch(Path(folder), name, ("-O2", "-march=native", "-fopenmp"))
+batch = Batch(Path(folder), name, USUAL)
 count = batch.sizes["NQ"]
 q, qd, qdd = np.random.default_rng(1).uniform(-2, 2, (3, 3000, count))
 chosen = Filter((0.25, 0.5, 0.25), 2)
@@ -234,9 +245,8 @@ np.savez(
 """
 
 
-@pytest.mark.parametrize(
-    "flags",
-    [
+OPTIONS = {
+    "gcc": (
         ("-O0",),
         ("-O2",),
         ("-O2", "-mavx2", "-mfma"),
@@ -248,10 +258,21 @@ np.savez(
         ("-O2", "-march=native", "-D{}_USE_FLOAT"),
         ("-O2", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
         ("-O1", "-D{}_USE_FLOAT", "-D{}_BATCH_SCALAR"),
-    ],
-    ids=" ".join,
+    ),
+    "clang": (
+        ("-O2",),
+        ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
+        ("-O2", "-march=native", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
+    ),
+}
+
+
+@pytest.mark.parametrize("arm", ["kr500", "pendulum"], indirect=True)
+@pytest.mark.parametrize(
+    ("compiler", "flags"),
+    [(compiler, flags) for compiler, lists in OPTIONS.items() for flags in lists],
+    ids=lambda value: value if isinstance(value, str) else " ".join(value),
 )
-@pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_compilers_and_options_agree(arm: Arm, compiler: str, flags: tuple[str, ...]) -> None:
     if not shutil.which(compiler):
         pytest.skip(f"{compiler} is not installed")

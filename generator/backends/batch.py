@@ -15,6 +15,7 @@ from generator.backends.printing.signals import paragraph
 from generator.backends.printing.straight_line import straight_line
 from generator.backends.printing.templates import render
 from generator.symbolic.function import Function
+from generator.symbolic.interpret import evaluate_nodes
 from generator.symbolic.model import Model
 from generator.symbolic.statements import Node
 from generator.version import VERSION
@@ -87,8 +88,13 @@ def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
         if node.operation == "input" and not is_parameter(node)
     }
     read = {signal_of(node) for node in signals}
-    block = straight_line(nodes, function.roots, fields | signals, _LANGUAGE, Identifiers(_LANGUAGE.reserved))
-    results = (_lanes(node, text) for node, text in zip(function.roots, block.results, strict=True))
+    constants = _constants(nodes)
+    leaves = {**fields, **signals, **constants}
+    block = straight_line(nodes, function.roots, leaves, _LANGUAGE, Identifiers(_LANGUAGE.reserved))
+    results = (
+        f"lanes_splat({text})" if node.number is not None or node.parameter_only or node in constants else text
+        for node, text in zip(function.roots, block.results, strict=True)
+    )
     return LaneFunction(
         block.statements,
         tuple(results),
@@ -128,6 +134,14 @@ def _reads(nodes: Sequence[Node], roots: Sequence[Node], fields: Mapping[Node, s
     return any(node in fields for user in nodes for node in (user, *user.arguments)) or any(r in fields for r in roots)
 
 
-def _lanes(node: Node, text: str) -> str:
-    """The text of a result; a number or a parameter is the same in every lane."""
-    return f"lanes_splat({text})" if node.number is not None or node.parameter_only else text
+def _constants(nodes: Sequence[Node]) -> dict[Node, str]:
+    """The value, as text, of each node that is computed from numbers alone: no lane function is called with those."""
+    fixed: list[Node] = []
+    for node in nodes:
+        if node.arguments and all(a.number is not None or a in fixed for a in node.arguments):
+            fixed.append(node)
+    if not fixed:
+        return {}
+    values = evaluate_nodes(fixed[0].program.reachable(fixed), {})
+    literals = {node: _LANGUAGE.literal.format(value=repr(abs(float(values[node])))) for node in fixed}
+    return {node: literal if values[node] >= 0 else f"(-{literal})" for node, literal in literals.items()}
