@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 
 from generator.backends.printing.language import LINE
 from generator.backends.printing.signals import listed
@@ -10,6 +11,8 @@ from generator.symbolic.function import Sparsity
 
 #: Kept samples of a block of rows, and the most numbers that a line of the cache holds.
 _BLOCK, _LINE = 128, 16
+#: Parts into which the samples are divided: as many threads are kept busy.
+_PARTS = 16
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,7 @@ class Layout:
     An entry is a nonzero of joint j or, after the last one of each joint, that joint's torque. ``start`` is the first
     entry of each joint and behind them the number of entries; ``columns`` are lines of the columns of all entries, in
     order, and the width of the matrix for each torque; ``places`` the entries of the nonzeros, row by row;
-    ``block`` the kept samples of a block of rows.
+    ``block`` the kept samples of a block of rows, ``parts`` the parts of the samples.
     """
 
     joints: int
@@ -28,11 +31,24 @@ class Layout:
     columns: tuple[str, ...]
     places: tuple[int, ...]
     block: int = _BLOCK
+    parts: int = _PARTS
+
+    @property
+    def squares(self) -> tuple[int, ...]:
+        """Where the square matrix of each joint's entries begins, and behind them the number of all numbers."""
+        sizes = [behind - first for first, behind in pairwise(self.start)]
+        return tuple(accumulate((size**2 for size in sizes), initial=0))
+
+    @property
+    def part(self) -> int:
+        """Numbers of a part of the work area: a block of kept samples of every entry, and the squares, in whole lines."""
+        size = self.start[-1] * (self.block + _LINE) + self.squares[-1]
+        return -(-size // _LINE) * _LINE
 
     @property
     def work(self) -> int:
-        """Numbers of the work area: a block of kept samples of every entry, and room to align it."""
-        return self.start[-1] * (self.block + _LINE) + _LINE
+        """Numbers of the work area: its parts, and room to align them."""
+        return self.parts * self.part + _LINE
 
 
 def layout(sparsity: Sparsity) -> Layout:
