@@ -28,4 +28,6 @@ def build_library(folder: Path, name: str) -> Path:
             return library
     library.unlink(missing_ok=True)
     reason = (done.output.strip().splitlines() or ["it says nothing"])[-1]
-    raise InputError(Place(str(library)), f"it cannot be compiled ({reason})", "a C99 compiler that makes shared libraries")
+    raise InputError(
+        Place(str(library)), f"it cannot be compiled ({reason})", "a C99 compiler that makes shared libraries"
+    )

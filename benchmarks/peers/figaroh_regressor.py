@@ -46,9 +46,7 @@ def main() -> None:
         theirs.append(middle - begin)
         loop.append(time.perf_counter() - middle)
     scale = 1e9 / len(q)
-    np.savez(
-        sys.argv[3], W=W, nanoseconds=scale * min(theirs), loop=scale * min(loop), version=version("figaroh")
-    )
+    np.savez(sys.argv[3], W=W, nanoseconds=scale * min(theirs), loop=scale * min(loop), version=version("figaroh"))
 
 
 if __name__ == "__main__":

@@ -66,10 +66,10 @@ def run(build: Path) -> dict[str, object]:
     """The rows of the study; ``build`` takes the generated code, the peers and FIGAROH's environment."""
     study = _study(build)
     notes = [
-        f"{ROBOT}, {SAMPLES} samples, {study.module.NBASE} base parameters, {_compiler()}, -O2 -march=native; best of {PASSES} "
-        "passes, all in one run; times include the call from Python",
-        "write: a loop that stores one value into the same memory, which had been written before; the quicker of plain and "
-        "non-temporal stores",
+        f"{ROBOT}, {SAMPLES} samples, {study.module.NBASE} base parameters, {_compiler()}, -O2 -march=native",
+        f"best of {PASSES} passes or more, all in one run; times include the call from Python",
+        "write: a loop that stores one value into the same memory, which had been written before; the quicker of plain "
+        "and non-temporal stores",
     ]
     _memory(study, build)
     _normal(study)
@@ -113,7 +113,7 @@ def _memory(study: Study, build: Path) -> None:
             }
         )
         least = min(taken["plain"], taken["past"])
-        for layout, W in (("rows", rows), ("columns", columns)):
+        for layout in ("rows", "columns"):
             found = robot.observation_matrix(*(x[:1000] for x in study.signals), layout=layout)
             same = _same(found, _scalar(study, layout))
             study.row(f"observation_matrix, {layout}", threads, taken[layout], "write", least, "0.8", same)
@@ -142,7 +142,7 @@ def _normal(study: Study) -> None:
             _same(filtered.reshape(len(convolved), -1), convolved),
         ),
     }
-    one = {name: 0.0 for name in calls}
+    one = dict.fromkeys(calls, 0.0)
     for threads in (1, 2):
         _threads(threads)
         taken = _in_turns({name: call for name, (call, _) in calls.items()}, passes=3)
@@ -166,7 +166,13 @@ def _pinocchio(study: Study, build: Path) -> None:
     matrix = {str(row["what"]): row for row in study.rows if row["threads"] == 1}
     ours = float(str(matrix["observation_matrix, columns"]["ns a sample"]))
     study.row(
-        "observation_matrix, columns", 1, ours, "Pinocchio computeJointTorqueRegressor, C++", loop.regressor, "40", same_W
+        "observation_matrix, columns",
+        1,
+        ours,
+        "Pinocchio computeJointTorqueRegressor, C++",
+        loop.regressor,
+        "40",
+        same_W,
     )
     torques = np.empty_like(study.signals[0])
     for threads in (1, 2):
@@ -187,7 +193,9 @@ def _figaroh(study: Study, build: Path) -> list[str]:
     names = {f"{stem}{j + 1}": 10 * j + k for j in range(study.module.NQ) for k, stem in enumerate(_PINOCCHIO)}
     behind = 10 * study.module.NQ
     names |= {
-        f"{stem}{j + 1}": behind + k * study.module.NQ + j for k, stem in enumerate(_FRICTION) for j in range(study.module.NQ)
+        f"{stem}{j + 1}": behind + k * study.module.NQ + j
+        for k, stem in enumerate(_FRICTION)
+        for j in range(study.module.NQ)
     }
     kept = [(c, names[head]) for c, head in enumerate(arm.heads) if head in names]
     W = study.module.Robot(arm.parameters).observation_matrix(*first, layout="columns")
@@ -206,15 +214,16 @@ def _strides(study: Study) -> list[str]:
     """What a stride of whole pages costs, for a matrix of columns that is not written past the caches."""
     module, robot = study.module, study.module.Robot(study.arm.parameters)
     _threads(1)
-    n = 1024 * 4096 // (8 * module.NQ * 4096) * 4 + 512
-    n -= n % 512
+    n = 4096
     first = [x[:n] for x in study.signals]
     taken = {}
     for name, stride in (("page", n * module.NQ), ("good", n * module.NQ + 8)):
         out = np.ones((module.NBASE, stride))[:, : n * module.NQ].T
         taken[name] = _best(lambda out=out: robot.observation_matrix(*first, out=out, layout="columns"), 50) / n  # type: ignore[misc]
+    page, good = taken["page"], taken["good"]
     return [
-        f"columns of {n} samples: {taken['page']:.0f} ns a sample with a stride of whole pages, {taken['good']:.0f} ns with one more line"
+        f"columns of {n} samples, 1 thread: {page:.0f} ns a sample with a stride of whole pages, "
+        f"{good:.0f} ns with one more line"
     ]
 
 
@@ -247,7 +256,7 @@ def _same(found: Array, wanted: Array) -> bool:
 
 def _in_turns(calls: Mapping[str, Callable[[], object]], passes: int = PASSES) -> dict[str, float]:
     """Nanoseconds a sample of each, the best of its passes, which take turns."""
-    taken = {name: np.inf for name in calls}
+    taken = dict.fromkeys(calls, np.inf)
     for _ in range(passes):
         for name, call in calls.items():
             taken[name] = min(taken[name], _best(call, 1) / SAMPLES)
@@ -269,7 +278,9 @@ def _threads(count: int) -> None:
 
 
 def _compiler() -> str:
-    words: Sequence[str] = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=True).stdout.split("\n")
+    words: Sequence[str] = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=True).stdout.split(
+        "\n"
+    )
     return words[0]
 
 

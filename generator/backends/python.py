@@ -64,9 +64,7 @@ def _method(function: Function) -> Method:
     return Method(function.name, _documentation(function, inputs, outputs), inputs, outputs)
 
 
-def _documentation(
-    function: Function, inputs: tuple[Argument, ...], outputs: tuple[Argument, ...]
-) -> tuple[str, ...]:
+def _documentation(function: Function, inputs: tuple[Argument, ...], outputs: tuple[Argument, ...]) -> tuple[str, ...]:
     lines = [*paragraph(function.summary, LINE - 12), ""]
     if function.details:
         lines += [*paragraph(function.details, LINE - 12), ""]
