@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import importlib.util
 import subprocess
-import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -285,7 +284,8 @@ def _compiler() -> str:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder:
-        result = run(Path(folder))
+    folder = Path(__file__).parents[2] / "build" / "bench" / "batch"
+    folder.mkdir(parents=True, exist_ok=True)
+    result = run(folder)
     print(table(result["rows"]))  # type: ignore[arg-type]
     print(*(f"- {note}" for note in result["notes"]), sep="\n")  # type: ignore[misc]
