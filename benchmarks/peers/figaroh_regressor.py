@@ -1,7 +1,7 @@
 """FIGAROH's observation matrix, timed in its own environment: MODEL SAMPLES RESULTS are its arguments.
 
 MODEL is a saved Pinocchio model; SAMPLES an .npz with q, qd, qdd (n x nv each). RESULTS (.npz) receives ``W``,
-``nanoseconds`` a sample, those of a plain loop over Pinocchio's Python function, ``loop``, and FIGAROH's ``version``.
+``nanoseconds`` of processor time a sample, those of a plain loop over Pinocchio's Python function, ``loop``, and FIGAROH's ``version``.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ def main() -> None:
 
     theirs, loop = [], []
     for _ in range(_PASSES):
-        begin = time.perf_counter()
+        begin = time.process_time()
         W = build_regressor_basic(robot, q, qd, qdd, configuration)
-        middle = time.perf_counter()
+        middle = time.process_time()
         plain()
         theirs.append(middle - begin)
-        loop.append(time.perf_counter() - middle)
+        loop.append(time.process_time() - middle)
     scale = 1e9 / len(q)
     np.savez(sys.argv[3], W=W, nanoseconds=scale * min(theirs), loop=scale * min(loop), version=version("figaroh"))
 

@@ -1,7 +1,7 @@
 /*
  * Pinocchio over many samples, as a C++ program of its user has it: MODEL SAMPLES RESULTS.
  *
- * MODEL is a saved model; SAMPLES holds q, qd, qdd of each sample as doubles. Prints the nanoseconds a sample of
+ * MODEL is a saved model; SAMPLES holds q, qd, qdd of each sample as doubles. Prints the nanoseconds of processor time a sample of
  * computeJointTorqueRegressor and of rnea, the best of five passes each; RESULTS receives the regressors (row-major) and
  * the torques of the first 200 samples.
  */
@@ -10,8 +10,9 @@
 #include <pinocchio/multibody.hpp>
 #include <pinocchio/serialization.hpp>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -22,12 +23,12 @@ template <typename Work> double best(std::size_t samples, Work work)
 {
     double least = 1e300;
     for (int pass = 0; pass < 5; ++pass) {
-        const auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin = std::clock();
         for (std::size_t k = 0; k < samples; ++k) {
             work(k);
         }
-        const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-        least = std::min(least, taken.count() / static_cast<double>(samples));
+        const double taken = 1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        least = std::min(least, taken / static_cast<double>(samples));
     }
     return least;
 }

@@ -41,7 +41,7 @@ class Layout:
 
     @property
     def part(self) -> int:
-        """Numbers of a part of the work area: a block of kept samples of all entries and the squares, in whole lines."""
+        """Numbers of a part of the work area, in whole lines: a block of kept samples of all entries, the squares."""
         size = self.start[-1] * (self.block + _LINE) + self.squares[-1]
         return -(-size // _LINE) * _LINE
 
