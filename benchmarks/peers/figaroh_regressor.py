@@ -1,8 +1,8 @@
 """FIGAROH's observation matrix, timed in its own environment: MODEL SAMPLES RESULTS are its arguments.
 
 MODEL is a saved Pinocchio model; SAMPLES an .npz with q, qd, qdd (n x nv each). RESULTS (.npz) receives ``W``,
-``nanoseconds`` a sample (processor time), those of a plain loop over Pinocchio's Python function, ``loop``, and FIGAROH's
-``version``.
+``nanoseconds`` a sample (processor time), those of a plain loop over Pinocchio's Python function, ``loop``, and
+FIGAROH's ``version``.
 """
 
 from __future__ import annotations
