@@ -40,10 +40,11 @@ generate: $(RUNTIME)
 	@file="$$robot"; \
 	if [ -z "$$file" ]; then echo 'error: Makefile:1:1: no robot, expected make robot=NAME or robot=PATH.yaml' >&2; exit 2; fi; \
 	if [ ! -e "$$file" ] && [ -n "$$CALLER" ] && [ -e "$$CALLER/$$file" ]; then file="$$CALLER/$$file"; fi; \
-	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test $(if $(build_in),--build-in "$(build_in)")
+	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library \
+	    $(if $(build_in),--build-in "$(build_in)")
 
 all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
-	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test || exit $$?; done
+	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library || exit $$?; done
 
 list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list

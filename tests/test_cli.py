@@ -175,7 +175,7 @@ def test_generate_tests_the_code_and_sums_up(
     tallies = [line.split() for line in lines if line.startswith("self-test")]
     assert [(words[-1], int(words[1]) > 20) for words in tallies] == [("double", True), ("float", True)]
     folder = tmp_path / "out" / "pendulum"
-    assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: c (4), casadi (")
+    assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: batch (2), c (4), casadi (")
     assert lines[-1].endswith("manifest.json")
 
 
