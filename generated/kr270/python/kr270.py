@@ -167,7 +167,7 @@ _ffi = FFI()
 _ffi.cdef(
     """
 typedef struct { double value[96]; } params;
-typedef struct { double value[171]; } prepared;
+typedef struct { double value[187]; } prepared;
 typedef struct { const void *taps; size_t count, decimation; } filter;
 void kr270_prepare(const params *, prepared *);
 void kr270_balancer(const prepared *, const void *, void *, void *, void *);
@@ -175,8 +175,12 @@ void kr270_base_parameters(const prepared *, const void *, void *);
 void kr270_bias(const prepared *, const void *, const void *, void *);
 void kr270_direct_dynamics(const prepared *, const void *, const void *, const void *, void *);
 void kr270_direct_dynamics_loaded(const prepared *, const void *, const void *, const void *, const void *, const void *, void *);
+void kr270_direct_dynamics_sliding(const prepared *, const void *, const void *, const void *, const void *, void *);
+void kr270_direct_dynamics_smooth(const prepared *, const void *, const void *, const void *, const void *, void *);
 void kr270_dynamics(const prepared *, const void *, const void *, const void *, void *, void *, void *);
 void kr270_flexible_direct_dynamics(const prepared *, const void *, const void *, const void *, void *);
+void kr270_flexible_direct_dynamics_sliding(const prepared *, const void *, const void *, const void *, const void *, const void *, void *);
+void kr270_flexible_direct_dynamics_smooth(const prepared *, const void *, const void *, const void *, const void *, const void *, void *);
 void kr270_flexible_inverse_dynamics(const prepared *, const void *, const void *, const void *, void *, void *);
 void kr270_flexible_regressor(const prepared *, const void *, const void *, const void *, void *);
 void kr270_gravity(const prepared *, const void *, void *);
@@ -464,6 +468,54 @@ class Robot:
         )
         return qdd
 
+    def direct_dynamics_sliding(self, q, qd, tau, direction, out=None):
+        """Joint accelerations with directions of sliding given instead of sign(qd).
+
+        Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+
+        Inputs:
+            q: (6) joint positions [rad]
+            qd: (6) joint speeds [rad/s]
+            tau: (6) motor torques, on the joint side [N m]
+            direction: (6) in the place of sign(qd), joint by joint [1]
+        Outputs:
+            qdd: (6) joint accelerations [rad/s2]
+        """
+        qdd = _new(out, (6,))
+        _lib.kr270_direct_dynamics_sliding(
+            self._prepared,
+            _signal(q, (6,), "q"),
+            _signal(qd, (6,), "qd"),
+            _signal(tau, (6,), "tau"),
+            _signal(direction, (6,), "direction"),
+            _buffer(qdd),
+        )
+        return qdd
+
+    def direct_dynamics_smooth(self, q, qd, tau, width, out=None):
+        """Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+
+        Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+
+        Inputs:
+            q: (6) joint positions [rad]
+            qd: (6) joint speeds [rad/s]
+            tau: (6) motor torques, on the joint side [N m]
+            width: (6) speeds within which the friction turns round, more than 0 [rad/s]
+        Outputs:
+            qdd: (6) joint accelerations [rad/s2]
+        """
+        qdd = _new(out, (6,))
+        _lib.kr270_direct_dynamics_smooth(
+            self._prepared,
+            _signal(q, (6,), "q"),
+            _signal(qd, (6,), "qd"),
+            _signal(tau, (6,), "tau"),
+            _signal(width, (6,), "width"),
+            _buffer(qdd),
+        )
+        return qdd
+
     def dynamics(self, q, qd, qdd, out=None):
         """Joint torques, inertia matrix and gravity torques of one state, what they share computed
         once.
@@ -511,6 +563,63 @@ class Robot:
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
             _signal(tau, (6,), "tau"),
+            _buffer(qdd),
+        )
+        return qdd
+
+    def flexible_direct_dynamics_sliding(self, q, qd, tau, tau_ext, direction, out=None):
+        """Accelerations of motors and elongations with directions of sliding given instead of
+        sign(speed).
+
+        Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+
+        Inputs:
+            q: (12) [q_m; q_e]: motors, then elongations [rad]
+            qd: (12) speeds of [q_m; q_e] [rad/s]
+            tau: (6) motor torques, on the joint side [N m]
+            tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+            direction: (12) in the place of sign(speed): of the motors, then of the elastic
+                joints' links [1]
+        Outputs:
+            qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+        """
+        qdd = _new(out, (12,))
+        _lib.kr270_flexible_direct_dynamics_sliding(
+            self._prepared,
+            _signal(q, (12,), "q"),
+            _signal(qd, (12,), "qd"),
+            _signal(tau, (6,), "tau"),
+            _signal(tau_ext, (6,), "tau_ext"),
+            _signal(direction, (12,), "direction"),
+            _buffer(qdd),
+        )
+        return qdd
+
+    def flexible_direct_dynamics_smooth(self, q, qd, tau, tau_ext, width, out=None):
+        """Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+        integrated.
+
+        Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a)
+        positive definite.
+
+        Inputs:
+            q: (12) [q_m; q_e]: motors, then elongations [rad]
+            qd: (12) speeds of [q_m; q_e] [rad/s]
+            tau: (6) motor torques, on the joint side [N m]
+            tau_ext: (6) torques of the surroundings on the links, with tau [N m]
+            width: (12) speeds within which the friction turns round, more than 0: of the
+                motors, then of the elastic joints' links [rad/s]
+        Outputs:
+            qdd: (12) accelerations of [q_m; q_e] [rad/s2]
+        """
+        qdd = _new(out, (12,))
+        _lib.kr270_flexible_direct_dynamics_smooth(
+            self._prepared,
+            _signal(q, (12,), "q"),
+            _signal(qd, (12,), "qd"),
+            _signal(tau, (6,), "tau"),
+            _signal(tau_ext, (6,), "tau_ext"),
+            _signal(width, (12,), "width"),
             _buffer(qdd),
         )
         return qdd
