@@ -14,7 +14,7 @@ from identification import recipe as recipes
 from identification.dataset import Run, load
 from identification.essential import RATIO, essential
 from identification.factors import Factor, added
-from identification.least_squares import Problem, Solution, parameters_of
+from identification.least_squares import Problem, Solution
 from identification.observation import Regressors
 from identification.observed import Observed
 from identification.recipe import Recipe
@@ -22,6 +22,7 @@ from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.sampling import sampled
 from identification.sidecar import Payload
+from identification.suspicion import suspect
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,7 @@ def identify(
         for sources in (data, test)
     )
     factors = _added(trained)
-    problem = _problem(factors, _payloads(trained), recipe, options)
+    problem = _problem(factors, regressors, _payloads(trained), recipe, options)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
     problem, aside = _separable(problem, _payloads(trained))
     notes += aside
@@ -103,6 +104,7 @@ def identify(
         notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
     tests = _added(tried)
     full = _estimate(problem, problem.solve(), factors, tests)
+    notes += suspect(trained, regressors, full.train)
     reduced, solution = essential(problem, options.ratio)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)
@@ -138,8 +140,14 @@ def _payloads(runs: Iterable[Observed]) -> dict[str, Payload]:
     return result
 
 
-def _problem(factors: tuple[Factor, ...], payloads: Mapping[str, Payload], recipe: Recipe, options: Options) -> Problem:
-    names = parameters_of(factors)
+def _problem(
+    factors: tuple[Factor, ...],
+    regressors: Regressors,
+    payloads: Mapping[str, Payload],
+    recipe: Recipe,
+    options: Options,
+) -> Problem:
+    names = [*regressors.names, *(name for one in payloads.values() for name in one.names().values())]
     fixed = {one.names()[stem]: value for one in payloads.values() for stem, value in one.known.items()}
     fixed |= options.fixed
     free = tuple(name for name in names if name not in fixed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 _RANK = 1e-8
 #: Part of a parameter in a direction that no row shows, from which it is not identifiable.
 _INVOLVED = 1e-4
+#: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
+_ROUNDING, _TINY = 1e-12, 1e-300
+_REWEIGHTINGS = 2
 
 
 @dataclass(frozen=True)
@@ -71,14 +74,16 @@ class Problem:
     def solve(self) -> Solution:
         """Ordinary least squares, or weighted by each joint's own residual (report eq. 39-45)."""
         stacked = {one.joint: self._reduced(one) for one in self.factors}
-        ordinary = _Solved.of(np.concatenate(list(stacked.values())))
-        sigma = self._sigma(ordinary.chi, stacked)
-        if not self.weighted:
-            return self._solution(ordinary, sigma, self._common(sigma), ordinary)
-        weighted = _Solved.of(np.concatenate([R / sigma[joint] for joint, R in stacked.items()]))
-        sigma = self._sigma(weighted.chi, stacked)
-        weighted = _Solved.of(np.concatenate([R / sigma[joint] for joint, R in stacked.items()]))
-        return self._solution(weighted, self._sigma(weighted.chi, stacked), 1.0, ordinary)
+        freedom = {one.joint: self._freedom(one.rows, _rank(stacked[one.joint][:, :-1])) for one in self.factors}
+        ordinary = solved = _Solved.of(np.concatenate(list(stacked.values())))
+        sigma = self._sigma(solved.chi, stacked, freedom)
+        variance = self._variance(solved, stacked)
+        if self.weighted:
+            for _ in range(_REWEIGHTINGS):
+                solved = _Solved.of(np.concatenate([R / sigma[joint] for joint, R in stacked.items()]))
+                sigma = self._sigma(solved.chi, stacked, freedom)
+            variance = 1.0
+        return self._solution(solved, ordinary, sigma, variance)
 
     def _reduced(self, one: Factor) -> Array:
         """[R z] of the free parameters, the fixed ones' part taken from z."""
@@ -87,28 +92,20 @@ class Problem:
         R[:, -1] -= one.R[:, :-1] @ given
         return R
 
-    def _sigma(self, chi: Array, stacked: Mapping[int, Array]) -> dict[int, float]:
+    def _freedom(self, rows: int, parameters: int) -> int:
+        return max(rows - (1 if self.by_samples else parameters), 1)
+
+    def _sigma(self, chi: Array, stacked: Mapping[int, Array], freedom: Mapping[int, int]) -> dict[int, float]:
         """Standard deviation of each joint's residual: ||e_j||^2 / (r_j - b_j), b_j the rank of its rows."""
-        result = {}
-        floor = max((one.norm / np.sqrt(max(one.rows, 1)) for one in self.factors), default=1.0) * 1e-12
-        for one in self.factors:
-            R = stacked[one.joint]
-            error = float(np.linalg.norm(R[:, -1] - R[:, :-1] @ chi))
-            freedom = one.rows - 1 if self.by_samples else one.rows - _rank(R[:, :-1])
-            result[one.joint] = max(error / np.sqrt(max(freedom, 1)), floor, 1e-300)
-        return result
+        floor = max((one.norm / np.sqrt(max(one.rows, 1)) for one in self.factors), default=1.0) * _ROUNDING + _TINY
+        return {joint: max(_error(R, chi) / np.sqrt(freedom[joint]), floor) for joint, R in stacked.items()}
 
-    def _common(self, sigma: Mapping[int, float]) -> float:
+    def _variance(self, solved: _Solved, stacked: Mapping[int, Array]) -> float:
         """Variance of all residuals together, ||e||^2 / (r - b) (report eq. 43)."""
-        rows = sum(one.rows for one in self.factors)
-        freedoms = {
-            one.joint: one.rows - 1 if self.by_samples else one.rows - _rank(self._reduced(one)[:, :-1])
-            for one in self.factors
-        }
-        square = sum(sigma[joint] ** 2 * max(freedom, 1) for joint, freedom in freedoms.items())
-        return square / max(rows - (1 if self.by_samples else len(self.names)), 1)
+        square = sum(_error(R, solved.chi) ** 2 for R in stacked.values())
+        return square / self._freedom(sum(one.rows for one in self.factors), solved.rank)
 
-    def _solution(self, solved: _Solved, sigma: Mapping[int, float], variance: float, plain: _Solved) -> Solution:
+    def _solution(self, solved: _Solved, plain: _Solved, sigma: Mapping[int, float], variance: float) -> Solution:
         hidden = tuple(name for name, out in zip(self.names, solved.hidden, strict=True) if out)
         values = {**self.fixed, **dict(zip(self.names, solved.chi.tolist(), strict=True))}
         return Solution(
@@ -159,6 +156,11 @@ class _Solved:
         return cls(chi, inverse, hidden, condition, float(s[0] / s_seen[-1]) if whole else np.inf, rank)
 
 
+def _error(R: Array, chi: Array) -> float:
+    """||z - R chi||."""
+    return float(np.linalg.norm(R[:, -1] - R[:, :-1] @ chi))
+
+
 def _rank(R: Array) -> int:
     """Number of independent columns, each taken in units of its length."""
     size = np.linalg.norm(R, axis=0)
@@ -167,8 +169,3 @@ def _rank(R: Array) -> int:
         return 0
     s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)
     return int((s > _RANK * s[0]).sum())
-
-
-def parameters_of(factors: Sequence[Factor]) -> tuple[str, ...]:
-    """The parameters of all factors, in the order of their first appearance."""
-    return tuple(dict.fromkeys(name for one in factors for name in one.names))

@@ -65,14 +65,15 @@ class Regressors:
         """Per joint, the names of the base parameters that its torque can depend on."""
         rows, columns = self._generated.SPARSITY["regressor_packed"]
         return tuple(
-            tuple(self.names[c] for r, c in zip(rows, columns, strict=True) if r == row) for row in range(self.model.dof)
+            tuple(self.names[c] for r, c in zip(rows, columns, strict=True) if r == row)
+            for row in range(self.model.dof)
         )
 
     def base(self, motion: Motion) -> list[Array]:
         """Per joint, torque per unit of each parameter of ``structure`` (columns x N)."""
-        rows = np.asarray(self._generated.SPARSITY["regressor_packed"][0])
-        packed = self._blocks("regressor_packed", motion, len(rows))
-        return [packed[rows == row] for row in range(self.model.dof)]
+        sizes = [len(row) for row in self.structure]
+        packed = self._blocks("regressor_packed", motion, sum(sizes))
+        return np.split(packed, np.cumsum(sizes)[:-1])
 
     def payload(self, motion: Motion) -> list[Array]:
         """Per joint, torque per unit of XX XY XZ YY YZ ZZ MX MY MZ M of a body in the tool frame (10 x N)."""
@@ -132,7 +133,9 @@ def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[in
     return tuple(sorted((k, float(speed.coeff(symbol))) for symbol, k in names.items() if speed.has(symbol)))
 
 
-def standing(signs: Sequence[tuple[int, tuple[tuple[int, float], ...]]], qd: Array, threshold: float) -> NDArray[np.bool_]:
+def standing(
+    signs: Sequence[tuple[int, tuple[tuple[int, float], ...]]], qd: Array, threshold: float
+) -> NDArray[np.bool_]:
     """Samples (n x N) in which a joint's torque follows the sign of a speed below ``threshold`` [rad/s, m/s]."""
     result = np.zeros(qd.shape, dtype=bool)
     for joint, weights in signs:

@@ -44,7 +44,7 @@ class Recipe:
     factor: int | None = None
     dropped_first: int | None = None
     dropped_last: int | None = None
-    standstill: float = 0.01
+    standstill: float = 0.03
     weights: str = JOINT
     freedom: str = PARAMETERS
     columns: Mapping[str, Formula] = field(default_factory=dict)

@@ -53,6 +53,4 @@ class Residuals:
 
 def residuals(factors: Sequence[Factor], values: Mapping[str, float]) -> Residuals:
     """What ``values`` of all parameters leave of the rows behind ``factors``."""
-    return Residuals(
-        {one.joint: Residual(one.rows, one.residual(values), one.norm, one.spread) for one in factors}
-    )
+    return Residuals({one.joint: Residual(one.rows, one.residual(values), one.norm, one.spread) for one in factors})

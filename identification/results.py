@@ -37,7 +37,9 @@ def document(found: Identification) -> dict[str, Any]:
         "robot_sha256": found.robot.digest,
         "version": VERSION,
         "method": _method(found),
-        "data": {kind: [_run(one.sampled) for one in runs] for kind, runs in (("train", found.train), ("test", found.test))},
+        "data": {
+            kind: [_run(one.sampled) for one in runs] for kind, runs in (("train", found.train), ("test", found.test))
+        },
         "condition": solution.condition,
         "condition_scaled": solution.scaled_condition,
         "rank": solution.rank,

@@ -50,7 +50,9 @@ def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
     return Robust(problem, solution, outliers)
 
 
-def _errors(run: Observed, values: Mapping[str, float]) -> Iterator[tuple[Rows, np.ndarray[tuple[int], np.dtype[np.float64]]]]:
+def _errors(
+    run: Observed, values: Mapping[str, float]
+) -> Iterator[tuple[Rows, np.ndarray[tuple[int], np.dtype[np.float64]]]]:
     for part in run.rows():
         yield part, part.Y - part.W @ np.array([values[name] for name in part.names])
 

@@ -128,7 +128,8 @@ def _first_stage(one: Sampled, regressors: Regressors, stage: Stage) -> Iterator
         left, right = max(start - margin, 0), min(end + margin, count)
         kept = slice(start - left, end - left, r)
         columns = _columns(one, regressors, left, right)
-        filtered = [(stage.filtered(W)[:, kept], stage.filtered(Y)[kept]) for W, Y in columns]
+        # Copies, so that what is not kept can be freed.
+        filtered = [(stage.filtered(W)[:, kept].copy(), stage.filtered(Y)[kept].copy()) for W, Y in columns]
         yield _Part((start - stage.first(count)) // r, filtered)
 
 

@@ -50,7 +50,9 @@ def clock(recording: Recording, first: int = 0) -> Clock:
     if gaps.size:
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
-        raise InputError(recording.where(first + k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part")
+        raise InputError(
+            recording.where(first + k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part"
+        )
     period = float(t[-1] - t[0]) / (len(t) - 1)
     even = t[0] + period * np.arange(len(t))
     uneven = bool(np.max(np.abs(t - even)) > _EVEN * period)

@@ -31,17 +31,23 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters = parser.add_argument_group("filters")
     filters.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the settings below")
     filters.add_argument("--dynamics", metavar="HZ", type=float, help="highest frequency of the motion's dynamics")
-    filters.add_argument("--cutoff", metavar="HZ", type=float, help="of the Butterworth filter, else 5 times --dynamics")
+    filters.add_argument(
+        "--cutoff", metavar="HZ", type=float, help="of the Butterworth filter, else 5 times --dynamics"
+    )
     filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
     filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
-    filters.add_argument("--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out")
+    filters.add_argument(
+        "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
+    )
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
     method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
-    method.add_argument("--payload", metavar="NAME=VALUE", nargs="*", help="runs carry a payload, of which this is known")
+    method.add_argument(
+        "--payload", metavar="NAME=VALUE", nargs="*", help="runs carry a payload, of which this is known"
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -116,7 +122,9 @@ def _more(value: float, option: str, least: float) -> float:
 
 
 def _summary(found: Identification) -> str:
-    lines = [f"{found.robot.name}: {len(found.full.sought)} parameters, {len(found.essential.sought)} of them essential"]
+    lines = [
+        f"{found.robot.name}: {len(found.full.sought)} parameters, {len(found.essential.sought)} of them essential"
+    ]
     lines += [f"note: {note}" for note in found.notes]
     solution = found.full.solution
     names = [name for name in solution.values if name in found.full.sought or name in found.options.fixed]
@@ -129,7 +137,9 @@ def _summary(found: Identification) -> str:
         lines.append(
             f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
         )
-    lines.append(f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}")
+    lines.append(
+        f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
+    )
     for title, estimate in (("all parameters", found.full), ("essential ones", found.essential)):
         for kind, result in (("train", estimate.train), ("test", estimate.test)):
             if result is None:

@@ -46,6 +46,8 @@ def read(path: Path) -> Recording:
     if not complete and lines > 1:
         notes = (f"{file}:{lines}: the last line has no end and is left out, the file may be cut off there",)
         rows = lines - 2
+    if lines < 2:
+        return Recording(file, {name: np.empty(0) for name in layout.names}, digest(path), layout.place, notes)
     try:
         with path.open(encoding="utf-8-sig") as stream:
             values = np.loadtxt(
@@ -55,8 +57,6 @@ def read(path: Path) -> Recording:
         _find_fault(path, layout, str(error))
     if rows is None and len(values) != lines - 1:
         _find_fault(path, layout, "a line is empty")
-    if not values.size:
-        values = np.empty((0, len(layout.names)))
     if values.shape[1] != len(layout.names):
         _find_fault(path, layout, f"{values.shape[1]} fields a row, {len(layout.names)} names")
     columns: dict[str, Array] = dict(zip(layout.names, np.ascontiguousarray(values.T), strict=True))
