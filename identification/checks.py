@@ -140,7 +140,10 @@ def torques(found: Measured, q: Array, where: Where) -> list[Stretch]:
 
 
 def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
-    """Positions against another measurement or reference of the same joints (n x N); raises InputError where swapped."""
+    """Positions against another measurement or the reference of the same joints (n x N).
+
+    Raises InputError where they are swapped.
+    """
     distance = np.array([[np.std(a - b) for b in other.values] for a in q])
     _, best = linear_sum_assignment(distance)
     for k, match in enumerate(best):

@@ -59,7 +59,7 @@ class Run:
     @property
     def samples(self) -> int:
         """N."""
-        return self.q.shape[-1]
+        return int(self.q.shape[-1])
 
     @property
     def rate(self) -> float:
@@ -106,7 +106,7 @@ def _parsed(source: str) -> tuple[Path, float, float]:
 
 def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
     """The rows from ``start`` to ``end`` [s], and the number of the first."""
-    if np.isinf(start) and np.isinf(end) or "t" not in recording.columns:
+    if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
         return recording, 0
     t = recording.columns["t"]
     inside = np.flatnonzero((t >= start - 1e-9) & (t <= end + 1e-9))

@@ -82,8 +82,7 @@ def triangular(matrix: Array) -> Array:
     """R of the QR factorisation, itself where the matrix is wider than high."""
     if len(matrix) <= matrix.shape[1]:
         return matrix
-    result: Array = np.linalg.qr(matrix, mode="r")
-    return result
+    return np.asarray(np.linalg.qr(matrix, mode="r"), dtype=float)
 
 
 class _Growing:

@@ -26,8 +26,8 @@ class Solution:
     """Parameters by name, their order in ``covariance`` (p x p), and the ``hidden`` ones.
 
     ``values`` hold the fixed parameters too. Hidden ones have a value that only serves to estimate torques; their
-    variance is infinite. ``sigma`` is the residual's standard deviation by joint [N m, N], ``condition`` that of W, of W
-    with columns of unit length, and ``rank`` the number of independent columns.
+    variance is infinite. ``sigma`` is the residual's standard deviation by joint [N m, N], ``condition`` that of W,
+    ``scaled_condition`` with columns of unit length, and ``rank`` the number of independent columns.
     """
 
     names: tuple[str, ...]

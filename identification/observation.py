@@ -46,7 +46,7 @@ class Motion:
     @property
     def samples(self) -> int:
         """N."""
-        return self.q.shape[-1]
+        return int(self.q.shape[-1])
 
 
 class Regressors:
@@ -90,9 +90,7 @@ class Regressors:
 
     @cached_property
     def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
-        """Where a torque jumps: per jump the joint's coordinate, and the speeds (coordinate, weight) whose sum's sign it
-        follows.
-        """
+        """Where a torque jumps: the joint's coordinate, and (coordinate, weight) of the speeds whose sum it follows."""
         coordinate = {joint.number: k for k, joint in enumerate(self.model.robot.moving)}
         found = set()
         for instance in self.model.effects:

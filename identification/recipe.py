@@ -7,7 +7,8 @@ decimation twice that frequency.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields as of_class, replace
+from dataclasses import dataclass, field, replace
+from dataclasses import fields as of_class
 from pathlib import Path
 
 from generator.errors import InputError, Place

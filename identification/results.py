@@ -29,7 +29,7 @@ _MARK = "\0infinite"
 def document(found: Identification) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md.
 
-    Angles in rad, torques in N m; infinite numbers stand where nothing is known, None for a value that data do not show.
+    Angles in rad, torques in N m. Where the data do not show a parameter its std is infinite and its value None.
     """
     solution = found.full.solution
     return {

@@ -50,7 +50,8 @@ class Sampled:
     @property
     def times(self) -> Array:
         """Times of the samples [s] (N)."""
-        return self.run.start + self.run.period * (self.filters.first + np.arange(self.motion.samples))
+        numbers: Array = np.arange(self.filters.first, self.filters.first + self.motion.samples, dtype=float)
+        return self.run.start + self.run.period * numbers
 
 
 def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:

@@ -62,7 +62,7 @@ def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Arra
     """Joint positions (n x N) [rad, m]: themselves, or N^-1 times the motors' (report eq. 14)."""
     if found.stem != "qm":
         return found.values
-    return np.linalg.solve(_coupling(robot, found, recording), found.values)
+    return np.asarray(np.linalg.solve(_coupling(robot, found, recording), found.values), dtype=float)
 
 
 def joint_torques(found: Measured, robot: Robot, recording: Recording) -> Array:

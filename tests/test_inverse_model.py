@@ -270,7 +270,7 @@ def test_torques_that_the_model_cannot_make_are_refused(links: Regressors, folde
     other = np.random.default_rng(3).normal(size=(2, len(run.columns["t"])))
     other = signal.lfilter([0.01], [1, -0.99], other)
     path = run.with_columns(tau1=other[0], tau2=other[1]).save(folder / "other.csv")
-    with pytest.raises(InputError, match="the model of two_links leaves .* unexplained, expected a run of this robot"):
+    with pytest.raises(InputError, match=r"the model of two_links leaves .* unexplained, expected a run of this robot"):
         identify(links.model.robot, [path], regressors=links)
 
 

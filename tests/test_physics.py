@@ -10,7 +10,7 @@ from tests.subject import Subject, Vector, close, slope
 SEEDS = (11, 12)
 
 #: Effects that dissipate or push without storing energy.
-LOSSES = ("Fv", "Fc", "Off")
+LOSSES = ("Fv", "Fc", "Fvr", "Fcr", "Off")
 #: Effects that store potential energy.
 SPRINGS = ("Kr", "K0", "F0", "k", "ks")
 

@@ -89,7 +89,7 @@ def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     run = load(f"{path}@2:5", robot)
     assert (run.start, run.samples) == (2.0, 601)
     assert load(f"{path}@:5", robot).samples == 1001
-    with pytest.raises(InputError, match="no sample from 20 s to inf s, expected times from 0 to 7.995"):
+    with pytest.raises(InputError, match=r"no sample from 20 s to inf s, expected times from 0 to 7.995"):
         load(f"{path}@20:", robot)
     with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
         load(f"{path}@2:x", robot)

@@ -1,4 +1,4 @@
-"""Runs as MATLAB files up to version 7: vectors, matrices with a column a joint, and scalars that hold for all samples."""
+"""Runs as MATLAB files up to version 7: vectors, matrices with a column a joint, scalars that hold for all samples."""
 
 from __future__ import annotations
 
