@@ -53,9 +53,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Identifies, writes the results, prints a summary."""
     from generator.robot.readers import read
-    from identification.inverse_model import identify
-    from identification.observation import Regressors
-    from identification.results import save
+
+    try:
+        from identification.inverse_model import identify
+        from identification.observation import Regressors
+        from identification.results import save
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise identify"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):
