@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from identification.factors import Factor
+from identification.factors import Factor, added
 
 
 @dataclass(frozen=True)
@@ -53,4 +53,5 @@ class Residuals:
 
 def residuals(factors: Sequence[Factor], values: Mapping[str, float]) -> Residuals:
     """What ``values`` of all parameters leave of the rows behind ``factors``."""
-    return Residuals({one.joint: Residual(one.rows, one.residual(values), one.norm, one.spread) for one in factors})
+    each = {one.joint: Residual(one.rows, one.residual(values), one.norm, one.spread) for one in added(factors)}
+    return Residuals(each)

@@ -11,6 +11,7 @@ from typing import Any
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.version import VERSION
 from generator.writing import replace
+from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Estimate, Identification
 from identification.residuals import Residual, Residuals
 from identification.robot_file import with_parameter_set
@@ -19,14 +20,14 @@ from identification.sidecar import UNITS
 
 #: Names of the files, and of the parameter sets in the robot file.
 RESULTS = "results.json"
-FULL, ESSENTIAL = "identified", "identified_essential"
+FULL, ESSENTIAL, CONSISTENT = "identified", "identified_essential", "identified_consistent"
 
 #: Infinity as a JSON number: readers make it infinite again, in Python and in a browser.
 _INFINITE = "1e999"
 _MARK = "\0infinite"
 
 
-def document(found: Identification) -> dict[str, Any]:
+def document(found: Identification, consistent: ConsistentFit | None = None) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md.
 
     Angles in rad, torques in N m. Where the data do not show a parameter its std is infinite and its value None.
@@ -51,6 +52,7 @@ def document(found: Identification) -> dict[str, Any]:
             "parameters": _parameters(found, found.essential),
             "residual": _residual(found, found.essential),
         },
+        "consistent": None if consistent is None else _consistent(found, consistent),
         "payloads": _payload_values(found),
         "notes": list(found.notes),
     }
@@ -61,28 +63,35 @@ def written(text: Mapping[str, Any]) -> str:
     return json.dumps(_marked(text), indent=1, ensure_ascii=False).replace(json.dumps(_MARK), _INFINITE) + "\n"
 
 
-def save(found: Identification, robot_file: Path, folder: Path) -> list[str]:
+def save(found: Identification, robot_file: Path, folder: Path, consistent: ConsistentFit | None = None) -> list[str]:
     """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
     text = robot_file.read_text(encoding="utf-8-sig")
-    for one in parameter_sets(found):
+    for one in parameter_sets(found, consistent):
         text = with_parameter_set(text, one)
-    files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode()}
+    files = {RESULTS: written(document(found, consistent)).encode(), f"{found.robot.name}.yaml": text.encode()}
     replace(folder, files)
     return sorted(files)
 
 
-def parameter_sets(found: Identification) -> tuple[ParameterSet, ParameterSet]:
-    """The identified base parameters, all that the data show and the essential ones, as a robot file holds them."""
+def parameter_sets(found: Identification, consistent: ConsistentFit | None = None) -> tuple[ParameterSet, ...]:
+    """What was identified as a robot file holds it: all base parameters, essential ones, consistent standard ones."""
     runs = ", ".join(Path(one.sampled.run.name).name for one in found.train)
     source = f"identified with the inverse dynamic model and least squares from {runs}"
     units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
-    return (
+    sets = [
         ParameterSet(FULL, "all base parameters that the data show", source, _set(found.full, units)),
         ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units)),
-    )
+    ]
+    if consistent is not None:
+        values = {
+            parameter.name: ParameterValue(consistent.standard[parameter.name], parameter.unit)
+            for parameter in found.regressors.model.standard_parameters
+        }
+        sets.append(ParameterSet(CONSISTENT, "standard parameters of bodies that can be", source, values))
+    return tuple(sets)
 
 
 def _set(estimate: Estimate, units: Mapping[str, str]) -> dict[str, ParameterValue]:
@@ -171,6 +180,21 @@ def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
     return {
         "train": _norms(estimate.train, numbers),
         "test": None if estimate.test is None else _norms(estimate.test, numbers),
+    }
+
+
+def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
+    model = found.regressors.model
+    numbers = [joint.number for joint in found.robot.moving]
+    return {
+        "weight": fit.weight,
+        "prior": fit.prior,
+        "parameters": {p.name: {"value": fit.standard[p.name], "unit": p.unit} for p in model.standard_parameters},
+        "base_parameters": {p.name: {"value": fit.base[p.name], "unit": p.unit} for p in model.base_parameters},
+        "residual": {
+            "train": _norms(fit.train, numbers),
+            "test": None if fit.test is None else _norms(fit.test, numbers),
+        },
     }
 
 

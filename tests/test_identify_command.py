@@ -37,7 +37,7 @@ def results(folder: Path) -> dict[str, Any]:
 
 def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = identified(folder, capsys, "--dynamics", "4")
-    assert (done.status, done.err.splitlines()[-1]) == (0, "identifying from 2 runs")
+    assert (done.status, done.err.splitlines()[-1]) == (0, "making the parameters physically consistent")
     assert done.out.startswith("two_links: 13 parameters, ")
     found = results(folder)
     assert set(found["parameters"]) == set(TRUTH)
@@ -60,6 +60,11 @@ def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]
     )
     essential = again.parameter_sets["identified_essential"].values
     assert set(essential) == {n for n, one in found["parameters"].items() if one["essential"]}
+    standard = again.parameter_sets["identified_consistent"].values
+    assert {n: v.value for n, v in standard.items()} == pytest.approx(
+        {n: one["value"] for n, one in found["consistent"]["parameters"].items()}, rel=1e-5, abs=1e-6
+    )
+    assert found["consistent"]["residual"]["test"]["total"]["relative_to_mean_percent"] < 3
     q = ("--q", "0.3", "0.2", "--qd", "1", "1", "--qdd", "1", "1")
     robot = folder / "out" / "two_links.yaml"
     done = command("evaluate", robot, "inverse_dynamics", *q, "--parameters", "identified", capsys=capsys)
@@ -100,11 +105,12 @@ def test_unknown_parameters_are_infinite_in_json_and_absent_from_the_set(
 def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = identified(
         folder, capsys, "--fix", "Off*=0", "Fc1=9", "--weights", "none", "--robust", "--essential", "15", "--cutoff",
-        "20", "--order", "3", "--factor", "8", "--standstill", "0.02", "--payload", "M=0",
+        "20", "--order", "3", "--factor", "8", "--standstill", "0.02", "--payload", "M=0", "--no-consistent",
         "--recipe", str(_recipe(folder)),
     )  # fmt: skip
     assert done.status == 0
     found = results(folder)
+    assert found["consistent"] is None
     assert found["method"]["fixed"] == {"Fc1": 9.0, "Off1": 0.0, "Off2": 0.0}
     assert (found["method"]["least_squares"], found["method"]["robust"]) == ("ordinary", True)
     assert found["essential"]["ratio"] == 15

@@ -10,6 +10,7 @@ import pytest
 from generator.errors import Place
 from generator.robot.description import Robot
 from generator.symbolic.parameter_sets import resolved_sets
+from identification.consistent_fit import consistent_fit
 from identification.fixing import fixed
 from identification.inverse_model import Estimate, Identification, Options, identify
 from identification.observation import Regressors
@@ -76,6 +77,15 @@ def test_what_is_known_carries_over_to_another_place(heavy: Regressors, train: s
     alone = identify(heavy.model.robot, data(train), data(test), regressors=heavy)
     assert left(known.full)[0] < 7
     assert left(alone.full)[0] > 2 * left(known.full)[0]
+
+
+@pytest.mark.parametrize(("train", "test"), [(A, B), (B, A)])
+def test_bodies_that_can_be_carry_over_without_being_known(heavy: Regressors, train: str, test: str) -> None:
+    found = identify(heavy.model.robot, data(train), data(test), regressors=heavy)
+    consistent = consistent_fit(found, None, 0.03)
+    assert consistent.test is not None
+    assert consistent.test.total.relative_to_mean < 9
+    assert 2 * consistent.test.total.relative_to_mean < left(found.full)[0]
 
 
 # -- TX40: two coupled axes in the wrist ------------------------------------------------------------------------------

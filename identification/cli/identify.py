@@ -8,6 +8,7 @@ i1 .. in); FILE@FROM:TO takes a part of it, with times in s. Filters come from t
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ from generator.errors import InputError
 from generator.resources import find_robot
 
 if TYPE_CHECKING:
+    from generator.robot.description import Robot
+    from identification.consistent_fit import ConsistentFit
     from identification.inverse_model import Identification, Options
     from identification.observation import Regressors
     from identification.recipe import Recipe
@@ -46,6 +49,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
     method.add_argument(
+        "--consistent",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="also physically consistent parameters, kept near the bodies of --prior where it has standard parameters",
+    )
+    method.add_argument("--prior-weight", metavar="W", type=float, default=0.03, help="of that nearness, default 0.03")
+    method.add_argument(
         "--payload", metavar="NAME=VALUE", nargs="*", help="runs carry a payload, of which this is known"
     )
 
@@ -55,6 +65,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
+        from identification.consistent_fit import consistent_fit
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.results import save
@@ -69,9 +80,17 @@ def run(arguments: argparse.Namespace) -> None:
     options = _options(arguments, regressors)
     with stage(f"identifying from {len(arguments.data)} runs"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
+    consistent = None
+    if arguments.consistent:
+        weight = _more(arguments.prior_weight, "--prior-weight", 0.0)
+        with stage("making the parameters physically consistent"):
+            try:
+                consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
+            except ValueError as error:
+                found = replace(found, notes=(*found.notes, str(error)))
     folder = arguments.out or Path("identified") / robot.name
-    files = save(found, path, folder)
-    print(_summary(found))
+    files = save(found, path, folder, consistent)
+    print(_summary(found, consistent))
     print(f"files            {', '.join(files)} in {folder}/")
 
 
@@ -103,6 +122,14 @@ def _prior(name: str, regressors: Regressors) -> dict[str, float]:
     return sets[name]
 
 
+def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:
+    """The standard parameters of a set that gives the bodies, None for any other."""
+    if name is None:
+        return None
+    values = {one: value.value for one, value in robot.parameter_sets[name].values.items()}
+    return values if all(f"M{joint.number}" in values for joint in robot.bodies) else None
+
+
 def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     from identification import recipe as recipes
 
@@ -126,7 +153,7 @@ def _more(value: float, option: str, least: float) -> float:
     return value
 
 
-def _summary(found: Identification) -> str:
+def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines = [
         f"{found.robot.name}: {len(found.full.sought)} parameters, {len(found.essential.sought)} of them essential"
     ]
@@ -145,7 +172,13 @@ def _summary(found: Identification) -> str:
     lines.append(
         f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
     )
-    for title, estimate in (("all parameters", found.full), ("essential ones", found.essential)):
+    for title, estimate in (
+        ("all parameters", found.full),
+        ("essential ones", found.essential),
+        ("consistent ones", consistent),
+    ):
+        if estimate is None:
+            continue
         for kind, result in (("train", estimate.train), ("test", estimate.test)):
             if result is None:
                 continue
