@@ -10,7 +10,7 @@ from tests.subject import Subject, Vector, close, slope
 SEEDS = (11, 12)
 
 #: Effects that dissipate or push without storing energy.
-LOSSES = ("Fv", "Fc", "Off")
+LOSSES = ("Fv", "Fc", "Fvr", "Fcr", "Off")
 #: Effects that store potential energy.
 SPRINGS = ("Kr", "K0", "F0", "k", "ks")
 
@@ -110,6 +110,10 @@ def test_power_becomes_energy_and_loss(arm: Subject, seed: int) -> None:
         + arm.values.get(f"Off{j.number}", 0.0) * speed
         for j, speed in zip(arm.robot.moving, qd, strict=True)
     )
+    for use in (use for use in arm.robot.effects if use.effect == "coupled_rotor"):
+        own, other, ratio = use.joints[0], int(use.values["other"].value), float(use.values["ratio"].value)
+        speed = qd[own - 1] + ratio * qd[other - 1]
+        loss += arm.values[f"Fvr{own}"] * speed**2 + arm.values[f"Fcr{own}"] * abs(speed)
     power = tau @ qd - loss
     scale = np.abs(tau) @ np.abs(qd)
     assert abs(slope(energy, 1e-4) - power) <= 1e-8 * max(scale, 1e-3)

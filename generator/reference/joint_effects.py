@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from generator.reference import balancers
-from generator.reference.arithmetic import exact, sign
+from generator.reference.arithmetic import Array, exact, sign, zeros
 from generator.robot.description import EffectUse, Robot
 
 Values = Mapping[str, Decimal]
@@ -55,6 +55,9 @@ LAWS: Mapping[str, Law] = {
     "offset": Law(("Off",), lambda shape, q, qd, qdd: (Decimal(1),)),
     "joint_spring": Law(("ks",), lambda shape, q, qd, qdd: (q,), potential=lambda shape, q: (q * q / 2,)),
     "spring_balancer": _balancer(("Kr", "K0"), balancers.spring_forces, balancers.spring_energies),
+    "coupled_rotor": Law(
+        ("Iar", "Fvr", "Fcr"), lambda shape, q, qd, qdd: (qdd, qd, sign(qd)), kinetic=lambda qd: (qd * qd / 2,)
+    ),
     "gas_balancer": _balancer(("F0",), balancers.gas_forces, balancers.gas_energies),
 }
 
@@ -63,6 +66,9 @@ LAWS: Mapping[str, Law] = {
 class Acting:
     """An effect on one joint: ``number`` the joint, ``coordinate`` its place in q, ``shape`` the fixed values.
 
+    The law is one of the motion ``weights`` @ q (n), which is that of the joint itself but where two joints turn a
+    rotor; its torque acts on the joints by the same weights, so that no power is lost.
+
     The methods give values by parameter name, each per unit of that parameter; none where the effect has none.
     """
 
@@ -70,6 +76,11 @@ class Acting:
     number: int
     coordinate: int
     shape: Values
+    weights: Array
+
+    def along(self, signal: Array) -> Decimal:
+        """Position, speed or acceleration of the motion that the law is of, from those of the joints (n)."""
+        return sum((weight * one for weight, one in zip(self.weights, signal, strict=True)), Decimal(0))
 
     def sliding(self, direction: Decimal) -> Acting:
         """The same with ``direction`` for sign(qd)."""
@@ -100,7 +111,11 @@ def acting(robot: Robot) -> Iterator[Acting]:
     coordinate = {joint.number: k for k, joint in enumerate(robot.moving)}
     for use in robot.effects:
         for number in use.joints:
-            yield Acting(LAWS[use.effect], number, coordinate[number], _shape(use))
+            weights, shape = zeros(len(coordinate)), _shape(use)
+            weights[coordinate[number]] = Decimal(1)
+            if "other" in shape:
+                weights[coordinate[int(shape["other"])]] += shape["ratio"]
+            yield Acting(LAWS[use.effect], number, coordinate[number], shape, weights)
 
 
 def _shape(use: EffectUse) -> Values:

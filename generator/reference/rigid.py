@@ -39,8 +39,8 @@ class Rigid:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
         tau = lagrange.torque(self.chain, self.matter, q, qd, qdd)
         for effect in self.effects:
-            k = effect.coordinate
-            tau[k] += self._weighted(effect.torques(q[k], qd[k], qdd[k]))
+            torque = self._weighted(effect.torques(effect.along(q), effect.along(qd), effect.along(qdd)))
+            tau = tau + effect.weights * torque
         return tau
 
     def bias(self, q: Array, qd: Array) -> Array:
@@ -52,11 +52,10 @@ class Rigid:
         return lagrange.gravity(self.chain, self.matter, q)
 
     def inertia_matrix(self, q: Array) -> Array:
-        """M(q) (n x n), the rotors' inertias on its diagonal."""
+        """M(q) (n x n) with the rotors' inertias."""
         M = lagrange.inertia_matrix(self.chain, self.matter, q)
         for effect in self.effects:
-            k = effect.coordinate
-            M[k, k] += 2 * self._weighted(effect.kinetic(Decimal(1)))
+            M = M + 2 * self._weighted(effect.kinetic(Decimal(1))) * np.outer(effect.weights, effect.weights)
         return M
 
     def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
@@ -73,13 +72,13 @@ class Rigid:
 
     def kinetic_energy(self, q: Array, qd: Array) -> Decimal:
         """Of bodies and rotors [J]."""
-        of_rotors = (self._weighted(effect.kinetic(qd[effect.coordinate])) for effect in self.effects)
+        of_rotors = (self._weighted(effect.kinetic(effect.along(qd))) for effect in self.effects)
         return sum(of_rotors, lagrange.kinetic_energy(self.chain, self.matter, q, qd))
 
     def potential_energy(self, q: Array) -> Decimal:
         """Of weight and balancers [J]; zero at q = 0."""
         start = lagrange.potential_energy(self.chain, self.matter, zeros(self.chain.dof))
-        of_effects = (self._weighted(effect.potential(q[effect.coordinate])) for effect in self.effects)
+        of_effects = (self._weighted(effect.potential(effect.along(q))) for effect in self.effects)
         return sum(of_effects, lagrange.potential_energy(self.chain, self.matter, q) - start)
 
     def balancers(self, q: Array) -> dict[int, tuple[Decimal, Decimal, Decimal]]:
@@ -103,10 +102,8 @@ class Rigid:
         for j in self.matter:
             known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
         for effect in self.effects:
-            k = effect.coordinate
-            for name, torque in effect.torques(q[k], qd[k], qdd[k]).items():
-                known[name] = zeros(self.chain.dof)
-                known[name][k] = torque
+            for name, torque in effect.torques(effect.along(q), effect.along(qd), effect.along(qdd)).items():
+                known[name] = effect.weights * torque
         return {name: known[name] for name in names}
 
     def body_columns(self, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
