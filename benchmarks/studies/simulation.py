@@ -8,7 +8,6 @@ links, each in parts of the range over which it travels.
 from __future__ import annotations
 
 import importlib.util
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -20,7 +19,7 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.candidates import CANDIDATES
 from benchmarks.closed_loop import ClosedLoop, Vector, closed_loop, control, folder
-from benchmarks.table import table
+from benchmarks.study import alone
 from generator.backends import casadi as casadi_backend
 from generator.backends.printing.runge_kutta import METHODS, Method
 from generator.symbolic.interpret import evaluate
@@ -238,7 +237,6 @@ def _run_casadi(loop: ClosedLoop, whole: Any, found: list[Vector]) -> float:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as place:
-        result = run(Path(place))
-    print(table(result["rows"]))
-    print("\n".join(result["notes"]))
+    import benchmarks.studies.simulation as study
+
+    alone(__file__, study)
