@@ -8,6 +8,7 @@ links, each in parts of the range over which it travels.
 from __future__ import annotations
 
 import importlib.util
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
