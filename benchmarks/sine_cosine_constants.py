@@ -120,7 +120,7 @@ def cosine(precision: Precision) -> list[Any]:
 
 def literal(value: Any, precision: Precision) -> str:
     """Decimals that read back as ``value``, with the suffix of the type."""
-    digits = mpmath.nstr(value, 17 if precision.bits == 53 else 9, strip_zeros=True, min_fixed=-2, max_fixed=17)
+    digits: str = mpmath.nstr(value, 17 if precision.bits == 53 else 9, strip_zeros=True, min_fixed=-2, max_fixed=17)
     return digits + ("F" if precision.bits == 24 else "")
 
 
