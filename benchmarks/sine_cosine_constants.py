@@ -1,6 +1,6 @@
 """Constants of the generated sine and cosine, computed: `python -m benchmarks.sine_cosine_constants` prints them.
 
-The kernels are least-maximum polynomials on [-pi/4, pi/4] by the second algorithm of Remez (E. Remez, 1934), in z = r^2,
+The kernels are least-maximum polynomials on [-pi/4, pi/4] by the second algorithm of Remez (1934), in z = r^2,
 
     sin r = r + r z (S0 + S1 z + ...)       least maximal relative error
     cos r = 1 + z (-1/2 + z (C0 + C1 z + ...))    least maximal absolute error
@@ -89,15 +89,13 @@ def coefficients(function: Function, weight: Function, terms: int, bits: int) ->
     """Rounded coefficients of ``function`` in z on (0, (pi/4)^2]: one is rounded, the rest found again."""
     upper = (mpmath.pi / 4) ** 2
     fixed: list[Any] = []
+
+    def rest(z: Any) -> Any:
+        return (function(z) - mpmath.polyval([*fixed[::-1]] or [0], z)) / z ** len(fixed)
+
     while len(fixed) < terms:
-        done = len(fixed)
-        rest = remez(
-            lambda z: (function(z) - mpmath.polyval(fixed[::-1], z)) / z**done if fixed else function(z),
-            lambda z: weight(z) * z**done,
-            terms - done,
-            upper,
-        )
-        fixed.append(rounded(rest[0], bits))
+        found = remez(rest, lambda z: weight(z) * z ** len(fixed), terms - len(fixed), upper)
+        fixed.append(rounded(found[0], bits))
     return fixed
 
 
@@ -122,7 +120,7 @@ def cosine(precision: Precision) -> list[Any]:
 
 def literal(value: Any, precision: Precision) -> str:
     """Decimals that read back as ``value``, with the suffix of the type."""
-    digits = mpmath.nstr(value, 17 if precision.bits == 53 else 9, strip_zeros=True, min_fixed=-2, max_fixed=17)
+    digits: str = mpmath.nstr(value, 17 if precision.bits == 53 else 9, strip_zeros=True, min_fixed=-2, max_fixed=17)
     return digits + ("F" if precision.bits == 24 else "")
 
 

@@ -68,6 +68,8 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
     tests, parameter_sets = self_tests(functions, reference)
     names = Identifiers(f"{macro}_{word}" for word in _MACROS)
     constants = _constants(model.parameters, f"{macro}_", names)
+    moving = _operations(prepared.moving.values())
+    angles = bool(moving & {"sin", "cos"})
     context = {
         "prefix": prefix,
         "macro": macro,
@@ -81,16 +83,13 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "functions": functions,
         "packed": [_packed(function) for function in functions if function.source.sparsity],
         "sets": _values(model, constants),
+        "uses_angles": angles,
     }
-    moving = _operations(prepared.moving.values())
-    used = moving | _operations([prepared.nodes])
-    angles = bool(moving & {"sin", "cos"})
-    used |= {"sin", "cos"} if angles else set()
+    used = moving | _operations([prepared.nodes]) | ({"sin", "cos"} if angles else set())
     source = {
         "prepare": _prepare(prepared, prefix, constants),
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "uses_sign": "sign" in used,
-        "uses_angles": angles,
         "block": BLOCK,
     }
     return {

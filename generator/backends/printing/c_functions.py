@@ -18,6 +18,7 @@ from generator.backends.printing.prepared import Prepared, index, is_parameter, 
 from generator.backends.printing.signals import described, listed, paragraph
 from generator.backends.printing.straight_line import Block, straight_line
 from generator.symbolic.function import Function, Signal
+from generator.symbolic.statements import Node
 
 #: The operations that <math.h> computes: its function for double; the one for float has an f behind.
 MATHEMATICS = {"sin": "sin", "cos": "cos", "sqrt": "sqrt", "log": "log", "abs": "fabs", "pow": "pow"}
@@ -54,11 +55,10 @@ class Result:
 
 @dataclass(frozen=True)
 class CFunction:
-    """``source`` in C: ``definition`` is its prototype where the body follows; ``results`` come after ``statements``."""
+    """``source`` in C; ``results`` come after ``statements``, which write all other entries of the outputs."""
 
     source: Function
     prototype: str
-    definition: str
     documentation: tuple[str, ...]
     reads_prepared: bool
     inputs: tuple[Argument, ...]
@@ -100,7 +100,6 @@ def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction
     return CFunction(
         function,
         _prototype(function.name, prefix, inputs, outputs),
-        _prototype(function.name, prefix, inputs, outputs, "restrict "),
         _documentation(function, prefix, reads_prepared, inputs, outputs),
         reads_prepared,
         inputs,
@@ -157,14 +156,11 @@ def _sines_and_cosines(
     return statements, [f"{arrays[node.operation]}[{angles.index(node.arguments[0])}]" for node in nodes]
 
 
-def _prototype(
-    name: str, prefix: str, inputs: Sequence[Argument], outputs: Sequence[Argument], qualifier: str = ""
-) -> str:
-    """The declaration; a ``qualifier`` of outputs changes no type, and C++ does not know ``restrict``."""
+def _prototype(name: str, prefix: str, inputs: Sequence[Argument], outputs: Sequence[Argument]) -> str:
     arguments = [
         f"const {prefix}_prepared *prepared",
         *(f"const {prefix}_real {argument.name}[{argument.size}]" for argument in inputs),
-        *(f"{prefix}_real {argument.name}[{qualifier}{argument.size}]" for argument in outputs),
+        *(f"{prefix}_real {argument.name}[{argument.size}]" for argument in outputs),
     ]
     head = f"void {prefix}_{name}("
     line = f"{head}{', '.join(arguments)})"
