@@ -121,11 +121,17 @@ INLINE void sine_cosine(lanes x, lanes *sine_of_x, lanes *cosine_of_x)
 {
 #ifdef KR270_USE_FLOAT
     const uint32_t top = UINT32_C(1) << 31;
-    lane_bits sign, number, odd, s, c;
-    lanes magnitude, sine, cosine;
-    memcpy(&sign, &x, sizeof sign);
+    lane_bits sign;
+    lane_bits number;
+    lane_bits odd;
+    lane_bits s;
+    lane_bits c;
+    lanes magnitude;
+    lanes sine;
+    lanes cosine;
+    (void)memcpy(&sign, &x, sizeof sign);
     number = sign & ~top;
-    memcpy(&magnitude, &number, sizeof magnitude);
+    (void)memcpy(&magnitude, &number, sizeof magnitude);
 
     /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
     const lanes sum = magnitude*0.636619747F + 12582912.0F;
@@ -141,22 +147,28 @@ INLINE void sine_cosine(lanes x, lanes *sine_of_x, lanes *cosine_of_x)
     cosine = 1.0F - z*(0.5F - z*cosine_series);
 
     /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-    memcpy(&number, &sum, sizeof number);
-    memcpy(&s, &sine, sizeof s);
-    memcpy(&c, &cosine, sizeof c);
+    (void)memcpy(&number, &sum, sizeof number);
+    (void)memcpy(&s, &sine, sizeof s);
+    (void)memcpy(&c, &cosine, sizeof c);
     odd = (s ^ c) & -(number & UINT32_C(1));
     s ^= odd ^ ((sign ^ (number << 30)) & top);
     c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
-    memcpy(&sine, &s, sizeof sine);
-    memcpy(&cosine, &c, sizeof cosine);
+    (void)memcpy(&sine, &s, sizeof sine);
+    (void)memcpy(&cosine, &c, sizeof cosine);
 
 #else
     const uint64_t top = UINT64_C(1) << 63;
-    lane_bits sign, number, odd, s, c;
-    lanes magnitude, sine, cosine;
-    memcpy(&sign, &x, sizeof sign);
+    lane_bits sign;
+    lane_bits number;
+    lane_bits odd;
+    lane_bits s;
+    lane_bits c;
+    lanes magnitude;
+    lanes sine;
+    lanes cosine;
+    (void)memcpy(&sign, &x, sizeof sign);
     number = sign & ~top;
-    memcpy(&magnitude, &number, sizeof magnitude);
+    (void)memcpy(&magnitude, &number, sizeof magnitude);
 
     /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
     const lanes sum = magnitude*0.63661977236758138 + 6755399441055744.0;
@@ -175,14 +187,14 @@ INLINE void sine_cosine(lanes x, lanes *sine_of_x, lanes *cosine_of_x)
     cosine = 1.0 - z*(0.5 - z*cosine_series);
 
     /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-    memcpy(&number, &sum, sizeof number);
-    memcpy(&s, &sine, sizeof s);
-    memcpy(&c, &cosine, sizeof c);
+    (void)memcpy(&number, &sum, sizeof number);
+    (void)memcpy(&s, &sine, sizeof s);
+    (void)memcpy(&c, &cosine, sizeof c);
     odd = (s ^ c) & -(number & UINT64_C(1));
     s ^= odd ^ ((sign ^ (number << 62)) & top);
     c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
-    memcpy(&sine, &s, sizeof sine);
-    memcpy(&cosine, &c, sizeof cosine);
+    (void)memcpy(&sine, &s, sizeof sine);
+    (void)memcpy(&cosine, &c, sizeof cosine);
 
 #endif
     *sine_of_x = sine;

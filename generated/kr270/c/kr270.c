@@ -24,8 +24,10 @@
 #if !defined(KR270_USE_LIBM)
 #if defined(kr270_sin) || defined(kr270_cos) || defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
 #define KR270_USE_LIBM
-#elif (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
+#elif defined(FLT_EVAL_METHOD)
+#if (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
 #define KR270_USE_LIBM
+#endif
 #endif
 #endif
 
@@ -66,10 +68,7 @@ static void kr270_library_sines_cosines(
     }
 }
 
-#ifdef KR270_USE_LIBM
-#define kr270_sines_cosines kr270_library_sines_cosines
-#else
-
+#ifndef KR270_USE_LIBM
 /* How many angles are computed side by side: all 4 where the processor has vectors, else one after the other. */
 #if !defined(KR270_LANES) && defined(__GNUC__) && (defined(__SSE2__) || defined(__aarch64__))
 #define KR270_LANES 4
@@ -89,11 +88,15 @@ typedef kr270_bits kr270_lane_bits __attribute__((vector_size(KR270_LANES * size
 typedef kr270_real kr270_lanes;
 typedef kr270_bits kr270_lane_bits;
 #endif
+#endif
 
 /* Sine and cosine of the first count of 4 angles. One beyond the kernel's range sends them all to <math.h>. */
 static void kr270_sines_cosines(
     int count, kr270_real x0, kr270_real x1, kr270_real x2, kr270_real x3, kr270_real *sines, kr270_real *cosines)
 {
+#ifdef KR270_USE_LIBM
+    kr270_library_sines_cosines(count, x0, x1, x2, x3, sines, cosines);
+#else
 #if KR270_LANES > 1
     const kr270_lanes angle[1] = { { x0, x1, x2, x3 } };
 #else
@@ -106,11 +109,17 @@ static void kr270_sines_cosines(
         const kr270_lanes x = angle[i / KR270_LANES];
 #ifdef KR270_USE_FLOAT
         const uint32_t top = UINT32_C(1) << 31;
-        kr270_lane_bits sign, number, odd, s, c;
-        kr270_lanes magnitude, sine, cosine;
-        memcpy(&sign, &x, sizeof sign);
+        kr270_lane_bits sign;
+        kr270_lane_bits number;
+        kr270_lane_bits odd;
+        kr270_lane_bits s;
+        kr270_lane_bits c;
+        kr270_lanes magnitude;
+        kr270_lanes sine;
+        kr270_lanes cosine;
+        (void)memcpy(&sign, &x, sizeof sign);
         number = sign & ~top;
-        memcpy(&magnitude, &number, sizeof magnitude);
+        (void)memcpy(&magnitude, &number, sizeof magnitude);
 
         /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
         const kr270_lanes sum = magnitude*0.636619747F + 12582912.0F;
@@ -126,23 +135,29 @@ static void kr270_sines_cosines(
         cosine = 1.0F - z*(0.5F - z*cosine_series);
 
         /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-        memcpy(&number, &sum, sizeof number);
-        memcpy(&s, &sine, sizeof s);
-        memcpy(&c, &cosine, sizeof c);
+        (void)memcpy(&number, &sum, sizeof number);
+        (void)memcpy(&s, &sine, sizeof s);
+        (void)memcpy(&c, &cosine, sizeof c);
         odd = (s ^ c) & -(number & UINT32_C(1));
         s ^= odd ^ ((sign ^ (number << 30)) & top);
         c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
-        memcpy(&sine, &s, sizeof sine);
-        memcpy(&cosine, &c, sizeof cosine);
+        (void)memcpy(&sine, &s, sizeof sine);
+        (void)memcpy(&cosine, &c, sizeof cosine);
 
         beyond |= UINT32_C(0x447A0000) - (sign & ~top);
 #else
         const uint64_t top = UINT64_C(1) << 63;
-        kr270_lane_bits sign, number, odd, s, c;
-        kr270_lanes magnitude, sine, cosine;
-        memcpy(&sign, &x, sizeof sign);
+        kr270_lane_bits sign;
+        kr270_lane_bits number;
+        kr270_lane_bits odd;
+        kr270_lane_bits s;
+        kr270_lane_bits c;
+        kr270_lanes magnitude;
+        kr270_lanes sine;
+        kr270_lanes cosine;
+        (void)memcpy(&sign, &x, sizeof sign);
         number = sign & ~top;
-        memcpy(&magnitude, &number, sizeof magnitude);
+        (void)memcpy(&magnitude, &number, sizeof magnitude);
 
         /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
         const kr270_lanes sum = magnitude*0.63661977236758138 + 6755399441055744.0;
@@ -161,29 +176,29 @@ static void kr270_sines_cosines(
         cosine = 1.0 - z*(0.5 - z*cosine_series);
 
         /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-        memcpy(&number, &sum, sizeof number);
-        memcpy(&s, &sine, sizeof s);
-        memcpy(&c, &cosine, sizeof c);
+        (void)memcpy(&number, &sum, sizeof number);
+        (void)memcpy(&s, &sine, sizeof s);
+        (void)memcpy(&c, &cosine, sizeof c);
         odd = (s ^ c) & -(number & UINT64_C(1));
         s ^= odd ^ ((sign ^ (number << 62)) & top);
         c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
-        memcpy(&sine, &s, sizeof sine);
-        memcpy(&cosine, &c, sizeof cosine);
+        (void)memcpy(&sine, &s, sizeof sine);
+        (void)memcpy(&cosine, &c, sizeof cosine);
 
         beyond |= UINT64_C(0x40F86A0000000000) - (sign & ~top);
 #endif
-        memcpy(&sines[i], &sine, sizeof sine);
-        memcpy(&cosines[i], &cosine, sizeof cosine);
+        (void)memcpy(&sines[i], &sine, sizeof sine);
+        (void)memcpy(&cosines[i], &cosine, sizeof cosine);
     }
-    memcpy(beyond_in, &beyond, sizeof beyond);
-    for (int k = 0; k < KR270_LANES; ++k) {
-        any |= beyond_in[k];
+    (void)memcpy(beyond_in, &beyond, sizeof beyond);
+    for (int i = 0; i < KR270_LANES; ++i) {
+        any |= beyond_in[i];
     }
     if ((any >> (8U * sizeof any - 1U)) != 0U) {
         kr270_library_sines_cosines(count, x0, x1, x2, x3, sines, cosines);
     }
-}
 #endif
+}
 
 static inline kr270_real kr270_sign(kr270_real x)
 {
@@ -927,8 +942,8 @@ void kr270_params_twin_flexible(kr270_params *params)
 }
 
 void kr270_balancer(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real length[restrict 1],
-    kr270_real force[restrict 1], kr270_real torque[restrict 1])
+    const kr270_prepared *prepared, const kr270_real q[6], kr270_real length[1],
+    kr270_real force[1], kr270_real torque[1])
 {
     kr270_real sine[4];
     kr270_real cosine[4];
@@ -942,7 +957,7 @@ void kr270_balancer(
 
 void kr270_base_parameters(
     const kr270_prepared *prepared, const kr270_real standard_parameters[86],
-    kr270_real base_parameters[restrict 60])
+    kr270_real base_parameters[60])
 {
     (void)prepared;
     const kr270_real t1 = standard_parameters[53] + standard_parameters[67];
@@ -1030,8 +1045,7 @@ void kr270_base_parameters(
 }
 
 void kr270_bias(
-    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    kr270_real H[restrict 6])
+    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6], kr270_real H[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -1201,7 +1215,7 @@ void kr270_bias(
 
 void kr270_direct_dynamics(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real tau[6], kr270_real qdd[restrict 6])
+    const kr270_real tau[6], kr270_real qdd[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -1479,7 +1493,7 @@ void kr270_direct_dynamics(
 void kr270_direct_dynamics_loaded(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
     const kr270_real tau[6], const kr270_real wrench[6], const kr270_real payload[10],
-    kr270_real qdd[restrict 6])
+    kr270_real qdd[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -1819,7 +1833,7 @@ void kr270_direct_dynamics_loaded(
 
 void kr270_direct_dynamics_sliding(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real tau[6], const kr270_real direction[6], kr270_real qdd[restrict 6])
+    const kr270_real tau[6], const kr270_real direction[6], kr270_real qdd[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -2099,7 +2113,7 @@ void kr270_direct_dynamics_sliding(
 
 void kr270_direct_dynamics_smooth(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real tau[6], const kr270_real width[6], kr270_real qdd[restrict 6])
+    const kr270_real tau[6], const kr270_real width[6], kr270_real qdd[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -2382,8 +2396,7 @@ void kr270_direct_dynamics_smooth(
 
 void kr270_dynamics(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real tau[restrict 6], kr270_real M[restrict 36],
-    kr270_real Q[restrict 6])
+    const kr270_real qdd[6], kr270_real tau[6], kr270_real M[36], kr270_real Q[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -2687,7 +2700,7 @@ void kr270_dynamics(
 
 void kr270_flexible_direct_dynamics(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
-    const kr270_real tau[6], kr270_real qdd[restrict 12])
+    const kr270_real tau[6], kr270_real qdd[12])
 {
     const kr270_real t1 = q[1] + q[7];
     kr270_real sine[8];
@@ -2997,7 +3010,7 @@ void kr270_flexible_direct_dynamics(
 void kr270_flexible_direct_dynamics_sliding(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
     const kr270_real tau[6], const kr270_real tau_ext[6], const kr270_real direction[12],
-    kr270_real qdd[restrict 12])
+    kr270_real qdd[12])
 {
     const kr270_real t1 = q[1] + q[7];
     kr270_real sine[8];
@@ -3315,7 +3328,7 @@ void kr270_flexible_direct_dynamics_sliding(
 void kr270_flexible_direct_dynamics_smooth(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
     const kr270_real tau[6], const kr270_real tau_ext[6], const kr270_real width[12],
-    kr270_real qdd[restrict 12])
+    kr270_real qdd[12])
 {
     const kr270_real t1 = q[1] + q[7];
     kr270_real sine[8];
@@ -3636,7 +3649,7 @@ void kr270_flexible_direct_dynamics_smooth(
 
 void kr270_flexible_inverse_dynamics(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
-    const kr270_real qdd[12], kr270_real tau_mdi[restrict 6], kr270_real tau_e[restrict 6])
+    const kr270_real qdd[12], kr270_real tau_mdi[6], kr270_real tau_e[6])
 {
     const kr270_real t1 = q[1] + q[7];
     kr270_real sine[8];
@@ -3857,7 +3870,7 @@ void kr270_flexible_inverse_dynamics(
 
 void kr270_flexible_regressor(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
-    const kr270_real qdd[12], kr270_real W[restrict 1080])
+    const kr270_real qdd[12], kr270_real W[1080])
 {
     (void)prepared;
     const kr270_real t1 = q[1] + q[7];
@@ -4417,7 +4430,7 @@ void kr270_flexible_regressor(
     W[1079] = q[11];
 }
 
-void kr270_gravity(const kr270_prepared *prepared, const kr270_real q[6], kr270_real Q[restrict 6])
+void kr270_gravity(const kr270_prepared *prepared, const kr270_real q[6], kr270_real Q[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -4445,8 +4458,7 @@ void kr270_gravity(const kr270_prepared *prepared, const kr270_real q[6], kr270_
     Q[0] = R(0.0);
 }
 
-void kr270_inertia_matrix(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real M[restrict 36])
+void kr270_inertia_matrix(const kr270_prepared *prepared, const kr270_real q[6], kr270_real M[36])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -4567,7 +4579,7 @@ void kr270_inertia_matrix(
 
 void kr270_inverse_dynamics(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real tau[restrict 6])
+    const kr270_real qdd[6], kr270_real tau[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -4758,7 +4770,7 @@ void kr270_inverse_dynamics(
 void kr270_inverse_dynamics_loaded(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
     const kr270_real qdd[6], const kr270_real wrench[6], const kr270_real payload[10],
-    kr270_real tau[restrict 6])
+    kr270_real tau[6])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -4964,7 +4976,7 @@ void kr270_inverse_dynamics_loaded(
 
 void kr270_inverse_dynamics_standard(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], const kr270_real standard_parameters[86], kr270_real tau[restrict 6])
+    const kr270_real qdd[6], const kr270_real standard_parameters[86], kr270_real tau[6])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -5237,8 +5249,7 @@ void kr270_inverse_dynamics_standard(
     tau[5] = t182 + (standard_parameters[83]*qd[5] + t181);
 }
 
-void kr270_jacobians(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real J[restrict 252])
+void kr270_jacobians(const kr270_prepared *prepared, const kr270_real q[6], kr270_real J[252])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -5527,8 +5538,7 @@ void kr270_jacobians(
     J[248] = R(0.0);
 }
 
-void kr270_joint_position(
-    const kr270_prepared *prepared, const kr270_real qr[6], kr270_real q[restrict 6])
+void kr270_joint_position(const kr270_prepared *prepared, const kr270_real qr[6], kr270_real q[6])
 {
     (void)prepared;
     q[0] = -R(0.0045662100456621)*qr[0];
@@ -5540,8 +5550,7 @@ void kr270_joint_position(
     q[5] = R(0.006347127691144233)*qr[5] - t1;
 }
 
-void kr270_joint_speed(
-    const kr270_prepared *prepared, const kr270_real qrd[6], kr270_real qd[restrict 6])
+void kr270_joint_speed(const kr270_prepared *prepared, const kr270_real qrd[6], kr270_real qd[6])
 {
     (void)prepared;
     qd[0] = -R(0.0045662100456621)*qrd[0];
@@ -5555,7 +5564,7 @@ void kr270_joint_speed(
 }
 
 void kr270_joint_torque(
-    const kr270_prepared *prepared, const kr270_real tau_r[6], kr270_real tau[restrict 6])
+    const kr270_prepared *prepared, const kr270_real tau_r[6], kr270_real tau[6])
 {
     (void)prepared;
     tau[0] = -R(219.0)*tau_r[0];
@@ -5568,7 +5577,7 @@ void kr270_joint_torque(
 }
 
 void kr270_joint_torque_from_current(
-    const kr270_prepared *prepared, const kr270_real current[6], kr270_real tau[restrict 6])
+    const kr270_prepared *prepared, const kr270_real current[6], kr270_real tau[6])
 {
     tau[0] = -current[0]*prepared->p70;
     tau[1] = -current[1]*prepared->p71;
@@ -5580,8 +5589,7 @@ void kr270_joint_torque_from_current(
 }
 
 void kr270_kinetic_energy(
-    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    kr270_real T[restrict 1])
+    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6], kr270_real T[1])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -5648,7 +5656,7 @@ void kr270_kinetic_energy(
 }
 
 void kr270_motor_current(
-    const kr270_prepared *prepared, const kr270_real tau[6], kr270_real current[restrict 6])
+    const kr270_prepared *prepared, const kr270_real tau[6], kr270_real current[6])
 {
     current[0] = -R(0.0045662100456621)*tau[0]/prepared->kt1;
     current[1] = -R(0.0034965034965034965)*tau[1]/prepared->kt2;
@@ -5660,8 +5668,7 @@ void kr270_motor_current(
     current[5] = R(0.006347127691144233)*tau[5]/prepared->kt6;
 }
 
-void kr270_motor_position(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real qr[restrict 6])
+void kr270_motor_position(const kr270_prepared *prepared, const kr270_real q[6], kr270_real qr[6])
 {
     (void)prepared;
     qr[0] = -R(219.0)*q[0];
@@ -5673,8 +5680,7 @@ void kr270_motor_position(
     qr[5] = R(157.5515805984556)*q[5] - t1;
 }
 
-void kr270_motor_speed(
-    const kr270_prepared *prepared, const kr270_real qd[6], kr270_real qrd[restrict 6])
+void kr270_motor_speed(const kr270_prepared *prepared, const kr270_real qd[6], kr270_real qrd[6])
 {
     (void)prepared;
     qrd[0] = -R(219.0)*qd[0];
@@ -5687,7 +5693,7 @@ void kr270_motor_speed(
 }
 
 void kr270_motor_torque(
-    const kr270_prepared *prepared, const kr270_real tau[6], kr270_real tau_r[restrict 6])
+    const kr270_prepared *prepared, const kr270_real tau[6], kr270_real tau_r[6])
 {
     (void)prepared;
     tau_r[0] = -R(0.0045662100456621)*tau[0];
@@ -5701,7 +5707,7 @@ void kr270_motor_torque(
 
 void kr270_payload_regressor(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real W[restrict 60])
+    const kr270_real qdd[6], kr270_real W[60])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -5910,8 +5916,7 @@ void kr270_payload_regressor(
     W[59] = R(0.0);
 }
 
-void kr270_potential_energy(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real U[restrict 1])
+void kr270_potential_energy(const kr270_prepared *prepared, const kr270_real q[6], kr270_real U[1])
 {
     kr270_real sine[8];
     kr270_real cosine[8];
@@ -5932,7 +5937,7 @@ void kr270_potential_energy(
 
 void kr270_regressor(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real W[restrict 360])
+    const kr270_real qdd[6], kr270_real W[360])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -6386,7 +6391,7 @@ void kr270_regressor(
 
 void kr270_regressor_packed(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real W[restrict 165])
+    const kr270_real qdd[6], kr270_real W[165])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -6773,7 +6778,7 @@ void kr270_regressor_packed(
 
 void kr270_regressor_standard(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real W[restrict 516])
+    const kr270_real qdd[6], kr270_real W[516])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -7329,7 +7334,7 @@ void kr270_regressor_standard(
 
 void kr270_regressor_standard_packed(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
-    const kr270_real qdd[6], kr270_real W[restrict 216])
+    const kr270_real qdd[6], kr270_real W[216])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -7800,8 +7805,7 @@ void kr270_regressor_standard_packed(
     W[215] = R(1.0);
 }
 
-void kr270_tool_jacobian(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real J[restrict 36])
+void kr270_tool_jacobian(const kr270_prepared *prepared, const kr270_real q[6], kr270_real J[36])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -7878,8 +7882,7 @@ void kr270_tool_jacobian(
     J[32] = R(0.0);
 }
 
-void kr270_tool_transform(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real T[restrict 16])
+void kr270_tool_transform(const kr270_prepared *prepared, const kr270_real q[6], kr270_real T[16])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -7929,8 +7932,7 @@ void kr270_tool_transform(
     T[15] = R(1.0);
 }
 
-void kr270_transforms(
-    const kr270_prepared *prepared, const kr270_real q[6], kr270_real T[restrict 112])
+void kr270_transforms(const kr270_prepared *prepared, const kr270_real q[6], kr270_real T[112])
 {
     (void)prepared;
     kr270_real sine[8];
@@ -8092,7 +8094,7 @@ void kr270_transforms(
 
 void kr270_wrench_torque(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real wrench[6],
-    kr270_real tau[restrict 6])
+    kr270_real tau[6])
 {
     (void)prepared;
     kr270_real sine[8];

@@ -24,8 +24,10 @@
 #if !defined(KR500_USE_LIBM)
 #if defined(kr500_sin) || defined(kr500_cos) || defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
 #define KR500_USE_LIBM
-#elif (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
+#elif defined(FLT_EVAL_METHOD)
+#if (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
 #define KR500_USE_LIBM
+#endif
 #endif
 #endif
 
@@ -73,10 +75,7 @@ static void kr500_library_sines_cosines(
     }
 }
 
-#ifdef KR500_USE_LIBM
-#define kr500_sines_cosines kr500_library_sines_cosines
-#else
-
+#ifndef KR500_USE_LIBM
 /* How many angles are computed side by side: all 4 where the processor has vectors, else one after the other. */
 #if !defined(KR500_LANES) && defined(__GNUC__) && (defined(__SSE2__) || defined(__aarch64__))
 #define KR500_LANES 4
@@ -96,11 +95,15 @@ typedef kr500_bits kr500_lane_bits __attribute__((vector_size(KR500_LANES * size
 typedef kr500_real kr500_lanes;
 typedef kr500_bits kr500_lane_bits;
 #endif
+#endif
 
 /* Sine and cosine of the first count of 4 angles. One beyond the kernel's range sends them all to <math.h>. */
 static void kr500_sines_cosines(
     int count, kr500_real x0, kr500_real x1, kr500_real x2, kr500_real x3, kr500_real *sines, kr500_real *cosines)
 {
+#ifdef KR500_USE_LIBM
+    kr500_library_sines_cosines(count, x0, x1, x2, x3, sines, cosines);
+#else
 #if KR500_LANES > 1
     const kr500_lanes angle[1] = { { x0, x1, x2, x3 } };
 #else
@@ -113,11 +116,17 @@ static void kr500_sines_cosines(
         const kr500_lanes x = angle[i / KR500_LANES];
 #ifdef KR500_USE_FLOAT
         const uint32_t top = UINT32_C(1) << 31;
-        kr500_lane_bits sign, number, odd, s, c;
-        kr500_lanes magnitude, sine, cosine;
-        memcpy(&sign, &x, sizeof sign);
+        kr500_lane_bits sign;
+        kr500_lane_bits number;
+        kr500_lane_bits odd;
+        kr500_lane_bits s;
+        kr500_lane_bits c;
+        kr500_lanes magnitude;
+        kr500_lanes sine;
+        kr500_lanes cosine;
+        (void)memcpy(&sign, &x, sizeof sign);
         number = sign & ~top;
-        memcpy(&magnitude, &number, sizeof magnitude);
+        (void)memcpy(&magnitude, &number, sizeof magnitude);
 
         /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
         const kr500_lanes sum = magnitude*0.636619747F + 12582912.0F;
@@ -133,23 +142,29 @@ static void kr500_sines_cosines(
         cosine = 1.0F - z*(0.5F - z*cosine_series);
 
         /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-        memcpy(&number, &sum, sizeof number);
-        memcpy(&s, &sine, sizeof s);
-        memcpy(&c, &cosine, sizeof c);
+        (void)memcpy(&number, &sum, sizeof number);
+        (void)memcpy(&s, &sine, sizeof s);
+        (void)memcpy(&c, &cosine, sizeof c);
         odd = (s ^ c) & -(number & UINT32_C(1));
         s ^= odd ^ ((sign ^ (number << 30)) & top);
         c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
-        memcpy(&sine, &s, sizeof sine);
-        memcpy(&cosine, &c, sizeof cosine);
+        (void)memcpy(&sine, &s, sizeof sine);
+        (void)memcpy(&cosine, &c, sizeof cosine);
 
         beyond |= UINT32_C(0x447A0000) - (sign & ~top);
 #else
         const uint64_t top = UINT64_C(1) << 63;
-        kr500_lane_bits sign, number, odd, s, c;
-        kr500_lanes magnitude, sine, cosine;
-        memcpy(&sign, &x, sizeof sign);
+        kr500_lane_bits sign;
+        kr500_lane_bits number;
+        kr500_lane_bits odd;
+        kr500_lane_bits s;
+        kr500_lane_bits c;
+        kr500_lanes magnitude;
+        kr500_lanes sine;
+        kr500_lanes cosine;
+        (void)memcpy(&sign, &x, sizeof sign);
         number = sign & ~top;
-        memcpy(&magnitude, &number, sizeof magnitude);
+        (void)memcpy(&magnitude, &number, sizeof magnitude);
 
         /* |x| = n pi/2 + r: the addition rounds to n, which is then in the lowest bits of the sum. */
         const kr500_lanes sum = magnitude*0.63661977236758138 + 6755399441055744.0;
@@ -168,29 +183,29 @@ static void kr500_sines_cosines(
         cosine = 1.0 - z*(0.5 - z*cosine_series);
 
         /* An odd n swaps the two; the second bit of n, or of n + 1, is the sign. */
-        memcpy(&number, &sum, sizeof number);
-        memcpy(&s, &sine, sizeof s);
-        memcpy(&c, &cosine, sizeof c);
+        (void)memcpy(&number, &sum, sizeof number);
+        (void)memcpy(&s, &sine, sizeof s);
+        (void)memcpy(&c, &cosine, sizeof c);
         odd = (s ^ c) & -(number & UINT64_C(1));
         s ^= odd ^ ((sign ^ (number << 62)) & top);
         c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
-        memcpy(&sine, &s, sizeof sine);
-        memcpy(&cosine, &c, sizeof cosine);
+        (void)memcpy(&sine, &s, sizeof sine);
+        (void)memcpy(&cosine, &c, sizeof cosine);
 
         beyond |= UINT64_C(0x40F86A0000000000) - (sign & ~top);
 #endif
-        memcpy(&sines[i], &sine, sizeof sine);
-        memcpy(&cosines[i], &cosine, sizeof cosine);
+        (void)memcpy(&sines[i], &sine, sizeof sine);
+        (void)memcpy(&cosines[i], &cosine, sizeof cosine);
     }
-    memcpy(beyond_in, &beyond, sizeof beyond);
-    for (int k = 0; k < KR500_LANES; ++k) {
-        any |= beyond_in[k];
+    (void)memcpy(beyond_in, &beyond, sizeof beyond);
+    for (int i = 0; i < KR500_LANES; ++i) {
+        any |= beyond_in[i];
     }
     if ((any >> (8U * sizeof any - 1U)) != 0U) {
         kr500_library_sines_cosines(count, x0, x1, x2, x3, sines, cosines);
     }
-}
 #endif
+}
 
 static inline kr500_real kr500_sign(kr500_real x)
 {
@@ -1025,8 +1040,8 @@ void kr500_params_twin_flexible(kr500_params *params)
 }
 
 void kr500_balancer(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real length[restrict 1],
-    kr500_real force[restrict 1], kr500_real torque[restrict 1])
+    const kr500_prepared *prepared, const kr500_real q[6], kr500_real length[1],
+    kr500_real force[1], kr500_real torque[1])
 {
     kr500_real sine[4];
     kr500_real cosine[4];
@@ -1040,7 +1055,7 @@ void kr500_balancer(
 
 void kr500_base_parameters(
     const kr500_prepared *prepared, const kr500_real standard_parameters[85],
-    kr500_real base_parameters[restrict 59])
+    kr500_real base_parameters[59])
 {
     (void)prepared;
     const kr500_real t1 = standard_parameters[52] + standard_parameters[66];
@@ -1127,8 +1142,7 @@ void kr500_base_parameters(
 }
 
 void kr500_bias(
-    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    kr500_real H[restrict 6])
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6], kr500_real H[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -1299,7 +1313,7 @@ void kr500_bias(
 
 void kr500_direct_dynamics(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real tau[6], kr500_real qdd[restrict 6])
+    const kr500_real tau[6], kr500_real qdd[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -1579,7 +1593,7 @@ void kr500_direct_dynamics(
 void kr500_direct_dynamics_loaded(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
     const kr500_real tau[6], const kr500_real wrench[6], const kr500_real payload[10],
-    kr500_real qdd[restrict 6])
+    kr500_real qdd[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -1916,7 +1930,7 @@ void kr500_direct_dynamics_loaded(
 
 void kr500_direct_dynamics_sliding(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real tau[6], const kr500_real direction[6], kr500_real qdd[restrict 6])
+    const kr500_real tau[6], const kr500_real direction[6], kr500_real qdd[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -2198,7 +2212,7 @@ void kr500_direct_dynamics_sliding(
 
 void kr500_direct_dynamics_smooth(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real tau[6], const kr500_real width[6], kr500_real qdd[restrict 6])
+    const kr500_real tau[6], const kr500_real width[6], kr500_real qdd[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -2483,8 +2497,7 @@ void kr500_direct_dynamics_smooth(
 
 void kr500_dynamics(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real tau[restrict 6], kr500_real M[restrict 36],
-    kr500_real Q[restrict 6])
+    const kr500_real qdd[6], kr500_real tau[6], kr500_real M[36], kr500_real Q[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -2793,7 +2806,7 @@ void kr500_dynamics(
 
 void kr500_flexible_direct_dynamics(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
-    const kr500_real tau[6], kr500_real qdd[restrict 12])
+    const kr500_real tau[6], kr500_real qdd[12])
 {
     const kr500_real t1 = q[1] + q[7];
     kr500_real sine[8];
@@ -3106,7 +3119,7 @@ void kr500_flexible_direct_dynamics(
 void kr500_flexible_direct_dynamics_sliding(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
     const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real direction[12],
-    kr500_real qdd[restrict 12])
+    kr500_real qdd[12])
 {
     const kr500_real t1 = q[1] + q[7];
     kr500_real sine[8];
@@ -3426,7 +3439,7 @@ void kr500_flexible_direct_dynamics_sliding(
 void kr500_flexible_direct_dynamics_smooth(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
     const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real width[12],
-    kr500_real qdd[restrict 12])
+    kr500_real qdd[12])
 {
     const kr500_real t1 = q[1] + q[7];
     kr500_real sine[8];
@@ -3748,7 +3761,7 @@ void kr500_flexible_direct_dynamics_smooth(
 
 void kr500_flexible_inverse_dynamics(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
-    const kr500_real qdd[12], kr500_real tau_mdi[restrict 6], kr500_real tau_e[restrict 6])
+    const kr500_real qdd[12], kr500_real tau_mdi[6], kr500_real tau_e[6])
 {
     const kr500_real t1 = q[1] + q[7];
     kr500_real sine[8];
@@ -3970,7 +3983,7 @@ void kr500_flexible_inverse_dynamics(
 
 void kr500_flexible_regressor(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
-    const kr500_real qdd[12], kr500_real W[restrict 1068])
+    const kr500_real qdd[12], kr500_real W[1068])
 {
     (void)prepared;
     const kr500_real t1 = q[1] + q[7];
@@ -4530,7 +4543,7 @@ void kr500_flexible_regressor(
     W[1067] = q[11];
 }
 
-void kr500_gravity(const kr500_prepared *prepared, const kr500_real q[6], kr500_real Q[restrict 6])
+void kr500_gravity(const kr500_prepared *prepared, const kr500_real q[6], kr500_real Q[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -4558,8 +4571,7 @@ void kr500_gravity(const kr500_prepared *prepared, const kr500_real q[6], kr500_
     Q[0] = R(0.0);
 }
 
-void kr500_inertia_matrix(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real M[restrict 36])
+void kr500_inertia_matrix(const kr500_prepared *prepared, const kr500_real q[6], kr500_real M[36])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -4680,7 +4692,7 @@ void kr500_inertia_matrix(
 
 void kr500_inverse_dynamics(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real tau[restrict 6])
+    const kr500_real qdd[6], kr500_real tau[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -4876,7 +4888,7 @@ void kr500_inverse_dynamics(
 void kr500_inverse_dynamics_loaded(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
     const kr500_real qdd[6], const kr500_real wrench[6], const kr500_real payload[10],
-    kr500_real tau[restrict 6])
+    kr500_real tau[6])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -5081,7 +5093,7 @@ void kr500_inverse_dynamics_loaded(
 
 void kr500_inverse_dynamics_standard(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], const kr500_real standard_parameters[85], kr500_real tau[restrict 6])
+    const kr500_real qdd[6], const kr500_real standard_parameters[85], kr500_real tau[6])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -5352,8 +5364,7 @@ void kr500_inverse_dynamics_standard(
     tau[5] = t182 + (standard_parameters[82]*qd[5] + t181);
 }
 
-void kr500_jacobians(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real J[restrict 252])
+void kr500_jacobians(const kr500_prepared *prepared, const kr500_real q[6], kr500_real J[252])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -5642,8 +5653,7 @@ void kr500_jacobians(
     J[248] = R(0.0);
 }
 
-void kr500_joint_position(
-    const kr500_prepared *prepared, const kr500_real qr[6], kr500_real q[restrict 6])
+void kr500_joint_position(const kr500_prepared *prepared, const kr500_real qr[6], kr500_real q[6])
 {
     (void)prepared;
     q[0] = R(0.0021304926764314247)*qr[0];
@@ -5655,8 +5665,7 @@ void kr500_joint_position(
     q[5] = t1 + R(0.006076457689360915)*qr[5];
 }
 
-void kr500_joint_speed(
-    const kr500_prepared *prepared, const kr500_real qrd[6], kr500_real qd[restrict 6])
+void kr500_joint_speed(const kr500_prepared *prepared, const kr500_real qrd[6], kr500_real qd[6])
 {
     (void)prepared;
     qd[0] = R(0.0021304926764314247)*qrd[0];
@@ -5669,7 +5678,7 @@ void kr500_joint_speed(
 }
 
 void kr500_joint_torque(
-    const kr500_prepared *prepared, const kr500_real tau_r[6], kr500_real tau[restrict 6])
+    const kr500_prepared *prepared, const kr500_real tau_r[6], kr500_real tau[6])
 {
     (void)prepared;
     tau[0] = R(469.375)*tau_r[0];
@@ -5681,7 +5690,7 @@ void kr500_joint_torque(
 }
 
 void kr500_joint_torque_from_current(
-    const kr500_prepared *prepared, const kr500_real current[6], kr500_real tau[restrict 6])
+    const kr500_prepared *prepared, const kr500_real current[6], kr500_real tau[6])
 {
     tau[0] = current[0]*prepared->p69;
     tau[1] = current[1]*prepared->p70;
@@ -5693,8 +5702,7 @@ void kr500_joint_torque_from_current(
 }
 
 void kr500_kinetic_energy(
-    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    kr500_real T[restrict 1])
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6], kr500_real T[1])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -5761,7 +5769,7 @@ void kr500_kinetic_energy(
 }
 
 void kr500_motor_current(
-    const kr500_prepared *prepared, const kr500_real tau[6], kr500_real current[restrict 6])
+    const kr500_prepared *prepared, const kr500_real tau[6], kr500_real current[6])
 {
     current[0] = R(0.0021304926764314247)*tau[0]/prepared->kt1;
     current[1] = R(0.0021304926764314247)*tau[1]/prepared->kt2;
@@ -5773,8 +5781,7 @@ void kr500_motor_current(
     current[5] = R(0.006076457689360915)*tau[5]/prepared->kt6;
 }
 
-void kr500_motor_position(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real qr[restrict 6])
+void kr500_motor_position(const kr500_prepared *prepared, const kr500_real q[6], kr500_real qr[6])
 {
     (void)prepared;
     qr[0] = R(469.375)*q[0];
@@ -5785,8 +5792,7 @@ void kr500_motor_position(
     qr[5] = q[3] - q[4] + R(164.5695652173913)*q[5];
 }
 
-void kr500_motor_speed(
-    const kr500_prepared *prepared, const kr500_real qd[6], kr500_real qrd[restrict 6])
+void kr500_motor_speed(const kr500_prepared *prepared, const kr500_real qd[6], kr500_real qrd[6])
 {
     (void)prepared;
     qrd[0] = R(469.375)*qd[0];
@@ -5798,7 +5804,7 @@ void kr500_motor_speed(
 }
 
 void kr500_motor_torque(
-    const kr500_prepared *prepared, const kr500_real tau[6], kr500_real tau_r[restrict 6])
+    const kr500_prepared *prepared, const kr500_real tau[6], kr500_real tau_r[6])
 {
     (void)prepared;
     tau_r[0] = R(0.0021304926764314247)*tau[0];
@@ -5813,7 +5819,7 @@ void kr500_motor_torque(
 
 void kr500_payload_regressor(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real W[restrict 60])
+    const kr500_real qdd[6], kr500_real W[60])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -6022,8 +6028,7 @@ void kr500_payload_regressor(
     W[59] = R(0.0);
 }
 
-void kr500_potential_energy(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real U[restrict 1])
+void kr500_potential_energy(const kr500_prepared *prepared, const kr500_real q[6], kr500_real U[1])
 {
     kr500_real sine[8];
     kr500_real cosine[8];
@@ -6044,7 +6049,7 @@ void kr500_potential_energy(
 
 void kr500_regressor(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real W[restrict 354])
+    const kr500_real qdd[6], kr500_real W[354])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -6496,7 +6501,7 @@ void kr500_regressor(
 
 void kr500_regressor_packed(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real W[restrict 164])
+    const kr500_real qdd[6], kr500_real W[164])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -6882,7 +6887,7 @@ void kr500_regressor_packed(
 
 void kr500_regressor_standard(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real W[restrict 510])
+    const kr500_real qdd[6], kr500_real W[510])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -7440,7 +7445,7 @@ void kr500_regressor_standard(
 
 void kr500_regressor_standard_packed(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
-    const kr500_real qdd[6], kr500_real W[restrict 215])
+    const kr500_real qdd[6], kr500_real W[215])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -7910,8 +7915,7 @@ void kr500_regressor_standard_packed(
     W[214] = R(1.0);
 }
 
-void kr500_tool_jacobian(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real J[restrict 36])
+void kr500_tool_jacobian(const kr500_prepared *prepared, const kr500_real q[6], kr500_real J[36])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -7988,8 +7992,7 @@ void kr500_tool_jacobian(
     J[32] = R(0.0);
 }
 
-void kr500_tool_transform(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real T[restrict 16])
+void kr500_tool_transform(const kr500_prepared *prepared, const kr500_real q[6], kr500_real T[16])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -8039,8 +8042,7 @@ void kr500_tool_transform(
     T[15] = R(1.0);
 }
 
-void kr500_transforms(
-    const kr500_prepared *prepared, const kr500_real q[6], kr500_real T[restrict 112])
+void kr500_transforms(const kr500_prepared *prepared, const kr500_real q[6], kr500_real T[112])
 {
     (void)prepared;
     kr500_real sine[8];
@@ -8202,7 +8204,7 @@ void kr500_transforms(
 
 void kr500_wrench_torque(
     const kr500_prepared *prepared, const kr500_real q[6], const kr500_real wrench[6],
-    kr500_real tau[restrict 6])
+    kr500_real tau[6])
 {
     (void)prepared;
     kr500_real sine[8];
