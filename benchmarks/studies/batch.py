@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.peers import batch_peers
+from benchmarks.loops import peers
 from benchmarks.table import table
 from generator.generation import generate
 from generator.python_library import build_library
@@ -95,7 +95,7 @@ def _study(build: Path) -> Study:
 def _memory(study: Study, build: Path) -> None:
     """Observation matrices beside a write of the same memory, pass by pass in turns."""
     module, robot = study.module, study.module.Robot(study.arm.parameters)
-    write = batch_peers.stream_write(build)
+    write = peers.stream_write(build)
     size = SAMPLES * module.NQ * module.NBASE
     memory = np.ones(size + 8)
     start = -(memory.ctypes.data // 8) % 8
@@ -157,7 +157,7 @@ def _pinocchio(study: Study, build: Path) -> None:
     arm = study.arm.only(*INERTIAL, "Ia")
     model = PinocchioArm(arm.robot, arm.values).model
     robot = study.module.Robot(arm.parameters)
-    loop = batch_peers.pinocchio(model, [x[:20000] for x in study.signals], build)
+    loop = peers.pinocchio(model, [x[:20000] for x in study.signals], build)
     first = [x[:200] for x in study.signals]
     W = robot.observation_matrix(*first).reshape(200, study.module.NQ, -1)
     names = {f"{stem}{j + 1}": 10 * j + k for j in range(study.module.NQ) for k, stem in enumerate(_PINOCCHIO)}
@@ -190,7 +190,7 @@ def _figaroh(study: Study, build: Path) -> list[str]:
     arm = study.arm
     first = [x[:n] for x in study.signals]
     try:
-        found = batch_peers.figaroh(PinocchioArm(arm.robot, arm.values).model, first, build)
+        found = peers.figaroh(PinocchioArm(arm.robot, arm.values).model, first, build)
     except RuntimeError as error:
         return [f"FIGAROH is not measured: {str(error).splitlines()[-1]}"]
     names = {f"{stem}{j + 1}": 10 * j + k for j in range(study.module.NQ) for k, stem in enumerate(_PINOCCHIO)}
