@@ -18,6 +18,7 @@ LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-an
 stamp = $(VENV)/.$(1)-$(shell { cat $(2) pyproject.toml; pwd; } | cksum | tr -cd '0-9')
 RUNTIME = $(call stamp,runtime,requirements.lock)
 TESTING = $(call stamp,testing,requirements.lock requirements-test.lock)
+BENCHING = $(call stamp,benching,requirements.lock requirements-test.lock requirements-bench.lock)
 
 export robot
 out ?= generated
@@ -26,7 +27,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list test test-extra format lock twins clean distclean
+.PHONY: help generate all-robots list identify test test-extra format lock bench twins clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -39,19 +40,26 @@ generate: $(RUNTIME)
 	@file="$$robot"; \
 	if [ -z "$$file" ]; then echo 'error: Makefile:1:1: no robot, expected make robot=NAME or robot=PATH.yaml' >&2; exit 2; fi; \
 	if [ ! -e "$$file" ] && [ -n "$$CALLER" ] && [ -e "$$CALLER/$$file" ]; then file="$$CALLER/$$file"; fi; \
-	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test $(if $(build_in),--build-in "$(build_in)")
+	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library \
+	    $(if $(build_in),--build-in "$(build_in)")
 
 all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
-	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test || exit $$?; done
+	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library || exit $$?; done
 
 list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list
+
+identify: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters from recorded runs
+	@cd "$${CALLER:-.}" && $(COUNTERPOISE) identify "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra
+
+bench: $(BENCHING) ## time the generated code beside other libraries, into docs/performance.md; only=NAME for one study
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.bench $(if $(only),only="$(only)")
 
 format: $(TESTING) ## lay out the Python files and sort their imports
 	@"$(VENV)/bin/python" -m ruff check --quiet --fix-only --select I .
@@ -63,6 +71,8 @@ lock: ## resolve the lock files anew (asks the package registry)
 	build/lock/bin/uv pip compile --quiet pyproject.toml --group build $(LOCKING) --output-file requirements.lock
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test \
 	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
+	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test --group bench \
+	    --constraint requirements-test.lock $(LOCKING) --output-file requirements-bench.lock
 
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins
@@ -89,4 +99,9 @@ $(TESTING): $(RUNTIME)
 	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-test.lock
 	@$(VENV)/bin/python -m pip download --quiet --disable-pip-version-check --only-binary :all: --dest $(VENV)/wheels \
 	    --require-hashes -r requirements.lock
+	@touch $@
+
+$(BENCHING): $(TESTING)
+	@echo 'adding the other libraries from requirements-bench.lock'
+	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	@touch $@

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shlex
-import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from generator.errors import InputError, Place
+from generator.compiler import compiler, run
 
 #: The generated C is clean under all of these.
 WARNINGS = ("-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wdouble-promotion", "-pedantic", "-Werror")
@@ -43,7 +40,7 @@ def run_self_test(folder: Path, name: str, precision: Precision) -> int:
     sources = [str(folder / f"{name}.c"), str(folder / f"{name}_selftest.c")]
     with tempfile.TemporaryDirectory() as build:
         program = str(Path(build, "selftest"))
-        _run([*_compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"], f"compiling {name} in {precision.name}")
+        _run([*compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"], f"compiling {name} in {precision.name}")
         output = _run([program], f"the self-test of {name} in {precision.name}")
     tally = _TALLY.search(output)
     if tally is None or int(tally[1]) == 0 or int(tally[2]) != 0:
@@ -51,16 +48,8 @@ def run_self_test(folder: Path, name: str, precision: Precision) -> int:
     return int(tally[1])
 
 
-def _compiler() -> list[str]:
-    """The C compiler's command: the environment variable CC, or ``cc``."""
-    return shlex.split(os.environ.get("CC", "")) or ["cc"]
-
-
 def _run(command: list[str], what: str) -> str:
-    try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    except FileNotFoundError:
-        raise InputError(Place(command[0]), "there is no such program", "a C compiler; set CC") from None
-    if done.returncode != 0:
-        raise SelfTestFailure(f"{what} failed with status {done.returncode}:\n{done.stdout}")
-    return done.stdout
+    done = run(command)
+    if done.status != 0:
+        raise SelfTestFailure(f"{what} failed with status {done.status}:\n{done.output}")
+    return done.output

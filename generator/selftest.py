@@ -94,6 +94,8 @@ def _input(model: Model, wanted: Signal, state: int, standard: tuple[float, ...]
         return (*positions(model.robot, state), *elongations)[: wanted.size]
     if wanted.name == "payload":
         return tuple(payload(state))
+    if wanted.name == "width":
+        return tuple(map(abs, signal(wanted.size, state + 5)))
     # Each signal draws its own numbers: qd and qdd must not be equal.
     return tuple(signal(wanted.size, state + 10 * len(wanted.name), 2.0))
 

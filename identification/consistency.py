@@ -10,7 +10,7 @@ grows without bound towards bodies that are flat or without mass (Lee, Wensing a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -80,7 +80,9 @@ def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str,
     s = {parameter.name: cp.Variable(name=parameter.name) for parameter in model.standard_parameters}
     base = {name: _sum(terms, s) for name, terms in model.grouping.numeric().items()}
     shifts = [(base[name] - value) / estimate.std[name] for name, value in estimate.values.items()]
-    relative = [_relative_to(body, number, s) for number, body in knowledge.bodies.items()]
+    relative = [
+        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in knowledge.bodies.items()
+    ]
     cost = cp.sum_squares(cp.hstack(shifts))
     if knowledge.weight > 0:
         cost += knowledge.weight * cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
@@ -99,11 +101,11 @@ def _sum(terms: Mapping[str, float], s: Mapping[str, Expression]) -> Expression:
     return cp.sum([coefficient * s[name] for name, coefficient in terms.items()])
 
 
-def _relative_to(prior: Matrix, number: int, s: Mapping[str, Expression]) -> Expression:
-    """L^-1 P L^-T with P0 = L L^T: the identity where the body is the prior one."""
+def relative_to(prior: Matrix, ten: Sequence[Expression]) -> Expression:
+    """L^-1 P L^-T (4 x 4) of ``ten`` inertial parameters, P0 = L L^T: the identity where the body is the prior one."""
     inverse = np.linalg.inv(np.linalg.cholesky(prior))
     units = [inverse @ unit @ inverse.T for unit in basis()]
-    return cp.sum([s[f"{stem}{number}"] * unit for stem, unit in zip(INERTIAL, units, strict=True)])
+    return cp.sum([parameter * unit for parameter, unit in zip(ten, units, strict=True)])
 
 
 def _silent(model: Model, estimate: Estimate, knowledge: Knowledge) -> list[str]:

@@ -23,7 +23,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 #: The documents that hold sessions, and whether they are played in a copy of the tree, which they change.
-SESSIONS = {"README.md": False, "docs/conventions.md": False, "docs/extending.md": True}
+SESSIONS = {
+    "README.md": False,
+    "docs/batch.md": False,
+    "docs/conventions.md": False,
+    "docs/extending.md": True,
+    "docs/simulation.md": False,
+}
 
 _GENERATED = "generated/"
 _FENCE = re.compile(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)

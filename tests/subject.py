@@ -33,6 +33,9 @@ _SCALES = {
     "qrd": 300.0,
     "tau_r": 20.0,
     "current": 20.0,
+    "tau_ext": 300.0,
+    "direction": 1.0,
+    "width": 1.0,
     "states": 1.0,
     "warmth": 1.0,
 }
@@ -177,7 +180,8 @@ class Subject:
             return np.array(sample.payload(seed))
         if signal.name == "standard_parameters":
             return np.array([self.values.get(name, 0.0) for name in self.standard])
-        return self._signal(signal.name, signal.size, seed)
+        drawn = self._signal(signal.name, signal.size, seed)
+        return np.abs(drawn) if signal.name == "width" else drawn
 
     def _signal(self, name: str, size: int, seed: int) -> Vector:
         return np.array(sample.signal(size, seed + list(_SCALES).index(name), _SCALES[name]))

@@ -72,9 +72,15 @@ def test_no_module_or_template_names_a_robot(folder: str) -> None:
 
 def test_every_dependency_is_locked_and_explained() -> None:
     pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    runtime = pyproject["project"]["dependencies"] + pyproject["dependency-groups"]["build"]
-    extras = [*pyproject["project"]["optional-dependencies"].values(), *pyproject["dependency-groups"].values()]
-    wanted = {"requirements.lock": runtime, "requirements-test.lock": [*runtime, *chain.from_iterable(extras)]}
+    groups = pyproject["dependency-groups"]
+    runtime = pyproject["project"]["dependencies"] + groups["build"]
+    extras = chain.from_iterable(pyproject["project"]["optional-dependencies"].values())
+    testing = [*runtime, *extras, *chain.from_iterable(groups[name] for name in groups if name != "bench")]
+    wanted = {
+        "requirements.lock": runtime,
+        "requirements-test.lock": testing,
+        "requirements-bench.lock": [*testing, *groups["bench"]],
+    }
     explained = (ROOT / "docs" / "dependencies.md").read_text().lower()
     for lock, requirements in wanted.items():
         locked = set(re.findall(r"^([a-z0-9-]+)==", (ROOT / lock).read_text(), re.MULTILINE))

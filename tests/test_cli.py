@@ -54,7 +54,7 @@ def test_every_command_module_is_an_entry_point() -> None:
 
 def test_commands_are_found_without_an_installation(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("generator.cli.main.metadata.entry_points", lambda group: [])
-    assert list(cli.commands()) == ["check", "evaluate", "generate", "list", "review"]
+    assert list(cli.commands()) == ["check", "evaluate", "generate", "identify", "list", "review"]
 
 
 def test_help_names_every_command_and_what_it_does(capsys: pytest.CaptureFixture[str]) -> None:
@@ -175,7 +175,7 @@ def test_generate_tests_the_code_and_sums_up(
     tallies = [line.split() for line in lines if line.startswith("self-test")]
     assert [(words[-1], int(words[1]) > 20) for words in tallies] == [("double", True), ("float", True)]
     folder = tmp_path / "out" / "pendulum"
-    assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: c (4), casadi (")
+    assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: batch (2), c (4), casadi (")
     assert lines[-1].endswith("manifest.json")
 
 

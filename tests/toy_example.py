@@ -39,7 +39,7 @@ def example() -> Any:
         function(program, "plain", [plain, sign, rest]),
         function(program, "constant", [program.constant(Fraction(1, 3)), program.constant(-2)]),
         function(program, "matrix", matrix, (3, 2), output="M"),
-        function(program, "sparse", [*([program.zero] * 3), q[0], *([program.zero] * 6), torque, program.zero]),
+        function(program, "sparse", [*([program.zero] * 3), q[0], *([program.zero] * 18), torque, program.zero]),
         function(program, "array", [*matrix, *matrix[::-1]], (2, 3, 2), output="T"),
         function(program, "packed", [q[0], torque], sparsity=Sparsity((2, 4), (0, 1), (3, 2))),
     )

@@ -12,7 +12,7 @@ from random import Random
 from typing import Any
 
 from benchmarks.loglog import loglog
-from benchmarks.table import table
+from benchmarks.study import alone
 from generator.derivation import derive
 from generator.generation import emitted
 from generator.resources import find_robot
@@ -63,6 +63,6 @@ def _growth(name: str, seconds: list[float]) -> str:
 
 
 if __name__ == "__main__":
-    result = run(Path())
-    print(table(result["rows"]))
-    print("\n".join(result["notes"]))
+    import benchmarks.studies.growth as study
+
+    alone(__file__, study)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from generator.backends.printing.c_functions import MATHEMATICS, CFunction, c_function, c_language
+from generator.backends.printing.c_functions import BLOCK, MATHEMATICS, CFunction, c_function, c_language
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare
@@ -24,7 +24,7 @@ from generator.version import VERSION
 NAME = "c"
 
 #: Macros of the header: no parameter's constant may be called like one of them.
-_MACROS = ("H", "NQ", "NPARAMETERS", "NSTANDARD", "USE_FLOAT", "STATIC_ASSERT")
+_MACROS = ("H", "NQ", "NPARAMETERS", "NSTANDARD", "USE_FLOAT", "USE_LIBM", "LANES", "STATIC_ASSERT")
 
 
 @dataclass(frozen=True)
@@ -68,6 +68,8 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
     tests, parameter_sets = self_tests(functions, reference)
     names = Identifiers(f"{macro}_{word}" for word in _MACROS)
     constants = _constants(model.parameters, f"{macro}_", names)
+    moving = _operations(prepared.moving.values())
+    angles = bool(moving & {"sin", "cos"})
     context = {
         "prefix": prefix,
         "macro": macro,
@@ -81,12 +83,14 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "functions": functions,
         "packed": [_packed(function) for function in functions if function.source.sparsity],
         "sets": _values(model, constants),
+        "uses_angles": angles,
     }
-    used = _operations([prepared.nodes, *prepared.moving.values()])
+    used = moving | _operations([prepared.nodes]) | ({"sin", "cos"} if angles else set())
     source = {
         "prepare": _prepare(prepared, prefix, constants),
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "uses_sign": "sign" in used,
+        "block": BLOCK,
     }
     return {
         f"{prefix}.h": render("c/header.h.jinja", **context),

@@ -1,4 +1,4 @@
-"""Generate everything from a robot file: C, CasADi, NumPy, the review pages and manifest.json.
+"""Generate everything from a robot file: C, CasADi, NumPy, Python, the review pages and manifest.json.
 
 The files go to OUT/<robot's name>/. They replace an older generation all at once; on bad input nothing is written.
 """
@@ -14,7 +14,7 @@ from generator.resources import find_robot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """ROBOT, --out, --plain, --build-in and --self-test."""
+    """ROBOT, --out, --plain, --build-in, --self-test and --library."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("generated"), help="default: generated")
     parser.add_argument(
@@ -32,12 +32,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="compile the C in double and float (compiler: CC or cc) and run its test",
     )
+    parser.add_argument(
+        "--library",
+        action="store_true",
+        help="compile the library of the Python module (compiler: CC or cc)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:
     """Generates, tests if asked to, prints a summary."""
     from generator.c_selftest import PRECISIONS, run_self_test
     from generator.generation import generate
+    from generator.python_library import build_library
 
     folder, manifest = generate(find_robot(arguments.robot), arguments.out, stage, arguments.plain, arguments.build_in)
     passed: dict[str, int] = {}
@@ -45,6 +51,9 @@ def run(arguments: argparse.Namespace) -> None:
         for precision in PRECISIONS:
             with stage(f"compiling the C in {precision.name} and running its self-test"):
                 passed[precision.name] = run_self_test(folder / "c", folder.name, precision)
+    if arguments.library:
+        with stage("compiling the library of the Python module"):
+            build_library(folder, folder.name)
     print(_summary(folder, manifest, passed))
 
 

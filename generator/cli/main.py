@@ -10,8 +10,10 @@ import argparse
 import importlib
 import os
 import sys
+import tomllib
 from collections.abc import Sequence
 from importlib import metadata
+from pathlib import Path
 from typing import NoReturn, Protocol, cast
 
 from generator.cli.place import command_line
@@ -20,8 +22,8 @@ from generator.version import VERSION
 
 GROUP = "counterpoise.commands"
 
-#: The generator's own commands, for a checkout that is not installed and has no entry points.
-_OWN = ("check", "evaluate", "generate", "list", "review")
+#: Where a checkout that is not installed names its commands.
+_PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 DONE, BAD_INPUT, INTERRUPTED = 0, 2, 130
 
@@ -65,8 +67,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 def commands() -> dict[str, Command]:
     """The commands by name, sorted: every installed distribution can register its own in the entry-point group."""
     registered = {entry.name: entry.load() for entry in metadata.entry_points(group=GROUP)}
-    found = registered or {name: importlib.import_module(f"generator.cli.{name}") for name in _OWN}
+    found = registered or {name: importlib.import_module(module) for name, module in _of_checkout().items()}
     return {name: cast(Command, found[name]) for name in sorted(found)}
+
+
+def _of_checkout() -> dict[str, str]:
+    """The modules of the commands by name, from the project's file."""
+    project = tomllib.loads(_PROJECT.read_text(encoding="utf-8"))["project"]
+    modules: dict[str, str] = project["entry-points"][GROUP]
+    return modules
 
 
 def _parser(known: dict[str, Command]) -> argparse.ArgumentParser:

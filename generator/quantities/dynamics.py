@@ -13,5 +13,5 @@ QUANTITY = Quantity(
         signals.matrix("M", model.dof, model.dof, "inertia matrix, symmetric, rotor inertias included"),
         signals.renamed(signals.tau, "Q", "gravity torques, on the joint side")(model),
     ),
-    build=lambda model: (model.base.inverse_dynamics(), model.base.inertia_matrix, model.base.gravity),
+    build=lambda model: (model.base.inverse_dynamics(), model.base.inertia_matrix, model.base.gravity_beside_inertia),
 )

@@ -10,6 +10,7 @@ from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.function import Signal
 from generator.symbolic.model import STANDARD, Model
 
+_SURFACES = "of the motors, then of the elastic joints' links"
 _INERTIAL_UNITS = ("kg m2",) * 6 + ("kg m",) * 3 + ("kg",)
 
 
@@ -43,6 +44,28 @@ def qdd(model: Model) -> Signal:
 
 def tau(model: Model) -> Signal:
     return Signal("tau", (model.dof,), torque_units(model), "motor torques, on the joint side")
+
+
+def tau_ext(model: Model) -> Signal:
+    return Signal("tau_ext", (model.dof,), torque_units(model), "torques of the surroundings on the links, with tau")
+
+
+def direction(model: Model) -> Signal:
+    return Signal("direction", (model.dof,), ("1",), "in the place of sign(qd), joint by joint")
+
+
+def width(model: Model) -> Signal:
+    return renamed(qd, "width", "speeds within which the friction turns round, more than 0")(model)
+
+
+def flexible_direction(model: Model) -> Signal:
+    return Signal("direction", (model.flexible_dof,), ("1",), f"in the place of sign(speed): {_SURFACES}")
+
+
+def flexible_width(model: Model) -> Signal:
+    return renamed(flexible_qd, "width", f"speeds within which the friction turns round, more than 0: {_SURFACES}")(
+        model
+    )
 
 
 def wrench(model: Model) -> Signal:

@@ -54,6 +54,11 @@ def sign(x: Decimal) -> Decimal:
     return Decimal((x > 0) - (x < 0))
 
 
+def smooth_signs(speeds: Array, widths: Array) -> Array:
+    """x / sqrt(x^2 + width^2) of each speed x."""
+    return np.array([x / (x * x + w * w).sqrt() for x, w in zip(speeds, widths, strict=True)], dtype=object)
+
+
 def sine(x: Decimal) -> Decimal:
     """The sine of x, by its series after reduction to [-pi, pi]."""
     angle = x.remainder_near(2 * _PI, CONTEXT)

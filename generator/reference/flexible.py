@@ -6,7 +6,7 @@ The link side is the rigid robot at q_a = q_m + q_e; an elastic joint's motor ha
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 import numpy as np
@@ -23,16 +23,28 @@ MOTOR_SIDE = ("Iam", "Fvm", "Fcm", "Offm", "k")
 class Flexible:
     """``link`` is the robot behind the springs; ``elastic`` maps each elastic joint's coordinate to its number.
 
-    ``gaps`` are the backlashes by joint number, where there are any.
+    ``gaps`` are the backlashes by joint number, where there are any. ``direction`` stands for the signs of the motors'
+    speeds, where it is given.
     """
 
     link: Rigid
     elastic: dict[int, int]
     gaps: Mapping[int, Decimal]
+    direction: Array | None = None
 
     @property
     def dof(self) -> int:
         return self.link.chain.dof
+
+    def sliding(self, direction: Array) -> Flexible:
+        """The same robot with ``direction`` for the signs of the speeds of the motors, then of the elastic links."""
+        of_links = direction[: self.dof].copy()
+        of_links[list(self.elastic)] = direction[self.dof :]
+        return replace(self, link=self.link.sliding(of_links), direction=direction)
+
+    def surface_speeds(self, qd: Array) -> Array:
+        """Speeds of the motors, then of the links of the elastic joints."""
+        return np.concatenate([qd[: self.dof], self.at_links(qd)[list(self.elastic)]])
 
     def at_links(self, stacked: Array) -> Array:
         """q_a (n) of [q_m; q_e], and likewise for speeds and accelerations."""
@@ -45,24 +57,27 @@ class Flexible:
         of_links = self.link.inverse_dynamics(self.at_links(q), self.at_links(qd), self.at_links(qdd))
         tau = of_links.copy()
         for e, (i, number) in enumerate(self.elastic.items()):
-            columns = _columns(self.wound(number, q[self.dof + e]), qd[i], qdd[i])
+            columns = self._columns(e, i, q, qd, qdd)
             tau[i] = sum((self.value(stem, number) * column for stem, column in columns.items()), Decimal(0))
         return tau, of_links[list(self.elastic)]
 
-    def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
-        """[qdd_m; qdd_e] (eq. 11), solved as one system of all n + e coordinates."""
+    def direct_dynamics(self, q: Array, qd: Array, tau: Array, tau_ext: Array | None = None) -> Array:
+        """[qdd_m; qdd_e] (eq. 11), solved as one system of all n + e coordinates; ``tau_ext`` (n) acts on the links."""
         n, size = self.dof, self.dof + len(self.elastic)
         M = self.link.inertia_matrix(self.at_links(q))
         at_rest, of_links = self.inverse_dynamics(q, qd, zeros(size))
         left, right = zeros(size, size), zeros(size)
         left[:n, :n] = M
         left[:n, n:] = M[:, list(self.elastic)]
+        others = zeros(n) if tau_ext is None else tau_ext
         right[:n] = tau - at_rest
         for e, (i, number) in enumerate(self.elastic.items()):
             left[n + e] = left[i]
-            right[n + e] = -self.value("k", number) * self.wound(number, q[n + e]) - of_links[e]
+            right[n + e] = -self.value("k", number) * self.wound(number, q[n + e]) - of_links[e] + others[i]
             left[i] = zeros(size)
             left[i, i] = self.value("Iam", number)
+        rigid = [i for i in range(n) if i not in self.elastic]
+        right[rigid] += others[rigid]
         return solve(left, right)
 
     def regressor(self, columns: Sequence[str], q: Array, qd: Array, qdd: Array) -> Array:
@@ -73,7 +88,7 @@ class Flexible:
         n = self.dof
         known: dict[str, Array] = {}
         for e, (i, number) in enumerate(self.elastic.items()):
-            for stem, torque in _columns(self.wound(number, q[n + e]), qd[i], qdd[i]).items():
+            for stem, torque in self._columns(e, i, q, qd, qdd).items():
                 column = known[f"{stem}{number}"] = zeros(n + len(self.elastic))
                 column[i] = torque
                 if stem == "k":
@@ -94,10 +109,11 @@ class Flexible:
         """A motor-side parameter; zero if it was not given."""
         return self.link.values.get(f"{stem}{number}", Decimal(0))
 
-
-def _columns(qe: Decimal, qmd: Decimal, qmdd: Decimal) -> dict[str, Decimal]:
-    """Motor torque per unit of each parameter of eq. 12 (eq. 8, 9)."""
-    return dict(zip(MOTOR_SIDE, (qmdd, qmd, sign(qmd), Decimal(1), -qe), strict=True))
+    def _columns(self, e: int, i: int, q: Array, qd: Array, qdd: Array) -> dict[str, Decimal]:
+        """Torque of motor ``i``, the ``e``-th elastic one, per unit of each parameter of eq. 12 (eq. 8, 9)."""
+        direction = sign(qd[i]) if self.direction is None else self.direction[i]
+        wound = self.wound(self.elastic[i], q[self.dof + e])
+        return dict(zip(MOTOR_SIDE, (qdd[i], qd[i], direction, Decimal(1), -wound), strict=True))
 
 
 def flexible(robot: Robot, link: Rigid) -> Flexible:

@@ -9,7 +9,7 @@ from decimal import localcontext
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from generator.reference.arithmetic import CONTEXT, Array, decimals, floats
+from generator.reference.arithmetic import CONTEXT, Array, decimals, floats, smooth_signs
 from generator.reference.drives import DriveTrain, drive_train
 from generator.reference.flexible import Flexible, flexible
 from generator.reference.matter import INERTIAL
@@ -150,6 +150,25 @@ def _flexible_inverse_dynamics(case: Case) -> Results:
     return {"tau_mdi": tau_mdi, "tau_e": tau_e}
 
 
+def _direct_dynamics_sliding(case: Case) -> Results:
+    return {"qdd": case.rigid.sliding(case["direction"]).direct_dynamics(*case.state, case["tau"])}
+
+
+def _direct_dynamics_smooth(case: Case) -> Results:
+    direction = smooth_signs(case["qd"], case["width"])
+    return {"qdd": case.rigid.sliding(direction).direct_dynamics(*case.state, case["tau"])}
+
+
+def _flexible_direct_dynamics_sliding(case: Case) -> Results:
+    robot = case.flexible.sliding(case["direction"])
+    return {"qdd": robot.direct_dynamics(*case.state, case["tau"], case["tau_ext"])}
+
+
+def _flexible_direct_dynamics_smooth(case: Case) -> Results:
+    direction = smooth_signs(case.flexible.surface_speeds(case["qd"]), case["width"])
+    return {"qdd": case.flexible.sliding(direction).direct_dynamics(*case.state, case["tau"], case["tau_ext"])}
+
+
 _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "transforms": _transforms,
     "jacobians": _jacobians,
@@ -169,6 +188,8 @@ _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "gravity": lambda case: {"Q": case.rigid.gravity(case["q"])},
     "direct_dynamics": lambda case: {"qdd": case.rigid.direct_dynamics(*case.state, case["tau"])},
     "direct_dynamics_loaded": _direct_dynamics_loaded,
+    "direct_dynamics_sliding": _direct_dynamics_sliding,
+    "direct_dynamics_smooth": _direct_dynamics_smooth,
     "kinetic_energy": lambda case: {"T": case.rigid.kinetic_energy(*case.state)},
     "potential_energy": lambda case: {"U": case.rigid.potential_energy(case["q"])},
     "balancer": _balancer,
@@ -182,6 +203,8 @@ _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "joint_torque_from_current": lambda case: {"tau": case.drives.torque_from_current(case["current"])},
     "flexible_inverse_dynamics": _flexible_inverse_dynamics,
     "flexible_direct_dynamics": lambda case: {"qdd": case.flexible.direct_dynamics(*case.state, case["tau"])},
+    "flexible_direct_dynamics_sliding": _flexible_direct_dynamics_sliding,
+    "flexible_direct_dynamics_smooth": _flexible_direct_dynamics_smooth,
     "flexible_regressor": lambda case: {"W": case.flexible.regressor(case.columns, *case.motion)},
 }
 

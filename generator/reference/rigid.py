@@ -42,6 +42,10 @@ class Rigid:
         tool, load = self.chain.tool, pseudo_inertia(dict(zip(INERTIAL, payload, strict=True)))
         return replace(self, matter={**self.matter, tool: self.matter.get(tool, zeros(4, 4)) + load})
 
+    def sliding(self, direction: Array) -> Rigid:
+        """The same robot with ``direction`` (n) in the place of sign(qd)."""
+        return replace(self, effects=tuple(effect.sliding(direction[effect.coordinate]) for effect in self.effects))
+
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
         tau, beside = lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held, self._beside(q)
@@ -72,7 +76,7 @@ class Rigid:
         return lagrange.gravity(self.chain, self.matter, q)
 
     def inertia_matrix(self, q: Array) -> Array:
-        """M(q) (n x n), the rotors' inertias on its diagonal."""
+        """M(q) (n x n) with the rotors' inertias."""
         M = lagrange.inertia_matrix(self.chain, self.matter, q)
         for effect in self.effects:
             M = M + self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares)

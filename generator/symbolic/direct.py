@@ -29,7 +29,8 @@ def solve(matrix: Array, right: Array) -> Array:
         for i in range(k):
             x[i] = x[i] - lower[k, i] * x[k]
     for k in range(size):
-        x[k] = x[k] * inverse[k]
+        # The first pivot divides once, so that its inverse is never made.
+        x[k] = x[k] * inverse[k] if k else x[k] / rest[k, k]
         for i in range(k):
             x[k] = x[k] - lower[k, i] * x[i]
     return x

@@ -9,19 +9,16 @@ from functools import cached_property
 import numpy as np
 
 from generator.effects.library import Instance
-from generator.symbolic import effect_torques, lean_newton_euler, newton_euler, strategy
-from generator.symbolic.bodies import INERTIAL, Body, bodies
+from generator.symbolic import effect_torques, newton_euler, regressor, strategy
+from generator.symbolic.bodies import Body, bodies
 from generator.symbolic.direct import solve
 from generator.symbolic.effect_torques import JointMotion
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import is_last, offset_along_axis, slid_origin
-from generator.symbolic.kinematics import screws, velocities
-from generator.symbolic.lean_screws import Screws, own_screws
-from generator.symbolic.newton_euler import Motion, Wrench
-from generator.symbolic.regressor import columns_about
+from generator.symbolic.kinematics import velocities
+from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.statements import Node
 from generator.symbolic.strategy import TEXTBOOK, Strategies
-from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
+from generator.symbolic.vectors import Array, Nodes, cross, dot, zeros
 
 
 @dataclass(frozen=True)
@@ -90,7 +87,12 @@ class Dynamics:
     @cached_property
     def gravity(self) -> Array:
         """Torque of the bodies' weight alone; balancers and offsets are effects and are not in it."""
-        return strategy.torques(self.chain, self.matter, self.still, self.still, self.strategies.gravity)
+        return strategy.gravity(self.chain, self.matter, self.strategies.gravity)
+
+    @cached_property
+    def gravity_beside_inertia(self) -> Array:
+        """The same torques, written to share the composite bodies of the inertia matrix."""
+        return strategy.gravity(self.chain, self.matter, self.strategies.gravity_beside_inertia)
 
     @cached_property
     def inertia_matrix(self) -> Array:
@@ -138,32 +140,10 @@ class Dynamics:
 
     def regressor_columns(self, names: Iterable[str]) -> dict[str, dict[int, Node]]:
         """Columns of the regressor (report eq. 3) by standard parameter, each {coordinate: entry}."""
-        of_effects = effect_torques.columns(self.chain, self.effects, self.joint_motion(self.qd, self.qdd))
         wanted = list(names)
-        found = dict(of_effects)
-        motion, carried_by, offsets = self._motion_and_screws()
-        for frame in self.chain.frames:
-            j = frame.number
-            stems = [stem for stem in INERTIAL if f"{stem}{j}" in wanted]
-            columns = columns_about(self.chain, frame, stems, motion[j], carried_by[j], offsets[j])
-            found |= {f"{stem}{j}": column for stem, column in columns.items()}
+        found = dict(effect_torques.columns(self.chain, self.effects, self.joint_motion(self.qd, self.qdd)))
+        found |= regressor.columns(self.chain, wanted, self.qd, self.qdd, self.strategies.regressor)
         return {name: found[name] for name in wanted}
-
-    def _motion_and_screws(self) -> tuple[Mapping[int, Motion], Screws, Mapping[int, Node]]:
-        """Motion and screws of a point of every frame in its own axes, and the origin's offset along z from it."""
-        zero = self.chain.program.zero
-        offsets = {frame.number: zero for frame in self.chain.frames}
-        if self.strategies.torque is None:
-            return newton_euler.motions(self.chain, self.qd, self.qdd), screws(self.chain), offsets
-        positions = {frame.number: frame.position for frame in self.chain.frames}
-        for frame in self.chain.frames:
-            if frame.revolute and is_last(self.chain, frame):
-                offsets[frame.number], positions[frame.number] = offset_along_axis(frame), slid_origin(frame)
-            elif frame.parent is not None:
-                back = array(self.chain.program, [0, 0, offsets[frame.parent.number]])
-                positions[frame.number] = frame.position + back
-        motion = lean_newton_euler.own_motions(self.chain, positions, self.qd, self.qdd)
-        return motion, own_screws(self.chain, positions), offsets
 
     def _torques(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None) -> Array:
         if wrench is None:

@@ -1,7 +1,8 @@
 """Common factors taken out of sums: a b + a c becomes a (b + c) where neither product serves anything else.
 
-Mechanics makes the equations short; this takes the few multiplications that it leaves. Nothing that is shared is taken
-apart, so that no function gets longer.
+Terms that only parameters make are summed apart and parameters that weigh a sum go into its terms, since ``prepare``
+does such work once. Mechanics makes the equations short; this takes the few operations that it leaves. Nothing that is
+shared is taken apart, so that no function gets longer.
 """
 
 from __future__ import annotations
@@ -40,8 +41,10 @@ class _Rewriter:
             self.done[node] = node
         elif node.operation in ("add", "sub"):
             self.done[node] = self._sum(self._terms(node))
+        elif node.operation == "mul" and (weighted := self._weighted(*node.arguments)) is not None:
+            self.done[node] = weighted
         else:
-            self.done[node] = self._same(node, [self.done[argument] for argument in node.arguments])
+            self.done[node] = self.program.apply(node.operation, [self.done[a] for a in node.arguments])
         if node.name and self.done[node].name is None and self.done[node].arguments:
             self.done[node].name = node.name
 
@@ -61,23 +64,60 @@ class _Rewriter:
     def _single(self, node: Node) -> bool:
         return self.uses[node] == 1
 
+    def _weighted(self, weight: Node, node: Node) -> Node | None:
+        """p (p1 x + p2 y) as (p p1) x + (p p2) y, None for anything else: products of parameters cost nothing."""
+        if node.parameter_only:
+            weight, node = node, weight
+        inner = self.done[node]
+        private = self._single(node) and node.operation in ("add", "sub") and inner.operation in ("add", "sub")
+        if not weight.parameter_only or not private:
+            return None
+        terms = self._terms(node)
+        for _, term in terms:
+            if not term.parameter_only and not (self._is_private_product(term) and _has_parameter(term)):
+                return None
+        return self._added([(negative, self.program.multiply(weight, self.done[term])) for negative, term in terms])
+
     def _sum(self, terms: list[Term]) -> Node:
+        still = [(negative, self.done[node]) for negative, node in terms if node.parameter_only]
+        moving = [term for term in terms if not term[1].parameter_only]
+        total = self._sum_of_moving(moving)
+        return total + self._added(still) if still else total
+
+    def _sum_of_moving(self, terms: list[Term]) -> Node:
         products = [(place, term) for place, term in enumerate(terms) if self._is_private_product(term[1])]
+        factors = {place: self._factors(product) for place, (_, product) in products}
         counts: Counter[Node] = Counter()
-        for _, (_, product) in products:
-            counts.update(set(_factors(product)))
+        for found in factors.values():
+            counts.update(set(found))
         best = max(counts, key=lambda factor: (counts[factor], -factor.index), default=None)
         if best is None or counts[best] < 2:
             return self._added([(negative, self.done[node]) for negative, node in terms])
-        chosen = {place for place, (_, product) in products if best in _factors(product)}
-        picked = [terms[place] for place in sorted(chosen)]
-        inner = [(negative != _negative(term), _other(term, best)) for negative, term in picked]
-        bracket = self._added([(negative, self.done[node]) for negative, node in inner])
+        chosen = [place for place, found in factors.items() if best in found]
+        bracket = self._added(
+            [(terms[k][0] != _negative(terms[k][1]), self._product_without(best, factors[k])) for k in chosen]
+        )
         product = self.done[best] * bracket
         rest = [term for place, term in enumerate(terms) if place not in chosen]
         if not rest:
             return product
-        return self._sum(rest) + product
+        return self._sum_of_moving(rest) + product
+
+    def _factors(self, product: Node) -> list[Node]:
+        """The factors of a private product, those of private products within it included."""
+        inner = product.arguments[0] if product.operation == "neg" else product
+        result: list[Node] = []
+        for argument in inner.arguments:
+            nested = argument.operation == "mul" and self._is_private_product(argument)
+            result += self._factors(argument) if nested else [argument]
+        return result
+
+    def _product_without(self, factor: Node, factors: Sequence[Node]) -> Node:
+        place = factors.index(factor)
+        result = self.program.one
+        for other in sorted([*factors[:place], *factors[place + 1 :]], key=lambda node: not node.parameter_only):
+            result = self.program.multiply(result, self.done[other])
+        return result
 
     def _is_private_product(self, node: Node) -> bool:
         inner = node.arguments[0] if node.operation == "neg" else node
@@ -89,31 +129,11 @@ class _Rewriter:
             total = total - node if negative else total + node
         return total
 
-    def _same(self, node: Node, arguments: list[Node]) -> Node:
-        program = self.program
-        if node.operation == "mul":
-            return program.multiply(*arguments)
-        if node.operation == "div":
-            return program.divide(*arguments)
-        if node.operation == "neg":
-            return program.negate(arguments[0])
-        if node.operation == "pow":
-            exponent = arguments[1].number
-            assert exponent is not None
-            return program.power(arguments[0], exponent)
-        return program.function(node.operation, arguments[0])
-
 
 def _negative(product: Node) -> bool:
     return product.operation == "neg"
 
 
-def _factors(product: Node) -> tuple[Node, ...]:
+def _has_parameter(product: Node) -> bool:
     inner = product.arguments[0] if product.operation == "neg" else product
-    return inner.arguments
-
-
-def _other(product: Node, factor: Node) -> Node:
-    inner = product.arguments[0] if product.operation == "neg" else product
-    first, second = inner.arguments
-    return second if first is factor else first
+    return any(argument.parameter_only for argument in inner.arguments)

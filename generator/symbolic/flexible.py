@@ -60,8 +60,8 @@ class FlexibleDynamics:
             tau[joint] = of_motors[joint]
         return tau, of_links[list(self.elastic)]
 
-    def direct_dynamics(self, tau: Nodes) -> Array:
-        """[qdd_m; qdd_e] from the motor torques tau (n) (eq. 11)."""
+    def direct_dynamics(self, tau: Nodes, tau_ext: Nodes | None = None) -> Array:
+        """[qdd_m; qdd_e] from the motor torques tau (n) (eq. 11) and torques tau_ext (n) of others on the links."""
         n = self.dof
         chain = self.link.chain
         still = [chain.program.zero] * n
@@ -69,7 +69,7 @@ class FlexibleDynamics:
         drive = np.array(tau, dtype=object)
         for joint in self.elastic:
             drive[joint] = self._spring(joint)
-        of_links = self.link.direct_dynamics(drive)
+        of_links = self.link.direct_dynamics(drive if tau_ext is None else drive + np.array(tau_ext, dtype=object))
         of_motors = np.array(of_links, dtype=object)
         inertia = effect_torques.inertia(chain, self.motor_effects, self.motor_motion, self.parameters)
         for joint in self.elastic:

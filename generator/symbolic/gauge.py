@@ -7,8 +7,9 @@ parameters, once, in ``prepare``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
@@ -21,38 +22,48 @@ from generator.symbolic.vectors import Array, array, dot, identity, named, zeros
 class Gauge:
     """Which freedoms to use beyond S33 = MZ = M = 0.
 
-    ``slide`` moves the origin of a last frame along its axis next to its antecedent's; ``balance`` names joints that
-    keep a mass at their origin, such that one first moment of their antecedent vanishes.
+    ``slide`` names joints whose frame moves along the axis to the point next to the antecedent's origin; ``balance``
+    names joints that keep a mass at their origin, such that one first moment of their antecedent vanishes; ``unit`` [m]
+    is the unit of length, which can make a length of the chain 1.
     """
 
-    slide: bool = True
-    balance: tuple[int, ...] = ()
+    slide: frozenset[int] = frozenset()
+    balance: frozenset[int] = frozenset()
+    unit: Fraction = Fraction(1)
 
     def __str__(self) -> str:
-        joints = ", ".join(map(str, self.balance))
-        return f", a mass kept at O{joints} against a first moment" if self.balance else ""
+        slide, balance = (", ".join(map(str, sorted(joints))) for joints in (self.slide, self.balance))
+        return (
+            (f", frames {slide} slid along their axes" if slide else "")
+            + (f", a mass kept at O{balance} against a first moment" if balance else "")
+            + (f", lengths in units of {float(self.unit):g} m" if self.unit != 1 else "")
+        )
 
 
 @dataclass(frozen=True)
 class Regauged:
-    """The bodies after the choice by frame number, and the origins of the frames in their antecedents."""
+    """The bodies after the choice by frame number, the frames' origins in their antecedents, and the free fall.
+
+    Lengths, moments and the free fall are in the unit of length of the choice, with a unit of mass that leaves inertias
+    and torques as they are.
+    """
 
     parts: Mapping[int, Matter]
     positions: Mapping[int, Array]
+    gravity: Array
 
 
 def regauge(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge) -> Regauged:
     """Bodies with the same torques on every joint."""
     program = chain.program
-    parts = {j: matter(body) for j, body in bodies.items()}
-    positions = {frame.number: frame.position for frame in chain.frames}
+    origins = slid_origins(chain, gauge.slide)
+    positions = origins.positions
+    parts = {j: _about(matter(body), origins.offsets[j]) for j, body in bodies.items()}
     for frame in reversed(chain.frames):
         j = frame.number
         if j not in parts:
             continue
         part = parts[j]
-        if gauge.slide and frame.revolute and is_last(chain, frame):
-            part, positions[j] = _slid(frame, part)
         below = nothing(program)
         if frame.parent is not None:
             below = parts.get(frame.parent.number, below)
@@ -63,10 +74,12 @@ def regauge(chain: Chain, bodies: Mapping[int, Body], gauge: Gauge) -> Regauged:
         parts[j] = Matter(part.sigma - leaving.sigma, part.moment - leaving.moment, part.mass - leaving.mass)
         if frame.parent is not None:
             parts[frame.parent.number] = below + moved(leaving, frame.rotation, positions[j])
-    for j, part in parts.items():
-        named("S", j, part.sigma)
-        named("MS", j, part.moment)
-    return Regauged(parts, positions)
+    unit = gauge.unit
+    scaled = {
+        j: Matter(named("S", j, part.sigma), named("MS", j, unit * part.moment), unit * unit * part.mass)
+        for j, part in parts.items()
+    }
+    return Regauged(scaled, {j: position / unit for j, position in positions.items()}, chain.gravity / unit)
 
 
 def _leaving(frame: Frame, part: Matter) -> Matter:
@@ -86,29 +99,45 @@ def is_last(chain: Chain, frame: Frame) -> bool:
     return all(other.parent is not frame or not other.has_body() for other in chain.frames)
 
 
-def _slid(frame: Frame, part: Matter) -> tuple[Matter, Array]:
-    """The body about the point of its axis next to the antecedent's origin, and that point."""
+@dataclass(frozen=True)
+class Origins:
+    """Where the frames' origins are put: ``positions`` in their antecedents, and for each frame the ``offsets`` along z
+    of its own origin from the point put in its place.
+    """
+
+    positions: Mapping[int, Array]
+    offsets: Mapping[int, Node]
+
+
+def slid_origins(chain: Chain, slide: Collection[int]) -> Origins:
+    """Origins of the frames ``slide`` at the points of their axes next to their antecedents' origins."""
+    program = chain.program
+    positions: dict[int, Array] = {}
+    offsets: dict[int, Node] = {}
+    for frame in chain.frames:
+        j, z = frame.number, frame.rotation[:, 2]
+        position, offset = frame.position, program.zero
+        if frame.parent is not None:
+            position = position + array(program, [0, 0, offsets[frame.parent.number]])
+        if j in slide:
+            offset = dot(z, position)
+            position = position - offset * z
+        positions[j], offsets[j] = position, offset
+    return Origins(positions, offsets)
+
+
+def _about(part: Matter, offset: Node) -> Matter:
+    """The body about the point of its axis from which its origin is ``offset`` away."""
     program = part.mass.program
-    r = offset_along_axis(frame)
-    shift = array(program, [0, 0, r])
-    return moved(part, identity(program, 3), shift), slid_origin(frame)
-
-
-def offset_along_axis(frame: Frame) -> Node:
-    """How far the frame's origin stands along its own axis from the point next to its antecedent's origin."""
-    return dot(frame.rotation[:, 2], frame.position)
-
-
-def slid_origin(frame: Frame) -> Array:
-    """That point, in the antecedent's frame."""
-    origin: Array = frame.position - offset_along_axis(frame) * frame.rotation[:, 2]
-    return origin
+    if offset is program.zero:
+        return part
+    return moved(part, identity(program, 3), array(program, [0, 0, offset]))
 
 
 def _balancing_mass(below: Matter, position: Array) -> Node:
     """The mass to keep at ``position`` so that the antecedent's moment along y, else along x, becomes zero."""
     zero = below.mass.program.zero
-    component = next((k for k in (1, 0) if position[k] is not zero), None)
+    component = next((k for k in (1, 0) if position[k].number), None)
     if component is None:
         return zero
     mass: Node = below.moment[component] / position[component]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from generator.symbolic.frames import Chain
 from generator.symbolic.kinematics import Screw
@@ -13,9 +14,60 @@ from generator.symbolic.vectors import Array, array, cross, zeros
 Screws = Mapping[int, Mapping[int, Screw]]
 
 
-def own_screws(chain: Chain, positions: Mapping[int, Array]) -> Screws:
-    """For each frame, by coordinate, the screws of the joints that carry it, in own axes at ``positions``."""
-    return screws(chain, segments(chain), positions)[0]
+@dataclass(frozen=True)
+class Beside:
+    """A screw that turns as that of another ``coordinate``, about a parallel axis: its v is that one's and ``v``."""
+
+    coordinate: int
+    v: Array
+
+
+def screws_beside(chain: Chain, positions: Mapping[int, Array]) -> Mapping[int, Mapping[int, Screw | Beside]]:
+    """For each frame, by coordinate, the screws of the joints that carry it, in own axes at ``positions``.
+
+    Of joints with parallel axes in a row, the last has its screw and the others stand beside it.
+    """
+    program = chain.program
+    spun = segments(chain)
+    z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
+    in_unspun: dict[int, dict[int, Screw | Beside]] = {}
+    own: dict[int, dict[int, Screw | Beside]] = {}
+    for frame in chain.frames:
+        j, link = frame.number, spun[frame.number]
+        mine: dict[int, Screw | Beside] = {}
+        if frame.parent is not None:
+            k, last = frame.parent.number, frame.parent.coordinate
+            arm = spun[k].to_unspun(positions[j]) if link.continues else positions[j]
+            for coordinate, screw in (in_unspun if link.continues else own)[k].items():
+                if isinstance(screw, Screw):
+                    v = screw.v + cross(screw.w, arm)
+                    mine[coordinate] = Screw(link.entry.T @ screw.w, link.entry.T @ v)
+                else:
+                    mine[coordinate] = Beside(screw.coordinate, link.entry.T @ screw.v)
+            if link.continues and last is not None and frame.coordinate is not None:
+                mine = _based_on(frame.coordinate, last, mine)
+        if frame.coordinate is not None:
+            mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
+        in_unspun[j] = mine
+        own[j] = {c: _turned(screw, link) for c, screw in mine.items()}
+    return own
+
+
+def _based_on(coordinate: int, last: int, mine: Mapping[int, Screw | Beside]) -> dict[int, Screw | Beside]:
+    """The screw of the joint ``last``, and those beside it, beside that of the joint that starts at this origin."""
+    result = dict(mine)
+    for c, screw in mine.items():
+        if c == last:
+            result[c] = Beside(coordinate, screw.v)
+        elif isinstance(screw, Beside) and screw.coordinate == last:
+            result[c] = Beside(coordinate, screw.v + mine[last].v)
+    return result
+
+
+def _turned(screw: Screw | Beside, link: Spun) -> Screw | Beside:
+    if isinstance(screw, Screw):
+        return Screw(link.to_own(screw.w), link.to_own(screw.v))
+    return Beside(screw.coordinate, link.to_own(screw.v))
 
 
 def screws(chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array]) -> tuple[Screws, Screws]:

@@ -262,7 +262,7 @@ class Model:
         if self.plain:
             return TEXTBOOK
         matter = Dynamics(self.chain, self.effects, self.kept, self.qd, self.qdd).matter
-        return choose(self.chain, matter, self.qd, self.qdd)
+        return choose(self.chain, matter, self.qd, self.qdd, tuple(self.kept))
 
     @cached_property
     def standard(self) -> Dynamics:

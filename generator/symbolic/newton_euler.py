@@ -17,13 +17,15 @@ from generator.symbolic.vectors import Array, Nodes, array, cross, named, skew, 
 @dataclass(frozen=True)
 class Motion:
     """Motion of frame j: angular velocity ``w`` [rad/s], U = skew(wd) + skew(w)^2 [rad/s2], acceleration ``a`` of O_j
-    [m/s2] with gravity taken as an acceleration of the base, angular acceleration ``wd`` [rad/s2].
+    [m/s2] with gravity taken as an acceleration of the base, angular acceleration ``wd`` [rad/s2]. ``differences`` are
+    U33 - U22, U11 - U33, U22 - U11.
     """
 
     w: Array
     wd: Array
     u: Array
     a: Array
+    differences: Array
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,8 @@ def motions(chain: Chain, qd: Nodes, qdd: Nodes, gravity: Array | None = None) -
     """Forward recursion from joint speeds and accelerations; ``gravity`` (frame 0) defaults to the chain's."""
     program = chain.program
     free_fall = chain.gravity if gravity is None else gravity
-    rest = Motion(zeros(program, 3), zeros(program, 3), zeros(program, 3, 3), -free_fall)
+    nothing = zeros(program, 3)
+    rest = Motion(nothing, nothing, zeros(program, 3, 3), -free_fall, nothing)
     result: dict[int, Motion] = {}
     for frame in chain.frames:
         before = result[frame.parent.number] if frame.parent else rest
@@ -64,7 +67,8 @@ def _step(chain: Chain, frame: Frame, before: Motion, qd: Nodes, qdd: Nodes) -> 
         else:
             a = a + 2 * cross(w, speed) + acceleration
     u = skew(wd) + _skew_squared(w)
-    return Motion(named("W", j, w), named("WP", j, wd), u, named("VP", j, a))
+    differences = array(chain.program, [u[2, 2] - u[1, 1], u[0, 0] - u[2, 2], u[1, 1] - u[0, 0]])
+    return Motion(named("W", j, w), named("WP", j, wd), u, named("VP", j, a), differences)
 
 
 def _skew_squared(w: Array) -> Array:

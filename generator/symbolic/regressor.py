@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 
+from generator.symbolic import lean_motion, newton_euler
+from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.kinematics import Screw
+from generator.symbolic.gauge import slid_origins
+from generator.symbolic.kinematics import Screw, screws
+from generator.symbolic.lean_screws import Beside, screws_beside
 from generator.symbolic.newton_euler import Motion
 from generator.symbolic.statements import Node, Program
-from generator.symbolic.vectors import Array, array, cross, zeros
+from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 
 #: Entries of the inertia tensor that each of its parameters fills.
 _TENSOR = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
@@ -30,7 +35,8 @@ def _tensor_moment(program: Program, a: int, b: int, motion: Motion) -> Array:
     """J wd + w x J w for a tensor J whose only entries are J_ab = J_ba = 1.
 
     With c the third index and s the sign of the permutation (a, b, c), the moment is
-    n_a = -s U_ca, n_b = s U_cb, n_c = s (U_aa - U_bb): the products of w that U holds serve every column.
+    n_a = -s U_ca, n_b = s U_cb, n_c = s (U_aa - U_bb): the products of w that U holds serve every column, and the
+    differences too.
     """
     w, wd, u = motion.w, motion.wd, motion.u
     moment = zeros(program, 3)
@@ -40,24 +46,27 @@ def _tensor_moment(program: Program, a: int, b: int, motion: Motion) -> Array:
         return moment
     c = 3 - a - b
     s = 1 if (a + 1) % 3 == b else -1
-    moment[a], moment[b], moment[c] = -s * u[c, a], s * u[c, b], s * (u[a, a] - u[b, b])
+    moment[a], moment[b], moment[c] = -s * u[c, a], s * u[c, b], -motion.differences[c]
     return moment
 
 
 def column(
-    chain: Chain, frame: Frame, parameter: str, motion: Motion, carried_by: Mapping[int, Screw]
+    chain: Chain, frame: Frame, parameter: str, motion: Motion, carried_by: Mapping[int, Screw | Beside]
 ) -> dict[int, Node]:
     """Torque per unit of ``parameter`` of the body of ``frame``, by coordinate of the joints that carry it."""
+    zero = chain.program.zero
     force, moment = unit_wrench(chain.program, parameter, motion)
     entries: dict[int, Node] = {}
     for coordinate, screw in carried_by.items():
-        torque = chain.program.zero
-        if moment is not None:
-            torque = torque + screw.w @ moment
-        if force is not None:
-            torque = torque + screw.v @ force
-        entries[coordinate] = torque
-    return entries
+        if isinstance(screw, Screw):
+            entries[coordinate] = dot(screw.w, moment) if moment is not None else zero
+            if force is not None:
+                entries[coordinate] = entries[coordinate] + dot(screw.v, force)
+    for coordinate, screw in carried_by.items():
+        if isinstance(screw, Beside):
+            moved = dot(screw.v, force) if force is not None else zero
+            entries[coordinate] = entries[screw.coordinate] + moved
+    return {coordinate: entries[coordinate] for coordinate in carried_by}
 
 
 #: A column of a frame's origin in terms of columns of a point r before it on the axis: factor, power of r, parameter.
@@ -70,7 +79,7 @@ _SHIFTED = {
 
 
 def columns_about(
-    chain: Chain, frame: Frame, stems: Iterable[str], motion: Motion, carried_by: Mapping[int, Screw], r: Node
+    chain: Chain, frame: Frame, stems: Iterable[str], motion: Motion, carried_by: Mapping[int, Screw | Beside], r: Node
 ) -> dict[str, dict[int, Node]]:
     """The columns of a body's parameters ``stems``, from motion and screws of a point of its axis.
 
@@ -86,4 +95,42 @@ def columns_about(
             for coordinate, entry in column(chain, frame, other, motion, carried_by).items():
                 entries[coordinate] = entries[coordinate] + scale * entry
         result[stem] = entries
+    return result
+
+
+@dataclass(frozen=True)
+class RegressorStrategy:
+    """How columns are written: about frames ``slide`` moved along their axes, parallel screws by their difference."""
+
+    slide: frozenset[int] = frozenset()
+
+    def __str__(self) -> str:
+        frames = ", ".join(map(str, sorted(self.slide)))
+        return "wrenches on screws, parallel ones by their difference" + (
+            f", frames {frames} slid along their axes" if frames else ""
+        )
+
+
+def columns(
+    chain: Chain, names: Collection[str], qd: Nodes, qdd: Nodes, way: RegressorStrategy | None
+) -> dict[str, dict[int, Node]]:
+    """Columns of the inertial parameters ``names``, each {coordinate: entry}.
+
+    They are written in the given way; None is the textbook recursion, projected on the screws.
+    """
+    motion: Mapping[int, Motion]
+    carried_by: Mapping[int, Mapping[int, Screw | Beside]]
+    if way is None:
+        offsets: Mapping[int, Node] = {frame.number: chain.program.zero for frame in chain.frames}
+        motion, carried_by = newton_euler.motions(chain, qd, qdd), screws(chain)
+    else:
+        origins = slid_origins(chain, way.slide)
+        motion, offsets = lean_motion.own_motions(chain, origins, qd, qdd), origins.offsets
+        carried_by = screws_beside(chain, origins.positions)
+    result: dict[str, dict[int, Node]] = {}
+    for frame in chain.frames:
+        j = frame.number
+        stems = [stem for stem in INERTIAL if f"{stem}{j}" in names]
+        found = columns_about(chain, frame, stems, motion[j], carried_by[j], offsets[j])
+        result |= {f"{stem}{j}": entries for stem, entries in found.items()}
     return result

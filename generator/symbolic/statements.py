@@ -7,7 +7,7 @@ moved outwards, so that a unary minus (which the counts take as free) is the onl
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Union
@@ -176,12 +176,12 @@ class Program:
         return self._intern("neg", (a,))
 
     def add(self, a: Node, b: Node) -> Node:
-        if a.number is not None and b.number is not None:
-            return self.constant(a.number + b.number)
         if a is self.zero:
             return b
         if b is self.zero:
             return a
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number + b.number)
         negative_a, size_a = self._sign_and_size(a)
         negative_b, size_b = self._sign_and_size(b)
         if size_a is size_b:
@@ -196,10 +196,10 @@ class Program:
         return self._intern("add", (size_a, size_b))
 
     def multiply(self, a: Node, b: Node) -> Node:
-        if a.number is not None and b.number is not None:
-            return self.constant(a.number * b.number)
         if a is self.zero or b is self.zero:
             return self.zero
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number * b.number)
         negative_a, size_a = self._sign_and_size(a)
         negative_b, size_b = self._sign_and_size(b)
         if negative_a != negative_b:
@@ -260,6 +260,24 @@ class Program:
         if negative and name in ("cos", "abs"):
             return self.function(name, size)
         return self._intern(name, (a,))
+
+    def apply(self, operation: str, arguments: Sequence[Node]) -> Node:
+        """The node of an operation by its name, on as many arguments as it takes."""
+        if operation == "add":
+            return self.add(*arguments)
+        if operation == "sub":
+            return self.add(arguments[0], self.negate(arguments[1]))
+        if operation == "mul":
+            return self.multiply(*arguments)
+        if operation == "div":
+            return self.divide(*arguments)
+        if operation == "neg":
+            return self.negate(arguments[0])
+        if operation == "pow":
+            exponent = arguments[1].number
+            assert exponent is not None
+            return self.power(arguments[0], exponent)
+        return self.function(operation, arguments[0])
 
     # -- reading --------------------------------------------------------------------------------------------------
 

@@ -5,23 +5,30 @@ The textbook recursion is always among the candidates, so that no chain gets lon
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from typing import TypeVar
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
 
-from generator.symbolic import inertia, lean_inertia, lean_newton_euler, newton_euler
+from generator.symbolic import inertia, lean_gravity, lean_inertia, lean_newton_euler, newton_euler, regressor
 from generator.symbolic.bodies import Body
+from generator.symbolic.candidates import (
+    balanced,
+    in_units,
+    meetings,
+    slid_otherwise,
+    slides,
+    unspun_candidates,
+)
 from generator.symbolic.frames import Chain
 from generator.symbolic.gauge import Gauge
+from generator.symbolic.lean_gravity import GravityStrategy
 from generator.symbolic.lean_inertia import InertiaStrategy
 from generator.symbolic.lean_newton_euler import Strategy
-from generator.symbolic.segments import segments
-from generator.symbolic.vectors import Array, Nodes
+from generator.symbolic.regressor import RegressorStrategy
+from generator.symbolic.statements import Node
+from generator.symbolic.vectors import Array, Nodes, array
 
 _Way = TypeVar("_Way")
-
-#: Frames tried as the place where screws and wrenches meet, from the base, where the shortest place of a chain is.
-_MEETINGS = 8
 
 
 @dataclass(frozen=True)
@@ -40,12 +47,20 @@ class Choice:
 
 @dataclass(frozen=True)
 class Strategies:
-    """The chosen ways for torques, for gravity alone and for the inertia matrix; None is the textbook recursion."""
+    """The chosen ways for torques, gravity alone, the inertia matrix and regressors; None is the textbook recursion."""
 
     torque: Strategy | None = None
-    gravity: Strategy | None = None
+    gravity: GravityStrategy | None = None
     inertia: InertiaStrategy | None = None
+    regressor: RegressorStrategy | None = None
     choices: Mapping[str, Choice] | None = None
+
+    @property
+    def gravity_beside_inertia(self) -> GravityStrategy | None:
+        """The way for gravity where the inertia matrix is computed too: from the same composite bodies."""
+        if self.gravity is None or self.inertia is None:
+            return self.gravity
+        return GravityStrategy(self.inertia.gauge, weighed=False)
 
 
 TEXTBOOK = Strategies()
@@ -58,74 +73,80 @@ def torques(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way
     return lean_newton_euler.inverse_dynamics(chain, matter, qd, qdd, way)
 
 
+def gravity(chain: Chain, matter: Mapping[int, Body], way: GravityStrategy | None) -> Array:
+    """Torques of the bodies' weight, written in the given way."""
+    if way is None:
+        still = [chain.program.zero] * chain.dof
+        return newton_euler.inverse_dynamics(chain, newton_euler.motions(chain, still, still), matter)
+    return lean_gravity.gravity(chain, matter, way)
+
+
 def inertia_matrix(chain: Chain, matter: Mapping[int, Body], way: InertiaStrategy | None) -> Array:
     """Inertia matrix of the bodies, written in the given way."""
     return inertia.inertia_matrix(chain, matter) if way is None else lean_inertia.inertia_matrix(chain, matter, way)
 
 
-def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes) -> Strategies:
-    """The shortest ways for a chain."""
-    still = [chain.program.zero] * chain.dof
-    torque, torque_choice = _shortest_torque(chain, lambda way: torques(chain, matter, qd, qdd, way))
-    gravity, gravity_choice = _shortest_torque(chain, lambda way: torques(chain, matter, still, still, way))
-    meeting = [InertiaStrategy()]
-    meeting += [InertiaStrategy(j, block_unspun) for j in _meetings(chain) for block_unspun in (False, True)]
-    matrix, matrix_choice = _shortest(chain, lambda way: inertia_matrix(chain, matter, way), meeting)
-    choices = {"torques": torque_choice, "gravity": gravity_choice, "inertia matrix": matrix_choice}
-    return Strategies(torque, gravity, matrix, choices)
+def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, names: Collection[str]) -> Strategies:
+    """The shortest ways for a chain; ``names`` are the parameters whose columns a regressor has."""
+    matrix: _Search[InertiaStrategy] = _Search(chain, lambda way: inertia_matrix(chain, matter, way))
+    matrix.among(InertiaStrategy(gauge=Gauge(slide)) for slide in slides(chain))
+    slide = matrix.best.gauge if matrix.best is not None else Gauge()
+    matrix.among(InertiaStrategy(j, unspun, slide) for j in meetings(chain) for unspun in (False, True))
+    if matrix.best is not None:
+        matrix.among(replace(matrix.best, gauge=gauge) for gauge in in_units(chain, matrix.best.gauge))
+    torque: _Search[Strategy] = _Search(chain, lambda way: torques(chain, matter, qd, qdd, way))
+    torque.among(Strategy(bodies, Gauge(slide)) for bodies in unspun_candidates(chain) for slide in slides(chain))
+    if torque.best is not None:
+        torque.among(balanced(chain, torque.best))
+        torque.among(slid_otherwise(chain, torque.best))
+        # The unit of the inertia matrix first: where both are asked for, they share what is in one unit.
+        unit = matrix.best.gauge.unit if matrix.best is not None else None
+        gauges = sorted(in_units(chain, torque.best.gauge), key=lambda gauge: gauge.unit != unit)
+        torque.among([replace(torque.best, gauge=gauge) for gauge in gauges])
+    weight: _Search[GravityStrategy] = _Search(chain, lambda way: gravity(chain, matter, way))
+    weight.among(GravityStrategy(Gauge(slide)) for slide in slides(chain))
+    columns: _Search[RegressorStrategy] = _Search(
+        chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way))
+    )
+    columns.among(RegressorStrategy(slide) for slide in slides(chain))
+    choices = {
+        "torques": torque.choice,
+        "gravity": weight.choice,
+        "inertia matrix": matrix.choice,
+        "regressor": columns.choice,
+    }
+    return Strategies(torque.best, weight.best, matrix.best, columns.best, choices)
 
 
-def _shortest_torque(chain: Chain, write: Callable[[Strategy | None], Array]) -> tuple[Strategy | None, Choice]:
-    """First the axes that bodies work in, then the joints that keep a mass."""
-    axes = [Strategy(unspun=bodies) for bodies in _unspun_candidates(chain)]
-    best, choice = _shortest(chain, write, axes)
-    if best is None:
-        return best, choice
-    balanced = [
-        Strategy(best.unspun, Gauge(best.gauge.slide, (frame.number,)))
-        for frame in chain.frames
-        if _balances(chain, frame.number)
-    ]
-    return _shortest(chain, write, [best, *balanced[:_MEETINGS]])
+class _Search(Generic[_Way]):
+    """The shortest of the ways tried so far; the textbook recursion is the first."""
+
+    def __init__(self, chain: Chain, write: Callable[[_Way | None], Array]) -> None:
+        self._chain = chain
+        self._write = write
+        self._textbook = self._least = operations(chain, write(None))
+        self._tried: set[_Way] = set()
+        self.best: _Way | None = None
+
+    def among(self, ways: Iterable[_Way]) -> None:
+        for way in ways:
+            if way in self._tried:
+                continue
+            self._tried.add(way)
+            count = operations(self._chain, self._write(way))
+            if count < self._least:
+                self.best, self._least = way, count
+
+    @property
+    def choice(self) -> Choice:
+        return Choice("textbook recursion" if self.best is None else str(self.best), self._least, self._textbook)
 
 
-def _shortest(chain: Chain, write: Callable[[_Way | None], Array], ways: Iterable[_Way]) -> tuple[_Way | None, Choice]:
-    textbook = operations(chain, write(None))
-    best: _Way | None = None
-    least = textbook
-    for way in ways:
-        count = operations(chain, write(way))
-        if count < least:
-            best, least = way, count
-    return best, Choice("textbook recursion" if best is None else str(best), least, textbook)
+def _entries(chain: Chain, columns: Mapping[str, Mapping[int, Node]]) -> Array:
+    return array(chain.program, [entry for column in columns.values() for entry in column.values()])
 
 
 def operations(chain: Chain, results: Array) -> int:
     """Multiplications, additions and divisions per call of some results."""
     nodes = chain.program.reachable(results.ravel())
     return chain.program.count(node for node in nodes if not node.parameter_only).total
-
-
-def _unspun_candidates(chain: Chain) -> list[frozenset[int]]:
-    """Bodies that may gain from unspun axes: those inside a segment, those at the tips, both, none."""
-    spun = segments(chain)
-    carriers = {frame.parent.number for frame in chain.frames if frame.parent is not None and frame.has_body()}
-    inside = frozenset(
-        frame.parent.number for frame in chain.frames if spun[frame.number].continues and frame.parent is not None
-    )
-    tips = frozenset(frame.number for frame in chain.frames if frame.revolute and frame.number not in carriers)
-    return list(dict.fromkeys([frozenset(), inside, tips, inside | tips]))
-
-
-def _balances(chain: Chain, number: int) -> bool:
-    """Whether a mass behind a joint can balance its antecedent: the joint turns and stands away from it, across z."""
-    frame = chain.frames[number - 1]
-    zero = chain.program.zero
-    return frame.revolute and frame.parent is not None and any(p is not zero for p in frame.position[:2])
-
-
-def _meetings(chain: Chain) -> list[int]:
-    """Last frames of the segments, from the base."""
-    spun = segments(chain)
-    inside = {f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None}
-    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()][:_MEETINGS]

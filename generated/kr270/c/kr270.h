@@ -17,48 +17,58 @@
  *             that move a body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and
  *             first moment; u marks axes that do not spin with the joint, a trailing n the negative.
  *   Precision double, or float with KR270_USE_FLOAT defined for the library and all of its users.
+ *   Angles    sine and cosine are computed here, for all angles of a call side by side: wrong by at most 2 units in the
+ *             last place for |x| <= 1e3 (float: 1e3), by 2.2e-16 for |x| <= 1e5; a call with a larger angle, infinity
+ *             or NaN takes those of <math.h>. KR270_USE_LIBM takes them always, -Dkr270_sin=my_sin
+ *             -Dkr270_cos=my_cos takes yours; so do -ffast-math and arithmetic in excess precision take <math.h>'s.
+ *             The rounding mode is to nearest.
  *
  * Use: fill a kr270_params, call kr270_prepare() once, then any function, from any thread. Nothing is
- * allocated, and no state is kept. Compile kr270.c as C99 or later; -O2 -ffp-contract=fast is advised, and the
- * mathematics library is needed (-lm).
+ * allocated, and no state is kept. Compile kr270.c as C99 or later with -O2 -ffp-contract=fast and for your
+ * processor (-march=native, -mcpu=...), and link the mathematics library (-lm). -std=c99 alone forbids fused
+ * multiply-add, which makes the code a quarter longer; -O3 changes little, -ffast-math makes it slower.
  *
  * Operations per call
- *                                  mul      add      div  sin/cos    other
- *   balancer                         4        3        1        2        1
- *   base_parameters                 19       49        0        0        0
- *   bias                           226      203        1       12        7
- *   direct_dynamics                407      374        6       12        7
- *   direct_dynamics_loaded         590      506        7       12        7
- *   dynamics                       371      358        1       12        7
- *   flexible_direct_dynamics       421      417       12       12       13
- *   flexible_inverse_dynamics      274      275        1       12       13
- *   flexible_regressor             385      312        1       12       13
- *   gravity                         37       23        0       10        0
- *   inertia_matrix                 111      108        0       10        0
- *   inverse_dynamics               245      239        1       12        7
- *   inverse_dynamics_loaded        344      305        1       12        7
- *   inverse_dynamics_standard      372      332        1       12        7
- *   jacobians                       78       54        0       10        0
- *   joint_position                   9        3        0        0        0
- *   joint_speed                      9        3        0        0        0
- *   joint_torque                     8        3        0        0        0
- *   joint_torque_from_current        9        3        0        0        0
- *   kinetic_energy                 141       87        0       10        0
- *   motor_current                    9        3        6        0        0
- *   motor_position                   8        3        0        0        0
- *   motor_speed                      8        3        0        0        0
- *   motor_torque                     9        3        0        0        0
- *   payload_regressor              273      202        0       10        0
- *   potential_energy                21       22        0       11        1
- *   regressor                      383      297        1       12        7
- *   regressor_packed               383      297        1       12        7
- *   regressor_standard             504      393        1       12        7
- *   regressor_standard_packed      504      393        1       12        7
- *   tool_jacobian                   66       42        0       10        0
- *   tool_transform                  64       34        0       12        0
- *   transforms                      64       34        0       12        0
- *   wrench_torque                   41       25        0       10        0
- *   prepare (once)                  58       54        1        0        0
+ *                                         mul      add      div  sin/cos    other
+ *   balancer                                4        3        1        2        1
+ *   base_parameters                        19       49        0        0        0
+ *   bias                                  215      197        1       12        7
+ *   direct_dynamics                       391      365        6       12        7
+ *   direct_dynamics_loaded                589      506        7       12        7
+ *   direct_dynamics_sliding               391      365        6       12        1
+ *   direct_dynamics_smooth                401      371       12       12        7
+ *   dynamics                              338      331        1       12        7
+ *   flexible_direct_dynamics              408      407       12       12       13
+ *   flexible_direct_dynamics_sliding      408      413       12       12        1
+ *   flexible_direct_dynamics_smooth       430      425       24       12       13
+ *   flexible_inverse_dynamics             263      268        1       12       13
+ *   flexible_regressor                    385      305        1       12       13
+ *   gravity                                25       18        0       10        0
+ *   inertia_matrix                        105      106        0       10        0
+ *   inverse_dynamics                      237      229        1       12        7
+ *   inverse_dynamics_loaded               344      305        1       12        7
+ *   inverse_dynamics_standard             372      332        1       12        7
+ *   jacobians                              78       54        0       10        0
+ *   joint_position                          9        3        0        0        0
+ *   joint_speed                             9        3        0        0        0
+ *   joint_torque                            8        3        0        0        0
+ *   joint_torque_from_current               9        3        0        0        0
+ *   kinetic_energy                        131       87        0       10        0
+ *   motor_current                           9        3        6        0        0
+ *   motor_position                          8        3        0        0        0
+ *   motor_speed                             8        3        0        0        0
+ *   motor_torque                            9        3        0        0        0
+ *   payload_regressor                     273      200        0       10        0
+ *   potential_energy                       20       22        0       11        1
+ *   regressor                             384      289        1       12        7
+ *   regressor_packed                      384      289        1       12        7
+ *   regressor_standard                    504      393        1       12        7
+ *   regressor_standard_packed             504      393        1       12        7
+ *   tool_jacobian                          66       42        0       10        0
+ *   tool_transform                         64       34        0       12        0
+ *   transforms                             64       34        0       12        0
+ *   wrench_torque                          41       25        0       10        0
+ *   prepare (once)                         76       53        1        0        0
  */
 #ifndef KR270_H
 #define KR270_H
@@ -371,81 +381,97 @@ typedef struct {
     kr270_real kt4; /**< [N m/A] torque constant of the motor */
     kr270_real kt5; /**< [N m/A] torque constant of the motor */
     kr270_real kt6; /**< [N m/A] torque constant of the motor */
-    kr270_real p1; /**< 0.35*MY2 */
-    kr270_real p2; /**< 0.35*MX2R */
-    kr270_real S2_11n; /**< from ZZ2R, XX2R */
     kr270_real S4_11n; /**< XX4R - 0.5*(XX4R + ZZ4R) */
     kr270_real S5_11n; /**< XX5R - 0.5*(XX5R + ZZ5R) */
     kr270_real S6_22; /**< 0.5*(XX6R + ZZ6) */
     kr270_real S6_11n; /**< XX6R - S6_22 */
-    kr270_real S6_13n; /**< XZ6 + 0.23*MX6 */
-    kr270_real S6_23n; /**< YZ6 + 0.23*MY6 */
     kr270_real S5_22; /**< 0.5*(XX5R + ZZ5R) - (ZZ6 - S6_22) */
     kr270_real S4_22; /**< 0.5*(XX4R + ZZ4R) - (ZZ5R - 0.5*(XX5R + ZZ5R)) */
-    kr270_real p12; /**< S6_22 - S6_11n */
-    kr270_real p13; /**< from S2_11n, ZZ2R, XX2R */
-    kr270_real p14; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
-    kr270_real p15; /**< from S2_11n, ZZ2R, XX2R */
-    kr270_real p16; /**< 2.0*XY2 */
-    kr270_real p17; /**< S6_22 + S6_11n */
-    kr270_real p18; /**< 2.0*XY6 */
-    kr270_real p19; /**< 9.81*MY2 */
-    kr270_real p20; /**< 0.9090909090909091*MY3R */
+    kr270_real p7; /**< S6_22 - S6_11n */
+    kr270_real p8; /**< S6_22 + S6_11n */
+    kr270_real p9; /**< 2.0*XY6 */
+    kr270_real p10; /**< from ZZ2R, XX2R */
+    kr270_real p11; /**< from ZZ2R, XX2R */
+    kr270_real p12; /**< 2.0*XY2 */
+    kr270_real S6_13n; /**< from MX6, XZ6 */
+    kr270_real S6_23n; /**< from MY6, YZ6 */
+    kr270_real MS4_1; /**< 1.1*MX4 */
+    kr270_real S4_13n; /**< XZ4 + MS4_1 */
+    kr270_real MS4_2; /**< 1.1*MY4R */
+    kr270_real S4_23n; /**< YZ4 + MS4_2 */
+    kr270_real p19; /**< from MX3R, ZZ3R, XX3R */
+    kr270_real S3_12n; /**< from MY3R, XY3R */
+    kr270_real MS2_2; /**< 0.35*MY2 */
+    kr270_real MS2_1; /**< 0.35*MX2R */
+    kr270_real MS5_2; /**< 1.1*MY5R */
+    kr270_real MS5_1; /**< 1.1*MX5 */
+    kr270_real MS2_1_; /**< 1.1*MX2R */
+    kr270_real MS2_2_; /**< 1.1*MY2 */
+    kr270_real MS3_1; /**< 1.1*MX3R */
+    kr270_real MS3_2; /**< 1.1*MY3R */
+    kr270_real MS6_1; /**< 1.1*MX6 */
+    kr270_real MS6_2; /**< 1.1*MY6 */
+    kr270_real p31; /**< 9.81*MY2 */
     kr270_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.00275*MY3R */
-    kr270_real S3_12n; /**< XY3R + 0.055*MY3R */
-    kr270_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - 1.1*MY3R) */
-    kr270_real MS3_1; /**< MX3R + 0.05*MY3R */
-    kr270_real S2_11n_; /**< S2_11n - 1.4204545454545454*MY3R */
-    kr270_real MS2_1; /**< MX2R + 1.1363636363636365*MY3R */
-    kr270_real p27; /**< from S2_11n_, ZZ2R, XX2R */
-    kr270_real p28; /**< from S2_11n_, ZZ2R, XX2R */
-    kr270_real p29; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
-    kr270_real p30; /**< 9.81*MX2R */
-    kr270_real p31; /**< 9.81*MY4R */
-    kr270_real p32; /**< 9.81*MX4 */
-    kr270_real p33; /**< 9.81*MX3R */
-    kr270_real p34; /**< 9.81*MY3R */
-    kr270_real p35; /**< from MX3R, ZZ3R, XX3R */
-    kr270_real p36; /**< S3_12n - 1.1*MX3R */
-    kr270_real p37; /**< from MY3R, ZZ4R, XX4R, ZZ3R, XX3R */
-    kr270_real p38; /**< 2.0*MS3_1 */
-    kr270_real p39; /**< 2.0*S3_22 */
-    kr270_real p40; /**< 2.0*S3_11n */
-    kr270_real p41; /**< 2.0*S3_12n */
-    kr270_real p42; /**< 0.12862508*Kr2 */
-    kr270_real p43; /**< S3_11n + S3_22 */
-    kr270_real p44; /**< Ia6 + p12 */
-    kr270_real p45; /**< 1.0/p44 */
-    kr270_real p46; /**< 2.0*MX2R */
-    kr270_real p47; /**< 2.0*MY2 */
-    kr270_real p48; /**< 2.5*MY3R */
-    kr270_real p49; /**< 2.5*MX3R */
-    kr270_real p50; /**< S5_22 + p37 */
-    kr270_real p51; /**< S2_11n - p14 */
-    kr270_real p52; /**< XZ5 + XY6 */
-    kr270_real p53; /**< S5_11n + S6_11n */
-    kr270_real p54; /**< S6_22 + S4_22 */
-    kr270_real p55; /**< 219.0*kt1 */
-    kr270_real p56; /**< 286.0*kt2 */
-    kr270_real p57; /**< 270.1764705882353*kt3 */
-    kr270_real p58; /**< 222.1578947368421*kt4 */
-    kr270_real p59; /**< 1.4324324324324325*kt6 */
-    kr270_real p60; /**< 221.76470588235293*kt5 */
-    kr270_real p61; /**< 1.7905405405405406*kt6 */
-    kr270_real p62; /**< 157.5515805984556*kt6 */
-    kr270_real p63; /**< 2.0*MY3R */
-    kr270_real p64; /**< 2.0*MX3R */
-    kr270_real p65; /**< 2.0*MY4R */
-    kr270_real p66; /**< 2.0*MX4 */
-    kr270_real p67; /**< 2.0*MY5R */
-    kr270_real p68; /**< 2.0*MX5 */
-    kr270_real p69; /**< 2.0*MY6 */
-    kr270_real p70; /**< 2.0*MX6 */
-    kr270_real p71; /**< 0.5*Ia3 */
-    kr270_real p72; /**< 0.5*Ia4 */
-    kr270_real p73; /**< 0.5*Ia5 */
-    kr270_real p74; /**< 0.5*Ia6 */
-    kr270_real p75; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
+    kr270_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
+    kr270_real S2_11n; /**< from MY3R, ZZ2R, XX2R */
+    kr270_real p35; /**< from S2_11n, ZZ2R, XX2R */
+    kr270_real p36; /**< from S2_11n, ZZ2R, XX2R */
+    kr270_real p37; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr270_real MS2_1_v2; /**< 1.1*(MX2R + 1.1363636363636365*MY3R) */
+    kr270_real MS3_1_; /**< 1.1*(MX3R + 0.05*MY3R) */
+    kr270_real MS2_1_v3; /**< 0.35*(MX2R + 1.1363636363636365*MY3R) */
+    kr270_real p41; /**< 9.81*MX2R */
+    kr270_real p42; /**< 9.81*MX3R */
+    kr270_real p43; /**< 9.81*MY3R */
+    kr270_real p44; /**< 9.81*MX4 */
+    kr270_real p45; /**< 9.81*MY4R */
+    kr270_real p46; /**< 9.81*MX5 */
+    kr270_real p47; /**< 9.81*MY5R */
+    kr270_real p48; /**< 9.81*MX6 */
+    kr270_real p49; /**< 9.81*MY6 */
+    kr270_real p50; /**< from MY3R, MX3R */
+    kr270_real p51; /**< 2.0*S3_22 */
+    kr270_real p52; /**< 2.0*S3_11n */
+    kr270_real p53; /**< 2.0*S3_12n */
+    kr270_real p54; /**< 0.12862508*Kr2 */
+    kr270_real p55; /**< from MY3R, MX2R */
+    kr270_real p56; /**< S3_11n + S3_22 */
+    kr270_real p57; /**< Ia6 + p7 */
+    kr270_real p58; /**< 1.0/p57 */
+    kr270_real p59; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
+    kr270_real p60; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
+    kr270_real p61; /**< 2.0*MX2R */
+    kr270_real p62; /**< 2.0*MY2 */
+    kr270_real p63; /**< 2.5*MY3R */
+    kr270_real p64; /**< 2.5*MX3R */
+    kr270_real p65; /**< XZ5 + XY6 */
+    kr270_real p66; /**< S5_11n + S6_11n */
+    kr270_real p67; /**< S6_22 + S4_22 */
+    kr270_real p68; /**< 0.7*MY2 */
+    kr270_real p69; /**< 0.7*MX2R */
+    kr270_real p70; /**< 219.0*kt1 */
+    kr270_real p71; /**< 286.0*kt2 */
+    kr270_real p72; /**< 270.1764705882353*kt3 */
+    kr270_real p73; /**< 222.1578947368421*kt4 */
+    kr270_real p74; /**< 1.4324324324324325*kt6 */
+    kr270_real p75; /**< 221.76470588235293*kt5 */
+    kr270_real p76; /**< 1.7905405405405406*kt6 */
+    kr270_real p77; /**< 157.5515805984556*kt6 */
+    kr270_real p78; /**< 2.0*MY3R */
+    kr270_real p79; /**< 2.0*MX3R */
+    kr270_real p80; /**< 2.0*MY4R */
+    kr270_real p81; /**< 2.0*MX4 */
+    kr270_real p82; /**< 2.0*MY5R */
+    kr270_real p83; /**< 2.0*MX5 */
+    kr270_real p84; /**< 2.0*MY6 */
+    kr270_real p85; /**< 2.0*MX6 */
+    kr270_real p86; /**< 0.5*Ia3 */
+    kr270_real p87; /**< 0.5*Ia4 */
+    kr270_real p88; /**< 0.5*Ia5 */
+    kr270_real p89; /**< 0.5*Ia6 */
+    kr270_real p90; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
+    kr270_real p91; /**< 0.0056581495726142645*Kr2 */
 } kr270_prepared;
 
 /* C99 has no static assertion: there an array of negative size stops the compiler. */
@@ -461,7 +487,7 @@ KR270_STATIC_ASSERT(kr270_has_96_parameters, KR270_NPARAMETERS == 96);
 KR270_STATIC_ASSERT(
     kr270_params_has_no_padding, sizeof(kr270_params) == sizeof(kr270_real[96]));
 KR270_STATIC_ASSERT(
-    kr270_prepared_has_no_padding, sizeof(kr270_prepared) == sizeof(kr270_real[171]));
+    kr270_prepared_has_no_padding, sizeof(kr270_prepared) == sizeof(kr270_real[187]));
 
 /** Computes *prepared from *params; again after a parameter has changed. */
 void kr270_prepare(const kr270_params *params, kr270_prepared *prepared);
@@ -589,6 +615,38 @@ void kr270_direct_dynamics_loaded(
     kr270_real qdd[6]);
 
 /**
+ * Joint accelerations with directions of sliding given instead of sign(qd).
+ *
+ * Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+ *
+ * @param[in] prepared from kr270_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] direction (6) in the place of sign(qd), joint by joint [1]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr270_direct_dynamics_sliding(
+    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
+    const kr270_real tau[6], const kr270_real direction[6], kr270_real qdd[6]);
+
+/**
+ * Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+ *
+ * Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+ *
+ * @param[in] prepared from kr270_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] width (6) speeds within which the friction turns round, more than 0 [rad/s]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr270_direct_dynamics_smooth(
+    const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
+    const kr270_real tau[6], const kr270_real width[6], kr270_real qdd[6]);
+
+/**
  * Joint torques, inertia matrix and gravity torques of one state, what they share computed once.
  *
  * Report eq. 2, 73: outputs of inverse_dynamics, inertia_matrix and gravity.
@@ -619,6 +677,46 @@ void kr270_dynamics(
 void kr270_flexible_direct_dynamics(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
     const kr270_real tau[6], kr270_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with directions of sliding given instead of sign(speed).
+ *
+ * Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+ *
+ * @param[in] prepared from kr270_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] direction (12) in the place of sign(speed): of the motors, then of the elastic joints'
+ *     links [1]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr270_flexible_direct_dynamics_sliding(
+    const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
+    const kr270_real tau[6], const kr270_real tau_ext[6], const kr270_real direction[12],
+    kr270_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+ * integrated.
+ *
+ * Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a) positive
+ * definite.
+ *
+ * @param[in] prepared from kr270_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] width (12) speeds within which the friction turns round, more than 0: of the motors,
+ *     then of the elastic joints' links [rad/s]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr270_flexible_direct_dynamics_smooth(
+    const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
+    const kr270_real tau[6], const kr270_real tau_ext[6], const kr270_real width[12],
+    kr270_real qdd[12]);
 
 /**
  * Motor torques and spring torques of the robot with elastic drive trains.

@@ -302,6 +302,134 @@ static void test_direct_dynamics_loaded(tally *total)
     }
 }
 
+static void test_direct_dynamics_sliding(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][6] = {
+        { 2.135, -0.643, -0.05, -2.828, 0.047, -1.115 },
+        { -2.267, -0.424, 1.525, -2.873, -0.019, -0.592 },
+        { 2.827, -0.179, -1.722, -4.869, 1.405, 2.768 }
+    };
+    static const double given_qd[3][6] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_direction[3][6] = {
+        { -1.484, 1.387, 1.342, 1.649, 0.677, 0.866 },
+        { -1.263, -0.924, 1.72, 1.038, 0.639, 1.64 },
+        { 1.129, 1.641, -1.226, 0.486, -1.231, 0.312 }
+    };
+    static const double expected_qdd[3][6] = {
+        { -1.6731545861666686, 5.451544503151617, -4.478625390257393, -1.4510538870624596,
+          -2.289555191390144, -3.523784769591192 },
+        { -2.013997991118986, 13.165573184735472, -13.393919285345365, -4.927220429410017,
+          -1.1037085624813883, 2.811186940836826 },
+        { -0.3851491357444885, 6.233869349650844, -6.595153384229916, -1.6917661849120817,
+          -0.05014183277733327, 2.926629871030746 }
+    };
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real my_q[6];
+    kr270_real my_qd[6];
+    kr270_real my_tau[6];
+    kr270_real my_direction[6];
+    kr270_real my_qdd[6];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR270_NPARAMETERS);
+        kr270_prepare(&params, &prepared);
+        load(given_q[i], my_q, 6);
+        load(given_qd[i], my_qd, 6);
+        load(given_tau[i], my_tau, 6);
+        load(given_direction[i], my_direction, 6);
+        kr270_direct_dynamics_sliding(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_direction,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 6, tolerance[i]);
+        record(total, good, "direct_dynamics_sliding", i);
+    }
+}
+
+static void test_direct_dynamics_smooth(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][6] = {
+        { 2.135, -0.643, -0.05, -2.828, 0.047, -1.115 },
+        { -2.267, -0.424, 1.525, -2.873, -0.019, -0.592 },
+        { 2.827, -0.179, -1.722, -4.869, 1.405, 2.768 }
+    };
+    static const double given_qd[3][6] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_width[3][6] = {
+        { 0.768, 0.856, 0.684, 0.202, 0.882, 0.589 },
+        { 0.537, 0.133, 0.697, 0.969, 0.387, 0.345 },
+        { 0.953, 0.686, 0.839, 0.429, 0.919, 0.134 }
+    };
+    static const double expected_qdd[3][6] = {
+        { -1.65598791341917, 5.193890457021141, -3.529756872155637, -0.46770508533538585,
+          -0.10412957567068101, -3.981250113884014 },
+        { -2.0024203182582307, 13.067953867419487, -12.943242884891005, -4.808662552588151,
+          1.420059649503996, 5.394491322063334 },
+        { -0.27263050110189074, 6.362460702408756, -6.786409558520724, -2.2735609624550177,
+          -0.9704806333255039, 4.2667290526234485 }
+    };
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real my_q[6];
+    kr270_real my_qd[6];
+    kr270_real my_tau[6];
+    kr270_real my_width[6];
+    kr270_real my_qdd[6];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR270_NPARAMETERS);
+        kr270_prepare(&params, &prepared);
+        load(given_q[i], my_q, 6);
+        load(given_qd[i], my_qd, 6);
+        load(given_tau[i], my_tau, 6);
+        load(given_width[i], my_width, 6);
+        kr270_direct_dynamics_smooth(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_width,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 6, tolerance[i]);
+        record(total, good, "direct_dynamics_smooth", i);
+    }
+}
+
 static void test_dynamics(tally *total)
 {
     static const int set[3] = { 0, 0, 0 };
@@ -457,6 +585,156 @@ static void test_flexible_direct_dynamics(tally *total)
             my_qdd);
         good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
         record(total, good, "flexible_direct_dynamics", i);
+    }
+}
+
+static void test_flexible_direct_dynamics_sliding(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][12] = {
+        { 2.135, -0.643, -0.05, -2.828, 0.047, -1.115, 0.008, 0.001, 0.005, 0.01, 0.006, -0.006 },
+        { -2.267, -0.424, 1.525, -2.873, -0.019, -0.592, -0.006, -0.003, 0.008, 0.007, -0.002, -0.009 },
+        { 2.827, -0.179, -1.722, -4.869, 1.405, 2.768, -0.002, 0.009, 0.003, -0.006, -0.01, 0.008 }
+    };
+    static const double given_qd[3][12] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91, 0.942, -0.77, 0.792, -1.33, 0.929, -1.232 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619, -0.868, 0.325, -1.859, -0.986, 1.309, -1.922 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775, -1.878, 1.475, -1.239, -1.261, 0.959, -1.73 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_tau_ext[3][6] = {
+        { -0.729, 1.01, 1.991, -1.676, -1.486, 1.651 },
+        { 1.115, -0.677, -1.68, -0.674, -1.122, -1.109 },
+        { -1.608, -0.819, 0.752, -1.957, 0.619, -1.341 }
+    };
+    static const double given_direction[3][12] = {
+        { -1.484, 1.387, 1.342, 1.649, 0.677, 0.866, -0.274, 0.871, -0.437, -0.298, -0.244, 1.869 },
+        { -1.263, -0.924, 1.72, 1.038, 0.639, 1.64, -1.935, -0.896, -1.579, -1.641, 1.457, 0.895 },
+        { 1.129, 1.641, -1.226, 0.486, -1.231, 0.312, -1.355, -1.753, -1.291, -1.509, 1.538, -1.483 }
+    };
+    static const double expected_qdd[3][12] = {
+        { 72.81229411764706, -4.135256544502617, 27.146836538461535, 4.633293877551019,
+          25.171088082901555, -28.090837837837842, -72.4152275790151, 10.674843338697347,
+          -36.47540380390107, -12.981074128680039, -39.88917829091188, 39.04427197483696 },
+        { 1.535264705882352, -7.803157068062828, 32.49617307692307, 3.10764081632653,
+          -7.599865284974094, -27.794364864864864, -2.1782987800322595, 17.76306041828124,
+          -47.53738107879423, -9.613998157890864, 6.650877382602821, 55.606864392257265 },
+        { -31.107367647058823, 18.49771727748691, 41.269086538461536, -10.236195918367347,
+          -34.66814507772021, 28.178222972972975, 31.239398900446265, -11.31110056771122,
+          -38.17584489160285, 11.555058141605734, 43.69691261305924, -39.777048247608526 }
+    };
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real my_q[12];
+    kr270_real my_qd[12];
+    kr270_real my_tau[6];
+    kr270_real my_tau_ext[6];
+    kr270_real my_direction[12];
+    kr270_real my_qdd[12];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR270_NPARAMETERS);
+        kr270_prepare(&params, &prepared);
+        load(given_q[i], my_q, 12);
+        load(given_qd[i], my_qd, 12);
+        load(given_tau[i], my_tau, 6);
+        load(given_tau_ext[i], my_tau_ext, 6);
+        load(given_direction[i], my_direction, 12);
+        kr270_flexible_direct_dynamics_sliding(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_tau_ext,
+            my_direction,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
+        record(total, good, "flexible_direct_dynamics_sliding", i);
+    }
+}
+
+static void test_flexible_direct_dynamics_smooth(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][12] = {
+        { 2.135, -0.643, -0.05, -2.828, 0.047, -1.115, 0.008, 0.001, 0.005, 0.01, 0.006, -0.006 },
+        { -2.267, -0.424, 1.525, -2.873, -0.019, -0.592, -0.006, -0.003, 0.008, 0.007, -0.002, -0.009 },
+        { 2.827, -0.179, -1.722, -4.869, 1.405, 2.768, -0.002, 0.009, 0.003, -0.006, -0.01, 0.008 }
+    };
+    static const double given_qd[3][12] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91, 0.942, -0.77, 0.792, -1.33, 0.929, -1.232 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619, -0.868, 0.325, -1.859, -0.986, 1.309, -1.922 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775, -1.878, 1.475, -1.239, -1.261, 0.959, -1.73 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_tau_ext[3][6] = {
+        { -0.729, 1.01, 1.991, -1.676, -1.486, 1.651 },
+        { 1.115, -0.677, -1.68, -0.674, -1.122, -1.109 },
+        { -1.608, -0.819, 0.752, -1.957, 0.619, -1.341 }
+    };
+    static const double given_width[3][12] = {
+        { 0.768, 0.856, 0.684, 0.202, 0.882, 0.589, 0.112, 0.467, 0.925, 0.244, 0.225, 0.214 },
+        { 0.537, 0.133, 0.697, 0.969, 0.387, 0.345, 0.757, 0.92, 0.274, 0.697, 0.86, 0.991 },
+        { 0.953, 0.686, 0.839, 0.429, 0.919, 0.134, 0.476, 0.182, 0.153, 0.953, 0.619, 0.145 }
+    };
+    static const double expected_qdd[3][12] = {
+        { 55.86829699441471, 6.98963660169635, 40.08505855857255, 5.298090865765096,
+          30.749575839383795, -28.22523022320933, -55.56105523739297, 0.14966523429643785,
+          -51.01718801836444, -15.324200464458631, -47.91954777296132, 40.6729168315547 },
+        { -6.489441162966017, -17.137574486176636, 38.59129233278007, 3.2856693558848815,
+          0.34876254345106805, -23.867304154763872, 5.775115976871947, 27.082038447325065,
+          -53.706456591008354, -12.624660933278266, -0.15872844391058297, 54.96479313285081 },
+        { 3.3795630208315854, 23.49863848469101, 38.587462703192905, -10.724999433474308,
+          -38.05006804063839, 30.124291853535773, -3.143536423209571, -16.531208962854173,
+          -35.41493544295176, 10.676687681488547, 48.57978830431509, -42.17638717002182 }
+    };
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real my_q[12];
+    kr270_real my_qd[12];
+    kr270_real my_tau[6];
+    kr270_real my_tau_ext[6];
+    kr270_real my_width[12];
+    kr270_real my_qdd[12];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR270_NPARAMETERS);
+        kr270_prepare(&params, &prepared);
+        load(given_q[i], my_q, 12);
+        load(given_qd[i], my_qd, 12);
+        load(given_tau[i], my_tau, 6);
+        load(given_tau_ext[i], my_tau_ext, 6);
+        load(given_width[i], my_width, 12);
+        kr270_flexible_direct_dynamics_smooth(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_tau_ext,
+            my_width,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
+        record(total, good, "flexible_direct_dynamics_smooth", i);
     }
 }
 
@@ -2828,8 +3106,12 @@ int main(void)
     test_bias(&total);
     test_direct_dynamics(&total);
     test_direct_dynamics_loaded(&total);
+    test_direct_dynamics_sliding(&total);
+    test_direct_dynamics_smooth(&total);
     test_dynamics(&total);
     test_flexible_direct_dynamics(&total);
+    test_flexible_direct_dynamics_sliding(&total);
+    test_flexible_direct_dynamics_smooth(&total);
     test_flexible_inverse_dynamics(&total);
     test_flexible_regressor(&total);
     test_gravity(&total);

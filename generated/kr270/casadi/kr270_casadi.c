@@ -444,6 +444,160 @@ EXPORT int kr270_casadi_direct_dynamics_loaded_work(casadi_int *sz_arg, casadi_i
     return work(sz_arg, 6, sz_res, 1, sz_iw, sz_w);
 }
 
+/* direct_dynamics_sliding */
+EXPORT int kr270_casadi_direct_dynamics_sliding(const casadi_real **arg, casadi_real **res, casadi_int *iw, casadi_real *w, int mem)
+{
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real in_q[6];
+    kr270_real in_qd[6];
+    kr270_real in_tau[6];
+    kr270_real in_direction[6];
+    kr270_real out_qdd[6];
+    (void)iw;
+    (void)w;
+    (void)mem;
+    load(arg[0], params.value, 96);
+    kr270_prepare(&params, &prepared);
+    load(arg[1], in_q, 6);
+    load(arg[2], in_qd, 6);
+    load(arg[3], in_tau, 6);
+    load(arg[4], in_direction, 6);
+    kr270_direct_dynamics_sliding(
+        &prepared,
+        in_q,
+        in_qd,
+        in_tau,
+        in_direction,
+        out_qdd);
+    store(out_qdd, res[0], 6, 1);
+    return 0;
+}
+
+EXPORT casadi_int kr270_casadi_direct_dynamics_sliding_n_in(void)
+{
+    return 5;
+}
+
+EXPORT casadi_int kr270_casadi_direct_dynamics_sliding_n_out(void)
+{
+    return 1;
+}
+
+EXPORT const char *kr270_casadi_direct_dynamics_sliding_name_in(casadi_int i)
+{
+    static const char *const names[5] = {
+"parameters", "q", "qd", "tau", "direction"
+    };
+    return ((i >= 0) && (i < 5)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_direct_dynamics_sliding_sparsity_in(casadi_int i)
+{
+    static const casadi_int *const patterns[5] = {
+dense_96_1, dense_6_1, dense_6_1, dense_6_1, dense_6_1
+    };
+    return ((i >= 0) && (i < 5)) ? patterns[i] : 0;
+}
+
+EXPORT const char *kr270_casadi_direct_dynamics_sliding_name_out(casadi_int i)
+{
+    static const char *const names[1] = {
+"qdd"
+    };
+    return ((i >= 0) && (i < 1)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_direct_dynamics_sliding_sparsity_out(casadi_int i)
+{
+    static const casadi_int *const patterns[1] = {
+dense_6_1
+    };
+    return ((i >= 0) && (i < 1)) ? patterns[i] : 0;
+}
+
+EXPORT int kr270_casadi_direct_dynamics_sliding_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w)
+{
+    return work(sz_arg, 5, sz_res, 1, sz_iw, sz_w);
+}
+
+/* direct_dynamics_smooth */
+EXPORT int kr270_casadi_direct_dynamics_smooth(const casadi_real **arg, casadi_real **res, casadi_int *iw, casadi_real *w, int mem)
+{
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real in_q[6];
+    kr270_real in_qd[6];
+    kr270_real in_tau[6];
+    kr270_real in_width[6];
+    kr270_real out_qdd[6];
+    (void)iw;
+    (void)w;
+    (void)mem;
+    load(arg[0], params.value, 96);
+    kr270_prepare(&params, &prepared);
+    load(arg[1], in_q, 6);
+    load(arg[2], in_qd, 6);
+    load(arg[3], in_tau, 6);
+    load(arg[4], in_width, 6);
+    kr270_direct_dynamics_smooth(
+        &prepared,
+        in_q,
+        in_qd,
+        in_tau,
+        in_width,
+        out_qdd);
+    store(out_qdd, res[0], 6, 1);
+    return 0;
+}
+
+EXPORT casadi_int kr270_casadi_direct_dynamics_smooth_n_in(void)
+{
+    return 5;
+}
+
+EXPORT casadi_int kr270_casadi_direct_dynamics_smooth_n_out(void)
+{
+    return 1;
+}
+
+EXPORT const char *kr270_casadi_direct_dynamics_smooth_name_in(casadi_int i)
+{
+    static const char *const names[5] = {
+"parameters", "q", "qd", "tau", "width"
+    };
+    return ((i >= 0) && (i < 5)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_direct_dynamics_smooth_sparsity_in(casadi_int i)
+{
+    static const casadi_int *const patterns[5] = {
+dense_96_1, dense_6_1, dense_6_1, dense_6_1, dense_6_1
+    };
+    return ((i >= 0) && (i < 5)) ? patterns[i] : 0;
+}
+
+EXPORT const char *kr270_casadi_direct_dynamics_smooth_name_out(casadi_int i)
+{
+    static const char *const names[1] = {
+"qdd"
+    };
+    return ((i >= 0) && (i < 1)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_direct_dynamics_smooth_sparsity_out(casadi_int i)
+{
+    static const casadi_int *const patterns[1] = {
+dense_6_1
+    };
+    return ((i >= 0) && (i < 1)) ? patterns[i] : 0;
+}
+
+EXPORT int kr270_casadi_direct_dynamics_smooth_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w)
+{
+    return work(sz_arg, 5, sz_res, 1, sz_iw, sz_w);
+}
+
 /* dynamics */
 EXPORT int kr270_casadi_dynamics(const casadi_real **arg, casadi_real **res, casadi_int *iw, casadi_real *w, int mem)
 {
@@ -596,6 +750,166 @@ dense_12_1
 EXPORT int kr270_casadi_flexible_direct_dynamics_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w)
 {
     return work(sz_arg, 4, sz_res, 1, sz_iw, sz_w);
+}
+
+/* flexible_direct_dynamics_sliding */
+EXPORT int kr270_casadi_flexible_direct_dynamics_sliding(const casadi_real **arg, casadi_real **res, casadi_int *iw, casadi_real *w, int mem)
+{
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real in_q[12];
+    kr270_real in_qd[12];
+    kr270_real in_tau[6];
+    kr270_real in_tau_ext[6];
+    kr270_real in_direction[12];
+    kr270_real out_qdd[12];
+    (void)iw;
+    (void)w;
+    (void)mem;
+    load(arg[0], params.value, 96);
+    kr270_prepare(&params, &prepared);
+    load(arg[1], in_q, 12);
+    load(arg[2], in_qd, 12);
+    load(arg[3], in_tau, 6);
+    load(arg[4], in_tau_ext, 6);
+    load(arg[5], in_direction, 12);
+    kr270_flexible_direct_dynamics_sliding(
+        &prepared,
+        in_q,
+        in_qd,
+        in_tau,
+        in_tau_ext,
+        in_direction,
+        out_qdd);
+    store(out_qdd, res[0], 12, 1);
+    return 0;
+}
+
+EXPORT casadi_int kr270_casadi_flexible_direct_dynamics_sliding_n_in(void)
+{
+    return 6;
+}
+
+EXPORT casadi_int kr270_casadi_flexible_direct_dynamics_sliding_n_out(void)
+{
+    return 1;
+}
+
+EXPORT const char *kr270_casadi_flexible_direct_dynamics_sliding_name_in(casadi_int i)
+{
+    static const char *const names[6] = {
+"parameters", "q", "qd", "tau", "tau_ext", "direction"
+    };
+    return ((i >= 0) && (i < 6)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_flexible_direct_dynamics_sliding_sparsity_in(casadi_int i)
+{
+    static const casadi_int *const patterns[6] = {
+dense_96_1, dense_12_1, dense_12_1, dense_6_1, dense_6_1, dense_12_1
+    };
+    return ((i >= 0) && (i < 6)) ? patterns[i] : 0;
+}
+
+EXPORT const char *kr270_casadi_flexible_direct_dynamics_sliding_name_out(casadi_int i)
+{
+    static const char *const names[1] = {
+"qdd"
+    };
+    return ((i >= 0) && (i < 1)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_flexible_direct_dynamics_sliding_sparsity_out(casadi_int i)
+{
+    static const casadi_int *const patterns[1] = {
+dense_12_1
+    };
+    return ((i >= 0) && (i < 1)) ? patterns[i] : 0;
+}
+
+EXPORT int kr270_casadi_flexible_direct_dynamics_sliding_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w)
+{
+    return work(sz_arg, 6, sz_res, 1, sz_iw, sz_w);
+}
+
+/* flexible_direct_dynamics_smooth */
+EXPORT int kr270_casadi_flexible_direct_dynamics_smooth(const casadi_real **arg, casadi_real **res, casadi_int *iw, casadi_real *w, int mem)
+{
+    kr270_params params;
+    kr270_prepared prepared;
+    kr270_real in_q[12];
+    kr270_real in_qd[12];
+    kr270_real in_tau[6];
+    kr270_real in_tau_ext[6];
+    kr270_real in_width[12];
+    kr270_real out_qdd[12];
+    (void)iw;
+    (void)w;
+    (void)mem;
+    load(arg[0], params.value, 96);
+    kr270_prepare(&params, &prepared);
+    load(arg[1], in_q, 12);
+    load(arg[2], in_qd, 12);
+    load(arg[3], in_tau, 6);
+    load(arg[4], in_tau_ext, 6);
+    load(arg[5], in_width, 12);
+    kr270_flexible_direct_dynamics_smooth(
+        &prepared,
+        in_q,
+        in_qd,
+        in_tau,
+        in_tau_ext,
+        in_width,
+        out_qdd);
+    store(out_qdd, res[0], 12, 1);
+    return 0;
+}
+
+EXPORT casadi_int kr270_casadi_flexible_direct_dynamics_smooth_n_in(void)
+{
+    return 6;
+}
+
+EXPORT casadi_int kr270_casadi_flexible_direct_dynamics_smooth_n_out(void)
+{
+    return 1;
+}
+
+EXPORT const char *kr270_casadi_flexible_direct_dynamics_smooth_name_in(casadi_int i)
+{
+    static const char *const names[6] = {
+"parameters", "q", "qd", "tau", "tau_ext", "width"
+    };
+    return ((i >= 0) && (i < 6)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_flexible_direct_dynamics_smooth_sparsity_in(casadi_int i)
+{
+    static const casadi_int *const patterns[6] = {
+dense_96_1, dense_12_1, dense_12_1, dense_6_1, dense_6_1, dense_12_1
+    };
+    return ((i >= 0) && (i < 6)) ? patterns[i] : 0;
+}
+
+EXPORT const char *kr270_casadi_flexible_direct_dynamics_smooth_name_out(casadi_int i)
+{
+    static const char *const names[1] = {
+"qdd"
+    };
+    return ((i >= 0) && (i < 1)) ? names[i] : 0;
+}
+
+EXPORT const casadi_int *kr270_casadi_flexible_direct_dynamics_smooth_sparsity_out(casadi_int i)
+{
+    static const casadi_int *const patterns[1] = {
+dense_12_1
+    };
+    return ((i >= 0) && (i < 1)) ? patterns[i] : 0;
+}
+
+EXPORT int kr270_casadi_flexible_direct_dynamics_smooth_work(casadi_int *sz_arg, casadi_int *sz_res, casadi_int *sz_iw, casadi_int *sz_w)
+{
+    return work(sz_arg, 6, sz_res, 1, sz_iw, sz_w);
 }
 
 /* flexible_inverse_dynamics */

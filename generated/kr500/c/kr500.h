@@ -17,48 +17,58 @@
  *             that move a body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and
  *             first moment; u marks axes that do not spin with the joint, a trailing n the negative.
  *   Precision double, or float with KR500_USE_FLOAT defined for the library and all of its users.
+ *   Angles    sine and cosine are computed here, for all angles of a call side by side: wrong by at most 2 units in the
+ *             last place for |x| <= 1e3 (float: 1e3), by 2.2e-16 for |x| <= 1e5; a call with a larger angle, infinity
+ *             or NaN takes those of <math.h>. KR500_USE_LIBM takes them always, -Dkr500_sin=my_sin
+ *             -Dkr500_cos=my_cos takes yours; so do -ffast-math and arithmetic in excess precision take <math.h>'s.
+ *             The rounding mode is to nearest.
  *
  * Use: fill a kr500_params, call kr500_prepare() once, then any function, from any thread. Nothing is
- * allocated, and no state is kept. Compile kr500.c as C99 or later; -O2 -ffp-contract=fast is advised, and the
- * mathematics library is needed (-lm).
+ * allocated, and no state is kept. Compile kr500.c as C99 or later with -O2 -ffp-contract=fast and for your
+ * processor (-march=native, -mcpu=...), and link the mathematics library (-lm). -std=c99 alone forbids fused
+ * multiply-add, which makes the code a quarter longer; -O3 changes little, -ffast-math makes it slower.
  *
  * Operations per call
- *                                  mul      add      div  sin/cos    other
- *   balancer                         3        3        2        2        1
- *   base_parameters                 19       49        0        0        0
- *   bias                           226      203        1       12        7
- *   direct_dynamics                406      374        6       12        7
- *   direct_dynamics_loaded         587      506        7       12        7
- *   dynamics                       370      358        1       12        7
- *   flexible_direct_dynamics       420      417       12       12       13
- *   flexible_inverse_dynamics      274      275        1       12       13
- *   flexible_regressor             386      313        1       12       13
- *   gravity                         37       23        0       10        0
- *   inertia_matrix                 109      107        0       10        0
- *   inverse_dynamics               245      239        1       12        7
- *   inverse_dynamics_loaded        344      305        1       12        7
- *   inverse_dynamics_standard      372      332        1       12        7
- *   jacobians                       78       54        0       10        0
- *   joint_position                   9        3        0        0        0
- *   joint_speed                      9        3        0        0        0
- *   joint_torque                     7        3        0        0        0
- *   joint_torque_from_current        8        3        0        0        0
- *   kinetic_energy                 141       87        0       10        0
- *   motor_current                    9        3        6        0        0
- *   motor_position                   7        3        0        0        0
- *   motor_speed                      7        3        0        0        0
- *   motor_torque                     9        3        0        0        0
- *   payload_regressor              273      202        0       10        0
- *   potential_energy                20       20        0       11        2
- *   regressor                      384      298        1       12        7
- *   regressor_packed               384      298        1       12        7
- *   regressor_standard             505      394        1       12        7
- *   regressor_standard_packed      505      394        1       12        7
- *   tool_jacobian                   66       42        0       10        0
- *   tool_transform                  64       34        0       12        0
- *   transforms                      64       34        0       12        0
- *   wrench_torque                   41       25        0       10        0
- *   prepare (once)                  58       54        1        0        0
+ *                                         mul      add      div  sin/cos    other
+ *   balancer                                3        3        2        2        1
+ *   base_parameters                        19       49        0        0        0
+ *   bias                                  215      197        1       12        7
+ *   direct_dynamics                       391      365        6       12        7
+ *   direct_dynamics_loaded                586      506        7       12        7
+ *   direct_dynamics_sliding               391      365        6       12        1
+ *   direct_dynamics_smooth                401      371       12       12        7
+ *   dynamics                              338      331        1       12        7
+ *   flexible_direct_dynamics              408      407       12       12       13
+ *   flexible_direct_dynamics_sliding      408      413       12       12        1
+ *   flexible_direct_dynamics_smooth       430      425       24       12       13
+ *   flexible_inverse_dynamics             263      268        1       12       13
+ *   flexible_regressor                    386      306        1       12       13
+ *   gravity                                25       18        0       10        0
+ *   inertia_matrix                        105      106        0       10        0
+ *   inverse_dynamics                      237      229        1       12        7
+ *   inverse_dynamics_loaded               344      305        1       12        7
+ *   inverse_dynamics_standard             372      332        1       12        7
+ *   jacobians                              78       54        0       10        0
+ *   joint_position                          9        3        0        0        0
+ *   joint_speed                             9        3        0        0        0
+ *   joint_torque                            7        3        0        0        0
+ *   joint_torque_from_current               8        3        0        0        0
+ *   kinetic_energy                        131       87        0       10        0
+ *   motor_current                           9        3        6        0        0
+ *   motor_position                          7        3        0        0        0
+ *   motor_speed                             7        3        0        0        0
+ *   motor_torque                            9        3        0        0        0
+ *   payload_regressor                     273      200        0       10        0
+ *   potential_energy                       20       20        0       11        2
+ *   regressor                             385      290        1       12        7
+ *   regressor_packed                      385      290        1       12        7
+ *   regressor_standard                    505      394        1       12        7
+ *   regressor_standard_packed             505      394        1       12        7
+ *   tool_jacobian                          66       42        0       10        0
+ *   tool_transform                         64       34        0       12        0
+ *   transforms                             64       34        0       12        0
+ *   wrench_torque                          41       25        0       10        0
+ *   prepare (once)                         73       53        1        0        0
  */
 #ifndef KR500_H
 #define KR500_H
@@ -370,79 +380,92 @@ typedef struct {
     kr500_real kt6; /**< [N m/A] torque constant of the motor */
     kr500_real p1; /**< 0.5*F02 */
     kr500_real p2; /**< 0.09968739*F02 */
-    kr500_real p3; /**< 0.5*MY2 */
-    kr500_real p4; /**< 0.5*MX2R */
-    kr500_real S2_11n; /**< from ZZ2R, XX2R */
     kr500_real S4_11n; /**< XX4R - 0.5*(XX4R + ZZ4R) */
     kr500_real S5_11n; /**< XX5R - 0.5*(XX5R + ZZ5R) */
     kr500_real S6_22; /**< 0.5*(XX6R + ZZ6) */
     kr500_real S6_11n; /**< XX6R - S6_22 */
-    kr500_real S6_13n; /**< XZ6 + 0.29*MX6 */
-    kr500_real S6_23n; /**< YZ6 + 0.29*MY6 */
     kr500_real S5_22; /**< 0.5*(XX5R + ZZ5R) - (ZZ6 - S6_22) */
     kr500_real S4_22; /**< 0.5*(XX4R + ZZ4R) - (ZZ5R - 0.5*(XX5R + ZZ5R)) */
-    kr500_real p14; /**< S6_22 - S6_11n */
-    kr500_real p15; /**< from S2_11n, ZZ2R, XX2R */
-    kr500_real p16; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
-    kr500_real p17; /**< from S2_11n, ZZ2R, XX2R */
-    kr500_real p18; /**< 2.0*XY2 */
-    kr500_real p19; /**< S6_22 + S6_11n */
-    kr500_real p20; /**< 2.0*XY6 */
-    kr500_real p21; /**< 9.81*MY2 */
-    kr500_real p22; /**< 0.975609756097561*MY3R */
+    kr500_real p9; /**< S6_22 - S6_11n */
+    kr500_real p10; /**< S6_22 + S6_11n */
+    kr500_real p11; /**< 2.0*XY6 */
+    kr500_real p12; /**< from ZZ2R, XX2R */
+    kr500_real p13; /**< from ZZ2R, XX2R */
+    kr500_real p14; /**< 2.0*XY2 */
+    kr500_real S6_13n; /**< from MX6, XZ6 */
+    kr500_real S6_23n; /**< from MY6, YZ6 */
+    kr500_real MS4_1; /**< 1.025*MX4 */
+    kr500_real S4_13n; /**< XZ4 + MS4_1 */
+    kr500_real MS4_2; /**< 1.025*MY4R */
+    kr500_real S4_23n; /**< YZ4 + MS4_2 */
+    kr500_real p21; /**< from MX3R, ZZ3R, XX3R */
+    kr500_real S3_12n; /**< from MY3R, XY3R */
+    kr500_real MS2_2; /**< 0.5*MY2 */
+    kr500_real MS2_1; /**< 0.5*MX2R */
+    kr500_real MS5_2; /**< 1.025*MY5R */
+    kr500_real MS5_1; /**< 1.025*MX5 */
+    kr500_real MS2_1_; /**< 1.025*MX2R */
+    kr500_real MS2_2_; /**< 1.025*MY2 */
+    kr500_real MS3_1; /**< 1.025*MX3R */
+    kr500_real MS3_2; /**< 1.025*MY3R */
+    kr500_real MS6_1; /**< 1.025*MX6 */
+    kr500_real MS6_2; /**< 1.025*MY6 */
+    kr500_real p33; /**< 9.81*MY2 */
     kr500_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.002951219512195122*MY3R */
-    kr500_real S3_12n; /**< XY3R - 0.055*MY3R */
-    kr500_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - 1.025*MY3R) */
-    kr500_real MS3_1; /**< MX3R - 0.05365853658536585*MY3R */
-    kr500_real S2_11n_; /**< S2_11n - 1.648780487804878*MY3R */
-    kr500_real MS2_1; /**< MX2R + 1.2682926829268293*MY3R */
-    kr500_real p29; /**< from S2_11n_, ZZ2R, XX2R */
-    kr500_real p30; /**< from S2_11n_, ZZ2R, XX2R */
-    kr500_real p31; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
-    kr500_real p32; /**< 9.81*MX2R */
-    kr500_real p33; /**< 9.81*MY4R */
-    kr500_real p34; /**< 9.81*MX4 */
-    kr500_real p35; /**< 9.81*MX3R */
-    kr500_real p36; /**< 9.81*MY3R */
-    kr500_real p37; /**< from MX3R, ZZ3R, XX3R */
-    kr500_real p38; /**< S3_12n - 1.025*MX3R */
-    kr500_real p39; /**< from MY3R, ZZ4R, XX4R, ZZ3R, XX3R */
-    kr500_real p40; /**< 2.0*MS3_1 */
-    kr500_real p41; /**< 2.0*S3_22 */
-    kr500_real p42; /**< 2.0*S3_11n */
-    kr500_real p43; /**< 2.0*S3_12n */
-    kr500_real p44; /**< S3_11n + S3_22 */
-    kr500_real p45; /**< Ia6 + p14 */
-    kr500_real p46; /**< 1.0/p45 */
-    kr500_real p47; /**< 2.0*MX2R */
-    kr500_real p48; /**< 2.0*MY2 */
-    kr500_real p49; /**< 2.6*MY3R */
-    kr500_real p50; /**< 2.6*MX3R */
-    kr500_real p51; /**< S5_22 + p39 */
-    kr500_real p52; /**< S2_11n - p16 */
-    kr500_real p53; /**< XZ5 + XY6 */
-    kr500_real p54; /**< S5_11n + S6_11n */
-    kr500_real p55; /**< S6_22 + S4_22 */
-    kr500_real p56; /**< 469.375*kt1 */
-    kr500_real p57; /**< 469.375*kt2 */
-    kr500_real p58; /**< 504.76973684210526*kt3 */
-    kr500_real p59; /**< 260.6190476190476*kt4 */
-    kr500_real p60; /**< 1.06*kt5 */
-    kr500_real p61; /**< 251.97714285714287*kt5 */
-    kr500_real p62; /**< 164.5695652173913*kt6 */
-    kr500_real p63; /**< 2.0*MY3R */
-    kr500_real p64; /**< 2.0*MX3R */
-    kr500_real p65; /**< 2.0*MY4R */
-    kr500_real p66; /**< 2.0*MX4 */
-    kr500_real p67; /**< 2.0*MY5R */
-    kr500_real p68; /**< 2.0*MX5 */
-    kr500_real p69; /**< 2.0*MY6 */
-    kr500_real p70; /**< 2.0*MX6 */
-    kr500_real p71; /**< 0.5*Ia3 */
-    kr500_real p72; /**< 0.5*Ia4 */
-    kr500_real p73; /**< 0.5*Ia5 */
-    kr500_real p74; /**< 0.5*Ia6 */
-    kr500_real p75; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
+    kr500_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
+    kr500_real S2_11n; /**< from MY3R, ZZ2R, XX2R */
+    kr500_real p37; /**< from S2_11n, ZZ2R, XX2R */
+    kr500_real p38; /**< from S2_11n, ZZ2R, XX2R */
+    kr500_real p39; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr500_real MS2_1_v2; /**< 1.025*(MX2R + 1.2682926829268293*MY3R) */
+    kr500_real MS3_1_; /**< 1.025*(MX3R - 0.05365853658536585*MY3R) */
+    kr500_real MS2_1_v3; /**< 0.5*(MX2R + 1.2682926829268293*MY3R) */
+    kr500_real p43; /**< 9.81*MX2R */
+    kr500_real p44; /**< 9.81*MX3R */
+    kr500_real p45; /**< 9.81*MY3R */
+    kr500_real p46; /**< 9.81*MX4 */
+    kr500_real p47; /**< 9.81*MY4R */
+    kr500_real p48; /**< 9.81*MX5 */
+    kr500_real p49; /**< 9.81*MY5R */
+    kr500_real p50; /**< 9.81*MX6 */
+    kr500_real p51; /**< 9.81*MY6 */
+    kr500_real p52; /**< from MY3R, MX3R */
+    kr500_real p53; /**< 2.0*S3_22 */
+    kr500_real p54; /**< 2.0*S3_11n */
+    kr500_real p55; /**< 2.0*S3_12n */
+    kr500_real p56; /**< from MY3R, MX2R */
+    kr500_real p57; /**< S3_11n + S3_22 */
+    kr500_real p58; /**< Ia6 + p9 */
+    kr500_real p59; /**< 1.0/p58 */
+    kr500_real p60; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
+    kr500_real p61; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
+    kr500_real p62; /**< 2.0*MX2R */
+    kr500_real p63; /**< 2.0*MY2 */
+    kr500_real p64; /**< 2.6*MY3R */
+    kr500_real p65; /**< 2.6*MX3R */
+    kr500_real p66; /**< XZ5 + XY6 */
+    kr500_real p67; /**< S5_11n + S6_11n */
+    kr500_real p68; /**< S6_22 + S4_22 */
+    kr500_real p69; /**< 469.375*kt1 */
+    kr500_real p70; /**< 469.375*kt2 */
+    kr500_real p71; /**< 504.76973684210526*kt3 */
+    kr500_real p72; /**< 260.6190476190476*kt4 */
+    kr500_real p73; /**< 1.06*kt5 */
+    kr500_real p74; /**< 251.97714285714287*kt5 */
+    kr500_real p75; /**< 164.5695652173913*kt6 */
+    kr500_real p76; /**< 2.0*MY3R */
+    kr500_real p77; /**< 2.0*MX3R */
+    kr500_real p78; /**< 2.0*MY4R */
+    kr500_real p79; /**< 2.0*MX4 */
+    kr500_real p80; /**< 2.0*MY5R */
+    kr500_real p81; /**< 2.0*MX5 */
+    kr500_real p82; /**< 2.0*MY6 */
+    kr500_real p83; /**< 2.0*MX6 */
+    kr500_real p84; /**< 0.5*Ia3 */
+    kr500_real p85; /**< 0.5*Ia4 */
+    kr500_real p86; /**< 0.5*Ia5 */
+    kr500_real p87; /**< 0.5*Ia6 */
+    kr500_real p88; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
 } kr500_prepared;
 
 /* C99 has no static assertion: there an array of negative size stops the compiler. */
@@ -458,7 +481,7 @@ KR500_STATIC_ASSERT(kr500_has_95_parameters, KR500_NPARAMETERS == 95);
 KR500_STATIC_ASSERT(
     kr500_params_has_no_padding, sizeof(kr500_params) == sizeof(kr500_real[95]));
 KR500_STATIC_ASSERT(
-    kr500_prepared_has_no_padding, sizeof(kr500_prepared) == sizeof(kr500_real[170]));
+    kr500_prepared_has_no_padding, sizeof(kr500_prepared) == sizeof(kr500_real[183]));
 
 /** Computes *prepared from *params; again after a parameter has changed. */
 void kr500_prepare(const kr500_params *params, kr500_prepared *prepared);
@@ -593,6 +616,38 @@ void kr500_direct_dynamics_loaded(
     kr500_real qdd[6]);
 
 /**
+ * Joint accelerations with directions of sliding given instead of sign(qd).
+ *
+ * Report eq. 6; -1 and 1 slide. What holds a joint at rest lies between.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] direction (6) in the place of sign(qd), joint by joint [1]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr500_direct_dynamics_sliding(
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
+    const kr500_real tau[6], const kr500_real direction[6], kr500_real qdd[6]);
+
+/**
+ * Joint accelerations with qd / sqrt(qd^2 + width^2) for sign(qd), to be integrated.
+ *
+ * Report eq. 6 but for the friction near rest; M(q) must be positive definite.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (6) joint positions [rad]
+ * @param[in] qd (6) joint speeds [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] width (6) speeds within which the friction turns round, more than 0 [rad/s]
+ * @param[out] qdd (6) joint accelerations [rad/s2]
+ */
+void kr500_direct_dynamics_smooth(
+    const kr500_prepared *prepared, const kr500_real q[6], const kr500_real qd[6],
+    const kr500_real tau[6], const kr500_real width[6], kr500_real qdd[6]);
+
+/**
  * Joint torques, inertia matrix and gravity torques of one state, what they share computed once.
  *
  * Report eq. 2, 73: outputs of inverse_dynamics, inertia_matrix and gravity.
@@ -623,6 +678,46 @@ void kr500_dynamics(
 void kr500_flexible_direct_dynamics(
     const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
     const kr500_real tau[6], kr500_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with directions of sliding given instead of sign(speed).
+ *
+ * Report eq. 11; -1 and 1 slide. What holds a motor or a link at rest lies between.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] direction (12) in the place of sign(speed): of the motors, then of the elastic joints'
+ *     links [1]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr500_flexible_direct_dynamics_sliding(
+    const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
+    const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real direction[12],
+    kr500_real qdd[12]);
+
+/**
+ * Accelerations of motors and elongations with x / sqrt(x^2 + width^2) for sign(x), to be
+ * integrated.
+ *
+ * Report eq. 11 but for the friction near rest; every Iam must be positive and M(q_a) positive
+ * definite.
+ *
+ * @param[in] prepared from kr500_prepare()
+ * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
+ * @param[in] qd (12) speeds of [q_m; q_e] [rad/s]
+ * @param[in] tau (6) motor torques, on the joint side [N m]
+ * @param[in] tau_ext (6) torques of the surroundings on the links, with tau [N m]
+ * @param[in] width (12) speeds within which the friction turns round, more than 0: of the motors,
+ *     then of the elastic joints' links [rad/s]
+ * @param[out] qdd (12) accelerations of [q_m; q_e] [rad/s2]
+ */
+void kr500_flexible_direct_dynamics_smooth(
+    const kr500_prepared *prepared, const kr500_real q[12], const kr500_real qd[12],
+    const kr500_real tau[6], const kr500_real tau_ext[6], const kr500_real width[12],
+    kr500_real qdd[12]);
 
 /**
  * Motor torques and spring torques of the robot with elastic drive trains.

@@ -303,6 +303,134 @@ static void test_direct_dynamics_loaded(tally *total)
     }
 }
 
+static void test_direct_dynamics_sliding(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][6] = {
+        { 2.135, -0.312, 0.12, -2.828, 0.045, -1.115 },
+        { -2.267, -0.087, 1.488, -2.873, -0.018, -0.592 },
+        { 2.827, 0.166, -1.332, -4.869, 1.327, 2.768 }
+    };
+    static const double given_qd[3][6] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_direction[3][6] = {
+        { -1.484, 1.387, 1.342, 1.649, 0.677, 0.866 },
+        { -1.263, -0.924, 1.72, 1.038, 0.639, 1.64 },
+        { 1.129, 1.641, -1.226, 0.486, -1.231, 0.312 }
+    };
+    static const double expected_qdd[3][6] = {
+        { -0.7673630331294633, 6.8097851125759155, -6.787731363537943, -1.7317075078030095,
+          -3.9385935714220013, -4.121614038276316 },
+        { -2.3216985285666056, 12.877731386030446, -16.467934096418112, -3.4125904214923706,
+          -2.0596078109755602, 2.191672310791461 },
+        { -0.37104326491729717, 5.534289560261232, -2.0518303134044777, -0.9657352251714154,
+          -0.6646140063320792, 1.5509232037642098 }
+    };
+    kr500_params params;
+    kr500_prepared prepared;
+    kr500_real my_q[6];
+    kr500_real my_qd[6];
+    kr500_real my_tau[6];
+    kr500_real my_direction[6];
+    kr500_real my_qdd[6];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR500_NPARAMETERS);
+        kr500_prepare(&params, &prepared);
+        load(given_q[i], my_q, 6);
+        load(given_qd[i], my_qd, 6);
+        load(given_tau[i], my_tau, 6);
+        load(given_direction[i], my_direction, 6);
+        kr500_direct_dynamics_sliding(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_direction,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 6, tolerance[i]);
+        record(total, good, "direct_dynamics_sliding", i);
+    }
+}
+
+static void test_direct_dynamics_smooth(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][6] = {
+        { 2.135, -0.312, 0.12, -2.828, 0.045, -1.115 },
+        { -2.267, -0.087, 1.488, -2.873, -0.018, -0.592 },
+        { 2.827, 0.166, -1.332, -4.869, 1.327, 2.768 }
+    };
+    static const double given_qd[3][6] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_width[3][6] = {
+        { 0.768, 0.856, 0.684, 0.202, 0.882, 0.589 },
+        { 0.537, 0.133, 0.697, 0.969, 0.387, 0.345 },
+        { 0.953, 0.686, 0.839, 0.429, 0.919, 0.134 }
+    };
+    static const double expected_qdd[3][6] = {
+        { -0.7422042875713181, 6.568604390092685, -5.773616113441518, -0.7100847532271943,
+          -1.745834756947647, -4.593747131573203 },
+        { -2.3082827598419797, 12.760619740782172, -15.909297934702439, -3.250351678448384,
+          0.3958988578237142, 4.752774886345338 },
+        { -0.3005993122434736, 5.676346047494172, -2.328796597038341, -1.5123680059011873,
+          -1.5791193077673815, 2.9415844330830714 }
+    };
+    kr500_params params;
+    kr500_prepared prepared;
+    kr500_real my_q[6];
+    kr500_real my_qd[6];
+    kr500_real my_tau[6];
+    kr500_real my_width[6];
+    kr500_real my_qdd[6];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR500_NPARAMETERS);
+        kr500_prepare(&params, &prepared);
+        load(given_q[i], my_q, 6);
+        load(given_qd[i], my_qd, 6);
+        load(given_tau[i], my_tau, 6);
+        load(given_width[i], my_width, 6);
+        kr500_direct_dynamics_smooth(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_width,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 6, tolerance[i]);
+        record(total, good, "direct_dynamics_smooth", i);
+    }
+}
+
 static void test_dynamics(tally *total)
 {
     static const int set[3] = { 0, 0, 0 };
@@ -458,6 +586,156 @@ static void test_flexible_direct_dynamics(tally *total)
             my_qdd);
         good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
         record(total, good, "flexible_direct_dynamics", i);
+    }
+}
+
+static void test_flexible_direct_dynamics_sliding(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][12] = {
+        { 2.135, -0.312, 0.12, -2.828, 0.045, -1.115, 0.008, 0.001, 0.005, 0.01, 0.006, -0.006 },
+        { -2.267, -0.087, 1.488, -2.873, -0.018, -0.592, -0.006, -0.003, 0.008, 0.007, -0.002, -0.009 },
+        { 2.827, 0.166, -1.332, -4.869, 1.327, 2.768, -0.002, 0.009, 0.003, -0.006, -0.01, 0.008 }
+    };
+    static const double given_qd[3][12] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91, 0.942, -0.77, 0.792, -1.33, 0.929, -1.232 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619, -0.868, 0.325, -1.859, -0.986, 1.309, -1.922 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775, -1.878, 1.475, -1.239, -1.261, 0.959, -1.73 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_tau_ext[3][6] = {
+        { -0.729, 1.01, 1.991, -1.676, -1.486, 1.651 },
+        { 1.115, -0.677, -1.68, -0.674, -1.122, -1.109 },
+        { -1.608, -0.819, 0.752, -1.957, 0.619, -1.341 }
+    };
+    static const double given_direction[3][12] = {
+        { -1.484, 1.387, 1.342, 1.649, 0.677, 0.866, -0.274, 0.871, -0.437, -0.298, -0.244, 1.869 },
+        { -1.263, -0.924, 1.72, 1.038, 0.639, 1.64, -1.935, -0.896, -1.579, -1.641, 1.457, 0.895 },
+        { 1.129, 1.641, -1.226, 0.486, -1.231, 0.312, -1.355, -1.753, -1.291, -1.509, 1.538, -1.483 }
+    };
+    static const double expected_qdd[3][12] = {
+        { 58.26967741935484, 11.27132222222222, 10.432015151515152, 1.757767790262172, 33.72092,
+          -17.383767605633803, -58.3046858464377, -3.395493392273871, -22.08675033628086,
+          -10.834110334126919, -46.42385194581798, 31.862243062226284 },
+        { -38.104758064516126, -30.990699999999997, 17.13868686868687, 1.459996254681648,
+          -19.489800000000002, -21.636556338028168, 36.40058539870873, 40.25036896963658,
+          -35.46533905718501, -8.84425819063158, 15.131523427380808, 54.29221500876032 },
+        { -25.40958064516129, 68.15429999999999, 22.023520202020205, -12.653625468164794,
+          -44.28281333333334, 19.553732394366197, 23.383303782986424, -66.38388349425979,
+          -4.506779658379932, 17.54238042632482, 45.34521424256296, -38.752877450812996 }
+    };
+    kr500_params params;
+    kr500_prepared prepared;
+    kr500_real my_q[12];
+    kr500_real my_qd[12];
+    kr500_real my_tau[6];
+    kr500_real my_tau_ext[6];
+    kr500_real my_direction[12];
+    kr500_real my_qdd[12];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR500_NPARAMETERS);
+        kr500_prepare(&params, &prepared);
+        load(given_q[i], my_q, 12);
+        load(given_qd[i], my_qd, 12);
+        load(given_tau[i], my_tau, 6);
+        load(given_tau_ext[i], my_tau_ext, 6);
+        load(given_direction[i], my_direction, 12);
+        kr500_flexible_direct_dynamics_sliding(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_tau_ext,
+            my_direction,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
+        record(total, good, "flexible_direct_dynamics_sliding", i);
+    }
+}
+
+static void test_flexible_direct_dynamics_smooth(tally *total)
+{
+    static const int set[3] = { 0, 0, 0 };
+    static const double tolerance[3] = {
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001),
+        TOLERANCE(1e-08, 0.001)
+    };
+    static const double given_q[3][12] = {
+        { 2.135, -0.312, 0.12, -2.828, 0.045, -1.115, 0.008, 0.001, 0.005, 0.01, 0.006, -0.006 },
+        { -2.267, -0.087, 1.488, -2.873, -0.018, -0.592, -0.006, -0.003, 0.008, 0.007, -0.002, -0.009 },
+        { 2.827, 0.166, -1.332, -4.869, 1.327, 2.768, -0.002, 0.009, 0.003, -0.006, -0.01, 0.008 }
+    };
+    static const double given_qd[3][12] = {
+        { -0.668, -1.77, -0.249, 1.989, -0.425, 1.91, 0.942, -0.77, 0.792, -1.33, 0.929, -1.232 },
+        { -0.952, 1.343, 1.718, 1.654, -1.109, -1.619, -0.868, 0.325, -1.859, -0.986, 1.309, -1.922 },
+        { -0.637, 0.532, -1.531, 1.627, -0.617, -0.775, -1.878, 1.475, -1.239, -1.261, 0.959, -1.73 }
+    };
+    static const double given_tau[3][6] = {
+        { 1.3, -1.958, -0.915, -1.98, 0.214, -0.247 },
+        { -1.045, 0.454, -0.45, -1.163, -0.465, -1.392 },
+        { -1.868, -0.746, -1.093, -0.38, 1.718, 0.868 }
+    };
+    static const double given_tau_ext[3][6] = {
+        { -0.729, 1.01, 1.991, -1.676, -1.486, 1.651 },
+        { 1.115, -0.677, -1.68, -0.674, -1.122, -1.109 },
+        { -1.608, -0.819, 0.752, -1.957, 0.619, -1.341 }
+    };
+    static const double given_width[3][12] = {
+        { 0.768, 0.856, 0.684, 0.202, 0.882, 0.589, 0.112, 0.467, 0.925, 0.244, 0.225, 0.214 },
+        { 0.537, 0.133, 0.697, 0.969, 0.387, 0.345, 0.757, 0.92, 0.274, 0.697, 0.86, 0.991 },
+        { 0.953, 0.686, 0.839, 0.429, 0.919, 0.134, 0.476, 0.182, 0.153, 0.953, 0.619, 0.145 }
+    };
+    static const double expected_qdd[3][12] = {
+        { 54.277911689961535, 20.67445819449684, 22.092951476691248, 4.232144920258914,
+          53.95760875326405, -17.653498801625876, -54.38883863131783, -12.264138496276875,
+          -35.33120022546016, -15.03292330637557, -69.05136415554736, 33.629609819375624 },
+        { -39.995265106199305, -38.88046532637367, 22.63208444885093, 2.1226192126365264,
+          9.34487964816447, -13.754779560712795, 38.226645975404715, 48.12930191526627,
+          -41.03471705125642, -12.33088651525439, -12.734315534791104, 49.67278548398111 },
+        { -17.28494824875385, 72.38124775401403, 19.606631332549888, -14.47295416592539,
+          -56.55117805432162, 23.45957486591829, 15.311318714398963, -70.82399142496583,
+          -1.9781809530148733, 18.101236308633847, 58.89368595587004, -43.09465131416944 }
+    };
+    kr500_params params;
+    kr500_prepared prepared;
+    kr500_real my_q[12];
+    kr500_real my_qd[12];
+    kr500_real my_tau[6];
+    kr500_real my_tau_ext[6];
+    kr500_real my_width[12];
+    kr500_real my_qdd[12];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        int good = 1;
+        load(parameter_sets[set[i]], params.value, KR500_NPARAMETERS);
+        kr500_prepare(&params, &prepared);
+        load(given_q[i], my_q, 12);
+        load(given_qd[i], my_qd, 12);
+        load(given_tau[i], my_tau, 6);
+        load(given_tau_ext[i], my_tau_ext, 6);
+        load(given_width[i], my_width, 12);
+        kr500_flexible_direct_dynamics_smooth(
+            &prepared,
+            my_q,
+            my_qd,
+            my_tau,
+            my_tau_ext,
+            my_width,
+            my_qdd);
+        good = good && agree(my_qdd, expected_qdd[i], 12, tolerance[i]);
+        record(total, good, "flexible_direct_dynamics_smooth", i);
     }
 }
 
@@ -2823,8 +3101,12 @@ int main(void)
     test_bias(&total);
     test_direct_dynamics(&total);
     test_direct_dynamics_loaded(&total);
+    test_direct_dynamics_sliding(&total);
+    test_direct_dynamics_smooth(&total);
     test_dynamics(&total);
     test_flexible_direct_dynamics(&total);
+    test_flexible_direct_dynamics_sliding(&total);
+    test_flexible_direct_dynamics_smooth(&total);
     test_flexible_inverse_dynamics(&total);
     test_flexible_regressor(&total);
     test_gravity(&total);

@@ -6,16 +6,19 @@ size, row-major, a number an array of one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence, Set
 from dataclasses import dataclass
+from functools import partial
 from itertools import groupby
 
+from generator.backends.printing.angles import gathered
 from generator.backends.printing.identifiers import C_RESERVED, Identifiers
 from generator.backends.printing.language import LINE, Language
 from generator.backends.printing.prepared import Prepared, index, is_parameter, signal_of
 from generator.backends.printing.signals import described, listed, paragraph
 from generator.backends.printing.straight_line import Block, straight_line
 from generator.symbolic.function import Function, Signal
+from generator.symbolic.statements import Node
 
 #: The operations that <math.h> computes: its function for double; the one for float has an f behind.
 MATHEMATICS = {
@@ -29,8 +32,11 @@ MATHEMATICS = {
     "pow": "pow",
 }
 
+#: Angles whose sines and cosines one call computes side by side.
+BLOCK = 4
+_ZERO = "R(0.0)"
 #: Zeros in a row that are worth a loop.
-_RUN = 4
+_RUN = 16
 
 
 @dataclass(frozen=True)
@@ -48,7 +54,7 @@ class Argument:
 
 @dataclass(frozen=True)
 class Result:
-    """``count`` entries of an output from ``start`` on that have one ``value``."""
+    """``count`` entries of an output from ``start`` on that have one ``value``, which no statement has written."""
 
     output: str
     start: int
@@ -58,7 +64,7 @@ class Result:
 
 @dataclass(frozen=True)
 class CFunction:
-    """``source`` in C; ``code`` holds the statements and the value of each output entry."""
+    """``source`` in C; ``results`` come after ``statements``, which write all other entries of the outputs."""
 
     source: Function
     prototype: str
@@ -66,24 +72,12 @@ class CFunction:
     reads_prepared: bool
     inputs: tuple[Argument, ...]
     outputs: tuple[Argument, ...]
-    code: Block
+    statements: tuple[str, ...]
+    results: tuple[Result, ...]
 
     @property
     def name(self) -> str:
         return self.source.name
-
-    @property
-    def results(self) -> Iterator[Result]:
-        """The values of the output entries in order, a long run of zeros as one."""
-        values = iter(self.code.results)
-        for argument, output in zip(self.outputs, self.source.outputs, strict=True):
-            entries = enumerate(zip(output.nodes, values, strict=False))
-            for is_zero, run in groupby(entries, lambda entry: entry[1][0].number == 0):
-                places = list(run)
-                if is_zero and len(places) >= _RUN:
-                    yield Result(argument.name, places[0][0], len(places), places[0][1][1])
-                else:
-                    yield from (Result(argument.name, place, 1, value) for place, (_, value) in places)
 
 
 def c_language(prefix: str) -> Language:
@@ -109,6 +103,9 @@ def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction
     }
     reads_prepared = any(node in fields for user in nodes for node in (user, *user.arguments))
     reads_prepared = reads_prepared or any(root in fields for root in function.roots)
+    places = _places(function, outputs, set(nodes) - set(leaves))
+    steps = gathered(nodes, partial(_sines_and_cosines, prefix))
+    code = straight_line(steps, function.roots, leaves, language, names, places)
     return CFunction(
         function,
         _prototype(function.name, prefix, inputs, outputs),
@@ -116,8 +113,56 @@ def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction
         reads_prepared,
         inputs,
         outputs,
-        straight_line(nodes, function.roots, leaves, language, names),
+        code.statements,
+        tuple(_results(function, outputs, places, code)),
     )
+
+
+def _places(function: Function, outputs: Sequence[Argument], computed: Set[Node]) -> dict[Node, list[str]]:
+    """The output entries of each node that the function computes."""
+    places: dict[Node, list[str]] = {}
+    for argument, output in zip(outputs, function.outputs, strict=True):
+        for place, node in enumerate(output.nodes):
+            if node in computed and node.number is None:
+                places.setdefault(node, []).append(f"{argument.name}[{place}]")
+    return places
+
+
+def _results(
+    function: Function, outputs: Sequence[Argument], written: Container[Node], code: Block
+) -> Iterator[Result]:
+    """The entries without a statement of their own, in order, a long run of zeros as one."""
+    values = iter(code.results)
+    for argument, output in zip(outputs, function.outputs, strict=True):
+        entries = enumerate(zip(output.nodes, values, strict=False))
+        for is_zero, run in groupby(entries, lambda entry: entry[1][0].number == 0):
+            places = [(place, value) for place, (node, value) in run if node not in written]
+            looped = len(places) // BLOCK * BLOCK if is_zero and len(places) >= _RUN else 0
+            if looped:
+                yield Result(argument.name, places[0][0], looped, places[0][1])
+            yield from (Result(argument.name, place, 1, value) for place, value in places[looped:])
+
+
+def _sines_and_cosines(
+    prefix: str, nodes: Sequence[Node], angles: Sequence[Node], texts: Sequence[str], names: Identifiers
+) -> tuple[Sequence[str], Sequence[str]]:
+    """Calls that compute them side by side, a block of angles each; the last block is filled up with zeros."""
+    sine, cosine = names.claim("sine"), names.claim("cosine")
+    blocks = -(-len(texts) // BLOCK)
+    filled = [*texts, *[_ZERO] * (blocks * BLOCK - len(texts))]
+    statements = [f"{prefix}_real {sine}[{blocks * BLOCK}];", f"{prefix}_real {cosine}[{blocks * BLOCK}];"]
+    for start in range(0, len(texts), BLOCK):
+        count = min(BLOCK, len(texts) - start)
+        results = (f"&{sine}[{start}]", f"&{cosine}[{start}]") if start else (sine, cosine)
+        arguments = [str(count), *filled[start : start + BLOCK], *results]
+        line = f"{prefix}_sines_cosines({', '.join(arguments)});"
+        if len(line) > LINE - 4:
+            *first, last = listed(arguments, LINE - 8)
+            statements += [f"{prefix}_sines_cosines(", *(f"    {words}" for words in first), f"    {last[:-1]});"]
+        else:
+            statements.append(line)
+    arrays = {"sin": sine, "cos": cosine}
+    return statements, [f"{arrays[node.operation]}[{angles.index(node.arguments[0])}]" for node in nodes]
 
 
 def _prototype(name: str, prefix: str, inputs: Sequence[Argument], outputs: Sequence[Argument]) -> str:

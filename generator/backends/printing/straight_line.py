@@ -2,13 +2,14 @@
 
 A node that a reviewer knows by name keeps it as the name of its variable (of several nodes of one name, the last one
 does). Another node is given a variable if it is used more than once or if its user's line would grow too long, and is
-written into its user's expression otherwise. A minus never has a variable of its own.
+written into its user's expression otherwise. A minus never has a variable of its own. A result that has a place is put
+there as soon as it is known.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from generator.backends.printing.identifiers import Identifiers
@@ -29,26 +30,42 @@ class Block:
 
 
 @dataclass(frozen=True)
+class Step:
+    """Nodes that a language computes together from ``arguments``.
+
+    ``write`` takes the arguments' texts and the names of the scope; it returns statements and the text of each node.
+    """
+
+    arguments: tuple[Node, ...]
+    nodes: tuple[Node, ...]
+    write: Callable[[Sequence[str], Identifiers], tuple[Sequence[str], Sequence[str]]]
+
+
+@dataclass(frozen=True)
 class _Text:
     text: str
     binding: int
 
 
 def straight_line(
-    nodes: Sequence[Node],
+    nodes: Sequence[Node | Step],
     roots: Sequence[Node],
     leaves: Mapping[Node, str],
     language: Language,
     names: Identifiers,
+    places: Mapping[Node, Sequence[str]] | None = None,
 ) -> Block:
     """The code that computes ``roots``.
 
     ``nodes`` are in order, arguments before users; ``leaves`` gives the text of every node that is not computed here
-    (inputs, and what was computed elsewhere). ``names`` holds the names already taken in the scope.
+    (inputs, and what was computed elsewhere). ``names`` holds the names already taken in the scope. ``places`` are
+    variables that take the value of a computed root.
     """
-    printer = _Printer(nodes, roots, leaves, language, names)
+    printer = _Printer(nodes, roots, leaves, language, names, places or {})
     for node in nodes:
-        if node not in leaves and node.operation != "constant":
+        if isinstance(node, Step):
+            printer.together(node)
+        elif node not in leaves and node.operation != "constant":
             printer.visit(node)
     return Block(tuple(printer.statements), tuple(printer.text(root).text for root in roots))
 
@@ -56,18 +73,21 @@ def straight_line(
 class _Printer:
     def __init__(
         self,
-        nodes: Sequence[Node],
+        nodes: Sequence[Node | Step],
         roots: Sequence[Node],
         leaves: Mapping[Node, str],
         language: Language,
         names: Identifiers,
+        places: Mapping[Node, Sequence[str]],
     ) -> None:
         self.statements: list[str] = []
         self._language = language
         self._names = names
+        self._places = places
         self._uses = _uses(nodes, roots, leaves)
         # a recursion that starts from rest names terms of the complete quantity like the whole, which comes later
-        self._named = {node.name: node for node in nodes if node.name is not None and node not in leaves}
+        single = [node for node in nodes if not isinstance(node, Step)]
+        self._named = {node.name: node for node in single if node.name is not None and node not in leaves}
         self._texts = {node: _Text(text, _ATOM) for node, text in leaves.items()}
         self._placed = set(leaves)
 
@@ -81,6 +101,18 @@ class _Printer:
             self._assign(node, text, self._names.temporary())
         else:
             self._texts[node] = text
+        self._put(node)
+
+    def together(self, step: Step) -> None:
+        statements, results = step.write([self.text(argument).text for argument in step.arguments], self._names)
+        self.statements += statements
+        self._texts |= {node: _Text(text, _ATOM) for node, text in zip(step.nodes, results, strict=True)}
+        self._placed |= set(step.nodes)
+        for node in step.nodes:
+            self._put(node)
+
+    def _put(self, node: Node) -> None:
+        self.statements += [f"{place} = {self.text(node).text};" for place in self._places.get(node, ())]
 
     def text(self, node: Node) -> _Text:
         if node.number is None:
@@ -137,10 +169,13 @@ def _computed(node: Node) -> Node:
     return node.arguments[0] if node.operation == "neg" else node
 
 
-def _uses(nodes: Sequence[Node], roots: Sequence[Node], leaves: Mapping[Node, str]) -> Counter[Node]:
+def _uses(nodes: Sequence[Node | Step], roots: Sequence[Node], leaves: Mapping[Node, str]) -> Counter[Node]:
     """How often each node is written; a minus is no use of its own but passes its users on."""
     uses = Counter(roots)
     for node in reversed(nodes):
+        if isinstance(node, Step):
+            uses.update(node.arguments)
+            continue
         if node in leaves:
             continue
         times = uses[node] if node.operation == "neg" else 1

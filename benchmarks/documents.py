@@ -1,0 +1,70 @@
+"""Results in the documents: tables between pairs of comments, and the picture. Nothing here measures.
+
+``python -m benchmarks.documents`` writes them anew from ``benchmarks/results.json``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from benchmarks.chart import chart
+from benchmarks.study import shown
+from benchmarks.summary import bars, summary
+from benchmarks.table import table
+
+ROOT = Path(__file__).parents[1]
+RESULTS = ROOT / "benchmarks" / "results.json"
+README, PERFORMANCE = Path("README.md"), Path("docs/performance.md")
+PICTURE = Path("docs/images/performance.svg")
+
+Results = Mapping[str, Any]
+
+
+def documented(results: Results) -> dict[Path, str]:
+    """The documents and the picture as the results have them, by their paths in the repository."""
+    performance = _replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))
+    for name, result in results["studies"].items():
+        performance = _replaced(_with_section(performance, name, result["title"]), f"study {name}", shown(result))
+    files = {PERFORMANCE: performance}
+    if rows := results["studies"].get("peers", {}).get("rows"):
+        files[README] = _replaced(_read(README), "performance", table(summary(rows)))
+        files[PICTURE] = chart(f"Time of one call, {rows[0]['robot']}", bars(rows), "the generated C")
+    return files
+
+
+def _facts(machine: Mapping[str, str]) -> list[dict[str, object]]:
+    return [{"": name, "measured on": value} for name, value in machine.items()]
+
+
+def _read(path: Path) -> str:
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def _with_section(text: str, name: str, title: str) -> str:
+    """The page with a section for a study that has none yet, behind the others."""
+    if f"<!-- study {name} -->" in text:
+        return text
+    return f"{text.rstrip()}\n\n## {title}\n\n<!-- study {name} -->\n<!-- end of study {name} -->\n"
+
+
+def _replaced(text: str, name: str, content: str) -> str:
+    """``text`` with ``content`` between the comments of ``name``, which must stand in it once."""
+    begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+    before, found, rest = text.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed) or begin in rest:
+        raise ValueError(f"no pair of comments {begin.strip()} {end}")
+    return f"{before}{begin}\n{content}\n\n{end}{after}"
+
+
+def main() -> None:
+    """Writes the documents anew from the results that are there."""
+    for path, text in documented(json.loads(RESULTS.read_text(encoding="utf-8"))).items():
+        (ROOT / path).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Loops over many samples that the batch functions are measured beside."""

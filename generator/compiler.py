@@ -1,0 +1,33 @@
+"""The C compiler of the machine."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from generator.errors import InputError, Place
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a command left: its exit status and what it printed."""
+
+    status: int
+    output: str
+
+
+def compiler() -> list[str]:
+    """The C compiler's command: the environment variable CC, or ``cc``."""
+    return shlex.split(os.environ.get("CC", "")) or ["cc"]
+
+
+def run(command: Sequence[str]) -> Done:
+    """Runs a command. Raises InputError where there is no such program."""
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    except FileNotFoundError:
+        raise InputError(Place(command[0]), "there is no such program", "a C compiler; set CC") from None
+    return Done(done.returncode, done.stdout)

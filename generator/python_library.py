@@ -1,0 +1,33 @@
+"""Compiling the library that the generated Python module loads, for the machine that it is compiled on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from generator.compiler import Done, compiler, run
+from generator.errors import InputError, Place
+
+_FLAGS = ("-std=c99", "-O2", "-ffp-contract=fast", "-fno-math-errno", "-shared", "-fPIC")
+#: Tried in this order: threads need OpenMP's library, and not every compiler knows its own machine.
+_ATTEMPTS = (("-march=native", "-fopenmp"), ("-march=native",), ("-fopenmp",), ())
+
+
+def build_library(folder: Path, name: str) -> Path:
+    """Compiles ``python/lib<name>.so`` from the generated C in ``folder``; returns its path.
+
+    With OpenMP and for the processor of this machine where the compiler can. Raises InputError where there is no
+    compiler or where it compiles nothing.
+    """
+    library = folder / "python" / f"lib{name}.so"
+    sources = [folder / "c" / f"{name}.c", folder / "batch" / f"{name}_batch.c"]
+    words = [*_FLAGS, f"-I{folder / 'c'}", *map(str, sources), "-o", str(library), "-lm"]
+    done = Done(1, "")
+    for flags in _ATTEMPTS:
+        done = run([*compiler(), *flags, *words])
+        if done.status == 0:
+            return library
+    library.unlink(missing_ok=True)
+    reason = (done.output.strip().splitlines() or ["it says nothing"])[-1]
+    raise InputError(
+        Place(str(library)), f"it cannot be compiled ({reason})", "a C99 compiler that makes shared libraries"
+    )

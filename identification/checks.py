@@ -1,0 +1,170 @@
+"""Signals that cannot be what they are called: each one line with its row, or a repair that is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from generator.errors import InputError, Place
+from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.recording import Array
+from identification.signals import Measured
+
+#: Beyond the limits, in parts of the range, that a position may be.
+_BEYOND = 0.05
+#: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
+_TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
+#: Time [s] over which a speed is looked at.
+_WINDOW = 0.05
+#: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
+_STUCK, _MOST = 10, 0.2
+#: Distance to the wrong reference over that to the right one, from which columns count as swapped.
+_SWAPPED = 3.0
+
+Where = Callable[[int | None, str], Place]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Samples ``start`` to ``end`` (not included) of joint ``coordinate``."""
+
+    coordinate: int
+    start: int
+    end: int
+
+
+def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
+    """Raises InputError at the first row that holds what is no finite number."""
+    worst: tuple[int, str] | None = None
+    for name, values in columns:
+        bad = np.flatnonzero(~np.isfinite(values))
+        if bad.size and (worst is None or bad[0] < worst[0]):
+            worst = int(bad[0]), name
+    if worst is not None:
+        row, name = worst
+        value = dict(columns)[name][row]
+        raise InputError(where(row, name), f"{name} is {value:g}", "a finite number")
+
+
+def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where) -> None:
+    """Joint positions (n x N): inside the limits, without jumps, not in degrees, not held at an end while moving.
+
+    Raises InputError with the row.
+    """
+    for k, joint in enumerate(robot.moving):
+        name = found.names[k]
+        _inside(q[k], joint, name, where)
+        steps = np.abs(np.diff(q[k]))
+        row = int(np.argmax(steps))
+        if steps[row] > _JUMP * period and steps[row] > 20 * np.quantile(steps, 0.99):
+            problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
+            raise InputError(where(row + 1, name), problem, "positions without jumps")
+        _speed(q[k], name, period, where)
+        _held(q[k], steps, name, where)
+
+
+def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
+    unit = "m" if joint.sigma == PRISMATIC else "rad"
+    if joint.lower is not None and joint.upper is not None:
+        lower, upper = float(joint.lower), float(joint.upper)
+        allowed = _BEYOND * (upper - lower)
+        bad = np.flatnonzero((x < lower - allowed) | (x > upper + allowed))
+        if bad.size:
+            row = int(bad[0])
+            inside = np.all((np.radians(x) >= lower - allowed) & (np.radians(x) <= upper + allowed))
+            problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, outside of {lower:.4g} to {upper:.4g}"
+            hint = "; are these degrees?" if inside and unit == "rad" else "; is this a run of another robot?"
+            raise InputError(where(row, name), problem, f"{unit} within the robot's limits{hint}")
+    elif unit == "rad" and np.abs(x).max() > _TURNS:
+        row = int(np.argmax(np.abs(x) > _TURNS))
+        problem = f"{name} gives joint {joint.number} {x[row]:.6g} rad, more than two turns"
+        raise InputError(where(row, name), problem, "rad, or limits in the robot file; are these degrees?")
+
+
+def _speed(x: Array, name: str, period: float, where: Where) -> None:
+    width = min(max(1, round(_WINDOW / period)), len(x) - 1)
+    speed = np.abs(x[width:] - x[:-width]) / (width * period)
+    if speed.max() > _FAST:
+        row = int(np.argmax(speed > _FAST))
+        problem = f"{name} moves at {speed[row]:.4g} a second"
+        raise InputError(where(row, name), problem, f"at most {_FAST:g} rad/s; are these degrees?")
+
+
+def _held(x: Array, steps: Array, name: str, where: Where) -> None:
+    """A position that stops dead at its highest or lowest value and leaves it as abruptly is cut off."""
+    moving = np.quantile(steps, 0.9)
+    for stretch in _flat(x):
+        if stretch.start == 0 or stretch.end == len(x):
+            continue
+        before, after = steps[stretch.start - 1], steps[stretch.end - 1]
+        inner = steps[stretch.start - 2] if stretch.start > 1 else 0.0
+        if min(before + inner, after) > 0.3 * moving > 0:
+            problem = f"{name} stays at {x[stretch.start]:.6g} from here for {stretch.end - stretch.start} rows"
+            raise InputError(where(stretch.start, name), problem, "a position that is not cut off")
+
+
+def _flat(x: Array) -> list[Stretch]:
+    """Stretches of at least ``_STUCK`` equal samples at the largest or smallest value."""
+    result = []
+    for extreme in (x.max(), x.min()):
+        at = np.concatenate([[0], (x == extreme).astype(np.int8), [0]])
+        edges = np.flatnonzero(np.diff(at))
+        for start, end in zip(edges[::2], edges[1::2], strict=True):
+            if end - start >= _STUCK:
+                result.append(Stretch(0, int(start), int(end)))
+    return result
+
+
+def torques(found: Measured, q: Array, where: Where) -> list[Stretch]:
+    """Where an effort stays at its largest or smallest value while the joints move: it is cut off there.
+
+    Raises InputError for an effort that is the same in all rows, and for one that is cut off in more than a fifth.
+    """
+    result = []
+    moves = np.concatenate([[False], np.any(np.diff(q, axis=-1) != 0, axis=0)])
+    for k, name in enumerate(found.names):
+        x = found.values[k]
+        if np.ptp(x) == 0:
+            raise InputError(where(0, name), f"{name} is {x[0]:.6g} in all rows", "a measured signal")
+        stretches = [one for one in _flat(x) if moves[one.start : one.end].mean() > 0.5]
+        if sum(one.end - one.start for one in stretches) > _MOST * len(x):
+            first = stretches[0]
+            problem = f"{name} stays at {x[first.start]:.6g} from here, as in more than a fifth of all rows"
+            raise InputError(where(first.start, name), problem, "a signal that is not cut off")
+        result += [Stretch(k, one.start, one.end) for one in stretches]
+    return result
+
+
+def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
+    """Positions against another measurement or the reference of the same joints (n x N).
+
+    Raises InputError where they are swapped.
+    """
+    distance = np.array([[np.std(a - b) for b in other.values] for a in q])
+    _, best = linear_sum_assignment(distance)
+    for k, match in enumerate(best):
+        if match != k and distance[k, k] > _SWAPPED * max(distance[k, match], 1e-12):
+            problem = f"{found.names[k]} follows {other.names[match]}, not {other.names[k]}"
+            raise InputError(where(None, found.names[k]), problem, "columns in the joints' order; are two swapped?")
+
+
+def repeats(values: Array) -> int:
+    """How many samples in a row an effort typically keeps its value: 1, or more where it was logged more slowly."""
+    changes = np.flatnonzero(np.diff(values))
+    if len(changes) < 20:
+        return 1
+    return int(np.median(np.diff(changes)))
+
+
+def left_out(stretches: Sequence[Stretch], shape: tuple[int, int]) -> NDArray[np.bool_] | None:
+    """Samples (n x N) that the stretches cover; None without any."""
+    if not stretches:
+        return None
+    result = np.zeros(shape, dtype=bool)
+    for one in stretches:
+        result[one.coordinate, one.start : one.end] = True
+    return result

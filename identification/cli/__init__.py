@@ -1,0 +1,1 @@
+"""The commands of identification, one module each."""

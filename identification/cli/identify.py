@@ -1,0 +1,191 @@
+"""Identify the dynamic parameters of a robot from recorded runs, by the inverse dynamic model and least squares.
+
+A run is a file with columns t, q1 .. qn (or qm1 .. qmn on the motors) and tau1 .. taun (or taum1 .. taumn, or currents
+i1 .. in); FILE@FROM:TO takes a part of it, with times in s. Filters come from the robot's recipe in recipes/, or from
+--recipe, or from the options. DIR receives results.json and the robot file with the identified parameters in it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import stage
+from generator.errors import InputError
+from generator.resources import find_robot
+
+if TYPE_CHECKING:
+    from generator.robot.description import Robot
+    from identification.consistent_fit import ConsistentFit
+    from identification.inverse_model import Identification, Options
+    from identification.observation import Regressors
+    from identification.recipe import Recipe
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, --data, --test, --out, the filters, the method."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
+    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT")
+    filters = parser.add_argument_group("filters")
+    filters.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the settings below")
+    filters.add_argument("--dynamics", metavar="HZ", type=float, help="highest frequency of the motion's dynamics")
+    filters.add_argument(
+        "--cutoff", metavar="HZ", type=float, help="of the Butterworth filter, else 5 times --dynamics"
+    )
+    filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
+    filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
+    filters.add_argument(
+        "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
+    )
+    method = parser.add_argument_group("method")
+    method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
+    method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
+    method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
+    method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
+    method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
+    method.add_argument(
+        "--consistent",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="also physically consistent parameters, kept near the bodies of --prior where it has standard parameters",
+    )
+    method.add_argument("--prior-weight", metavar="W", type=float, default=0.03, help="of that nearness, default 0.03")
+    method.add_argument(
+        "--payload", metavar="NAME=VALUE", nargs="*", help="runs carry a payload, of which this is known"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Identifies, writes the results, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification.consistent_fit import consistent_fit
+        from identification.inverse_model import identify
+        from identification.observation import Regressors
+        from identification.results import save
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise identify"), f"{error.name} is not installed", extra) from None
+
+    path = find_robot(arguments.robot)
+    with stage(f"deriving the model of {path.stem}"):
+        robot = read(path)
+        regressors = Regressors(robot)
+    options = _options(arguments, regressors)
+    with stage(f"identifying from {len(arguments.data)} runs"):
+        found = identify(robot, arguments.data, arguments.test, options, regressors)
+    consistent = None
+    if arguments.consistent:
+        weight = _more(arguments.prior_weight, "--prior-weight", 0.0)
+        with stage("making the parameters physically consistent"):
+            try:
+                consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
+            except ValueError as error:
+                found = replace(found, notes=(*found.notes, str(error)))
+    folder = arguments.out or Path("identified") / robot.name
+    files = save(found, path, folder, consistent)
+    print(_summary(found, consistent))
+    print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
+    from identification.fixing import fixed
+    from identification.inverse_model import Options
+    from identification.sidecar import given
+
+    place = command_line("--fix")
+    prior = None if arguments.prior is None else _prior(arguments.prior, regressors)
+    ratio = {} if arguments.essential is None else {"ratio": _more(arguments.essential, "--essential", 1.0)}
+    return Options(
+        recipe=_recipe(arguments, regressors),
+        fixed=fixed(arguments.fix, prior, regressors.model, place),
+        robust=arguments.robust,
+        payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
+        **ratio,
+    )
+
+
+def _prior(name: str, regressors: Regressors) -> dict[str, float]:
+    from generator.robot.fields import nearest
+    from generator.symbolic.parameter_sets import resolved_sets
+
+    sets = resolved_sets(regressors.model)
+    if name not in sets:
+        robot = regressors.model.robot.name
+        raise InputError(command_line("--prior"), f"{robot} has no parameter set {name!r}", nearest(name, sets))
+    return sets[name]
+
+
+def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:
+    """The standard parameters of a set that gives the bodies, None for any other."""
+    if name is None:
+        return None
+    values = {one: value.value for one, value in robot.parameter_sets[name].values.items()}
+    return values if all(f"M{joint.number}" in values for joint in robot.bodies) else None
+
+
+def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
+    from identification import recipe as recipes
+
+    robot = regressors.model.robot.name
+    base = recipes.recipe_of(robot) if arguments.recipe is None else recipes.read(arguments.recipe)
+    for name in ("dynamics", "cutoff"):
+        if getattr(arguments, name) is not None:
+            _more(getattr(arguments, name), f"--{name}", 0.0)
+    for name in ("order", "factor"):
+        if getattr(arguments, name) is not None:
+            recipes.whole(getattr(arguments, name), name, 1, command_line(f"--{name}"))
+    if arguments.standstill is not None and not arguments.standstill >= 0:
+        raise InputError(command_line("--standstill"), f"{arguments.standstill:g}", "a number that is not negative")
+    names = ("dynamics", "cutoff", "order", "factor", "standstill", "weights")
+    return base.changed(**{name: getattr(arguments, name) for name in names})
+
+
+def _more(value: float, option: str, least: float) -> float:
+    if not least < value < float("inf"):
+        raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
+    return value
+
+
+def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
+    lines = [
+        f"{found.robot.name}: {len(found.full.sought)} parameters, {len(found.essential.sought)} of them essential"
+    ]
+    lines += [f"note: {note}" for note in found.notes]
+    solution = found.full.solution
+    names = [name for name in solution.values if name in found.full.sought or name in found.options.fixed]
+    width = max(map(len, [*names, "parameter"]))
+    lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  essential")
+    for name in names:
+        hidden = name in solution.hidden
+        value = "unknown" if hidden else f"{solution.values[name]:.6g}"
+        mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential.sought else "no"
+        lines.append(
+            f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
+        )
+    lines.append(
+        f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
+    )
+    for title, estimate in (
+        ("all parameters", found.full),
+        ("essential ones", found.essential),
+        ("consistent ones", consistent),
+    ):
+        if estimate is None:
+            continue
+        for kind, result in (("train", estimate.train), ("test", estimate.test)):
+            if result is None:
+                continue
+            each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(result.per_joint.items()))
+            total = result.total
+            lines.append(
+                f"{title}, {kind}: ||e|| {total.norm:.6g}, ||e||/||Y|| {total.relative:.4f} %, "
+                f"||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})"
+            )
+    return "\n".join(lines)

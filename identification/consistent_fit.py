@@ -1,0 +1,146 @@
+"""Least squares among physically consistent parameters: bodies that can be, friction that brakes.
+
+What the rows say is weighed by the residuals' variance; what they leave open is settled by the divergence from prior
+bodies, as in ``consistency``. The result is a set of standard parameters, whose inertia matrix is positive definite at
+every position.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from generator.symbolic.bodies import INERTIAL
+from identification.factors import triangular
+from identification.inverse_model import Identification
+from identification.pseudo_inertia import of_body, uniform_bar
+from identification.residuals import Residuals, residuals
+from identification.sidecar import Payload
+
+Array = NDArray[np.float64]
+
+#: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; length [m] of that
+#: link and mass [kg] of the ball where nothing tells them.
+_PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
+#: Radius of gyration [m] that a prior body has at least in every direction: none is a point.
+_LEAST_RADIUS = 0.02
+
+
+@dataclass(frozen=True)
+class ConsistentFit:
+    """``standard`` parameters by name [SI], payloads' among them, ``base`` ones, and what they leave of the torques.
+
+    ``prior`` tells whether bodies were known beforehand.
+    """
+
+    standard: Mapping[str, float]
+    base: Mapping[str, float]
+    weight: float
+    prior: bool
+    train: Residuals
+    test: Residuals | None
+
+
+def consistent_fit(found: Identification, prior: Mapping[str, float] | None, weight: float) -> ConsistentFit:
+    """The consistent parameters nearest to the rows of ``found``.
+
+    ``prior`` holds standard parameters of physically possible bodies; a unit of divergence from one of them costs
+    ``weight`` variances of a residual. Without it every body is compared with the same ball.
+
+    Raises InputError where a body of the prior is impossible, and ValueError where the solver finds no parameters, as
+    with impossible values that were given to the identification.
+    """
+    import cvxpy
+
+    from identification.consistency import relative_to
+
+    cp: Any = cvxpy
+    model = found.regressors.model
+    payloads = _payloads(found)
+    names = [p.name for p in model.standard_parameters]
+    names += [name for one in payloads for name in one.names().values()]
+    s = {name: cp.Variable(name=name) for name in names}
+    base = {
+        name: cp.sum([coefficient * s[one] for one, coefficient in terms.items()])
+        for name, terms in model.grouping.numeric().items()
+    }
+    R = _rows(found)
+    start = np.array([found.full.solution.values[name] for name in found.problem.names])
+    values = base | {name: s[name] for one in payloads for name in one.names().values()}
+    scale = np.linalg.norm(R, axis=0) + 1e-300
+    # About the least squares' solution, so that the solver need not see what no parameters explain.
+    away = cp.hstack([(values[n] - x) * k for n, x, k in zip(found.problem.names, start, scale, strict=True)])
+    relative = [
+        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in _bodies(found, prior).items()
+    ]
+    relative += [relative_to(_ball(found), [s[name] for name in one.names().values()]) for one in payloads]
+    cost = cp.sum_squares((R / scale) @ away)
+    cost += weight * cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
+    constraints = [X >> 0 for X in relative]
+    constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
+    constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
+    _solve(cp.Problem(cp.Minimize(cost), constraints), cp)
+    standard = {name: float(variable.value) for name, variable in s.items()}
+    at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
+    train = residuals([f for run in found.train for f in run.factors], at)
+    test = residuals([f for run in found.test for f in run.factors], at) if found.test else None
+    return ConsistentFit(standard, {name: at[name] for name in base}, weight, prior is not None, train, test)
+
+
+def _solve(problem: Any, cp: Any) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # about accuracy: the residuals tell what was reached
+        try:
+            problem.solve(solver=cp.CLARABEL)
+        except cp.SolverError as error:
+            raise ValueError(f"no physically consistent parameters were found: {error}") from None
+    if problem.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE):
+        raise ValueError(f"no physically consistent parameters were found: {problem.status}")
+
+
+def _payloads(found: Identification) -> list[Payload]:
+    """The payloads of which anything is estimated."""
+    by_name = {one.sampled.run.payload.name: one.sampled.run.payload for one in found.train if one.sampled.run.payload}
+    return [one for one in by_name.values() if set(one.names().values()) & set(found.problem.names)]
+
+
+def _rows(found: Identification) -> Array:
+    """R (p x p) of the free parameters, in standard deviations of the residuals."""
+    problem, sigma = found.problem, found.full.solution.sigma
+    stacked = [one.on(problem.names)[:, :-1] / sigma[one.joint] for one in problem.factors]
+    return triangular(np.concatenate(stacked))
+
+
+def _ball(found: Identification) -> Array:
+    """A ball of the size of the robot's links; its mass makes their median first moment at the longest link's end."""
+    robot, values = found.robot, found.full.solution.values
+    lengths = [abs(float(length.value)) for length in robot.lengths if length.unit == "m"]
+    size = max(lengths, default=0.0) or _LENGTH
+    moments = [
+        abs(values[p.name])
+        for p in found.regressors.model.base_parameters
+        if p.unit == "kg m" and p.name not in found.full.solution.hidden and p.name in values
+    ]
+    mass = float(np.median(moments)) / size if moments else _MASS
+    return uniform_bar(mass, (0, 0, 0), (0, 0, 0), _PART * size * np.sqrt(5))
+
+
+def _bodies(found: Identification, prior: Mapping[str, float] | None) -> dict[int, Array]:
+    """Pseudo-inertias to keep to, by body."""
+    numbers = [joint.number for joint in found.robot.bodies]
+    if prior is None:
+        return dict.fromkeys(numbers, _ball(found))
+    result = {}
+    for number in numbers:
+        mass = prior[f"M{number}"]
+        result[number] = of_body(number, prior) + np.diag([mass * _LEAST_RADIUS**2] * 3 + [0.0])
+        if np.linalg.eigvalsh(result[number]).min() <= 0:
+            place = found.robot.place
+            raise InputError(place, f"body {number} of the prior is impossible", "a positive pseudo-inertia")
+    return result

@@ -1,0 +1,177 @@
+"""Runs: what a robot's controller recorded, checked, on the joint side, in SI units, at one rate.
+
+A run is a file, or a part of it: ``A.csv@2:8`` is the run from 2 s to 8 s by the file's own times.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
+
+from generator.errors import InputError, Place
+from generator.robot.description import Robot
+from identification import checks, readers, sidecar
+from identification.formula import Formula, renamed
+from identification.recording import Array, Recording
+from identification.sidecar import Payload
+from identification.signals import (
+    EFFORTS,
+    FURTHER,
+    POSITIONS,
+    WRENCH,
+    Measured,
+    joint_positions,
+    joint_torques,
+    measured,
+)
+from identification.timing import Clock, clock
+
+_PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of n joints and N samples, samples along the last axis.
+
+    ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``unusable``
+    marks samples whose effort was cut off. ``others`` are the file's further columns of known meaning by name (N each).
+    ``notes`` tell every repair.
+    """
+
+    name: str
+    place: Place
+    start: float
+    period: float
+    q: Array
+    tau: Array
+    payload: Payload | None = None
+    unusable: NDArray[np.bool_] | None = None
+    others: Mapping[str, Array] = field(default_factory=dict)
+    sha256: str = ""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def samples(self) -> int:
+        """N."""
+        return int(self.q.shape[-1])
+
+    @property
+    def rate(self) -> float:
+        """Samples per second [Hz]."""
+        return 1 / self.period
+
+
+def load(source: str, robot: Robot, columns: Mapping[str, Formula] | None = None) -> Run:
+    """The run that ``source`` names: a path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
+
+    ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
+    what they make. A sidecar's come on top.
+
+    Raises InputError, with file and row, for everything that would make the result wrong.
+    """
+    path, start, end = _parsed(source)
+    beside = sidecar.read(path)
+    if beside.robot and beside.robot != robot.name:
+        place = Place(str(path.with_suffix(".yaml")))
+        raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
+    recording = readers.read(path)
+    wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
+    if all(_possible(one, recording) for one in wanted.values()):
+        recording = renamed(recording, wanted)
+    recording = renamed(recording, beside.columns)
+    recording, first = _part(recording, source, start, end)
+    return _run(source, recording, robot, beside.payload, first)
+
+
+def _possible(formula: Formula, recording: Recording) -> bool:
+    return all(symbol.name in recording.columns for symbol in formula.expression.free_symbols)
+
+
+def _parsed(source: str) -> tuple[Path, float, float]:
+    match = None if Path(source).exists() else _PART.match(source)
+    if match is None:
+        return Path(source), -np.inf, np.inf
+    try:
+        start, end = float(match["start"] or "-inf"), float(match["end"] or "inf")
+    except ValueError:
+        raise InputError(Place(source), "this is no part of a run", "FILE@FROM:TO with times in s") from None
+    return Path(match["path"]), start, end
+
+
+def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
+    """The rows from ``start`` to ``end`` [s], and the number of the first."""
+    if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
+        return recording, 0
+    t = recording.columns["t"]
+    inside = np.flatnonzero((t >= start - 1e-9) & (t <= end + 1e-9))
+    if not inside.size:
+        raise InputError(Place(source), f"no sample from {start:g} s to {end:g} s", f"times from {t[0]:g} to {t[-1]:g}")
+    first, last = int(inside[0]), int(inside[-1]) + 1
+    columns = {name: values[first:last] for name, values in recording.columns.items()}
+    return Recording(recording.file, columns, recording.sha256, recording.where, recording.notes), first
+
+
+def _run(source: str, recording: Recording, robot: Robot, payload: Payload | None, first: int) -> Run:
+    def where(row: int | None, column: str) -> Place:
+        return recording.where(None if row is None else row + first, column)
+
+    at = measured(recording, POSITIONS, robot, "positions")
+    effort = measured(recording, EFFORTS, robot, "efforts")
+    others = {name: values for name, values in recording.columns.items() if _known(name, robot)}
+    named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
+    times = [("t", recording.columns["t"])] if "t" in recording.columns else []
+    checks.finite([*times, *named, *others.items()], where)
+    ticks = clock(recording, first)
+    q = joint_positions(at, robot, recording)
+    checks.positions(q, at, robot, ticks.period, where)
+    for stem in ("qs", "qr"):
+        if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
+            checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
+    stretches = checks.torques(effort, q, where)
+    tau = joint_torques(effort, robot, recording)
+    notes = [*recording.notes]
+    for one in stretches:
+        name, rows = effort.names[one.coordinate], one.end - one.start
+        notes.append(f"{where(one.start, name)}: {name} is cut off for {rows} rows, which are left out")
+    for name, values in zip(effort.names, effort.values, strict=True):
+        if (held := checks.repeats(values)) > 1:
+            notes.append(f"{where(None, name)}: {name} keeps each value for {held} rows: it was logged more slowly")
+    if ticks.uneven is not None:
+        notes.append(f"{where(None, 't')}: times are uneven; samples were interpolated to {ticks.rate:.6g} Hz")
+        q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
+    unusable = checks.left_out(stretches, tau.shape)
+    if unusable is not None:
+        unusable = _on_joints(unusable, effort, robot)
+    place = where(None, "t")
+    return Run(
+        source, place, ticks.start, ticks.period, q, tau, payload, unusable, others, recording.sha256, tuple(notes)
+    )
+
+
+def _known(name: str, robot: Robot) -> bool:
+    """Whether a column's name has a meaning beside the positions and efforts."""
+    return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
+
+
+def _evened(ticks: Clock, x: Array) -> Array:
+    """Samples at even times, by a cubic spline through the uneven ones."""
+    t = ticks.uneven
+    assert t is not None
+    even = np.clip(ticks.start + ticks.period * np.arange(len(t)), t[0], t[-1])
+    result: Array = make_interp_spline(t, x, axis=-1)(even)
+    return result
+
+
+def _on_joints(unusable: NDArray[np.bool_], effort: Measured, robot: Robot) -> NDArray[np.bool_]:
+    """A motor's samples are those of all joints that it drives."""
+    if effort.stem == "tau" or robot.drives is None:
+        return unusable
+    drives = np.array([[entry != 0 for entry in row] for row in robot.drives.coupling])
+    result: NDArray[np.bool_] = (drives.T.astype(int) @ unusable.astype(int)) > 0
+    return result

@@ -1,0 +1,124 @@
+"""Filters of the identification: zero-phase Butterworth, central differences, and MATLAB's decimation (report eq. 46).
+
+Arrays have samples along the last axis. Every filter runs forward and backward, which doubles its order and cancels its
+phase; ends are continued by odd reflection about the end sample, three samples an order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+Array = NDArray[np.float64]
+
+#: Order, ripple [dB] and corner (of the new Nyquist frequency) of the Chebyshev filter before decimation.
+_ORDER, _RIPPLE, _CORNER = 8, 0.05, 0.8
+#: Largest factor of one stage; MATLAB's manual asks for several beyond it.
+_LARGEST = 13
+#: What an interior end may leave of a transient.
+_FORGOTTEN = 1e-14
+
+
+def padding(order: int) -> int:
+    """Samples by which the ends are continued."""
+    return 3 * order
+
+
+def zero_phase(sections: Array, x: Array, pad: int) -> Array:
+    """``x`` through second-order sections, forward and backward, its ends continued by ``pad`` samples.
+
+    MATLAB's filtfilt; sections keep the digits that one transfer function of order 8 would lose.
+    """
+    result: Array = signal.sosfiltfilt(sections, x, axis=-1, padtype="odd", padlen=pad)
+    return result
+
+
+def smoothed(x: Array, order: int, cutoff: float, rate: float) -> Array:
+    """``x`` after a Butterworth filter of ``order`` at ``cutoff`` [Hz], forward and backward; ``rate`` in Hz."""
+    return zero_phase(signal.butter(order, cutoff / (rate / 2), output="sos"), x, padding(order))
+
+
+def derivative(x: Array, period: float) -> Array:
+    """Central differences over two ``period`` [s] (report eq. 46), one-sided at the two ends; the length stays."""
+    result = np.empty_like(x)
+    result[..., 1:-1] = (x[..., 2:] - x[..., :-2]) / 2
+    result[..., 0], result[..., -1] = x[..., 1] - x[..., 0], x[..., -1] - x[..., -2]
+    result /= period
+    return result
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Decimation by one factor r as MATLAB does it: Chebyshev I of order 8, 0.05 dB, at 0.8/r of the Nyquist frequency.
+
+    Of nd samples nout = ceil(nd/r) are kept, the first of them number r - (r nout - nd), counted from 1.
+    """
+
+    factor: int
+
+    def first(self, count: int) -> int:
+        """Index, from 0, of the first of ``count`` samples that is kept."""
+        return (count - 1) % self.factor
+
+    def kept(self, count: int) -> int:
+        """How many of ``count`` samples are kept."""
+        return -(-count // self.factor)
+
+    @property
+    def margin(self) -> int:
+        """Samples after which the filter has forgotten an end."""
+        _, poles, _ = signal.cheby1(_ORDER, _RIPPLE, _CORNER / self.factor, output="zpk")
+        return int(np.ceil(np.log(_FORGOTTEN) / np.log(np.abs(poles).max())))
+
+    @property
+    def fewest(self) -> int:
+        """Samples that it needs at least."""
+        return padding(_ORDER) + 1
+
+    def filtered(self, x: Array) -> Array:
+        """``x`` after the filter, all samples."""
+        return zero_phase(_chebyshev(self.factor), x, padding(_ORDER))
+
+    def __call__(self, x: Array) -> Array:
+        """The kept samples of ``x``."""
+        return self.filtered(x)[..., self.first(x.shape[-1]) :: self.factor]
+
+
+@cache
+def _chebyshev(factor: int) -> Array:
+    result: Array = signal.cheby1(_ORDER, _RIPPLE, _CORNER / factor, output="sos")
+    return result
+
+
+def stages(factor: int) -> tuple[Stage, ...]:
+    """The stages whose factors multiply to ``factor``, the largest first; none for 1.
+
+    Raises ValueError where a prime of ``factor`` is too large for a stage.
+    """
+    result = []
+    while factor > 1:
+        largest = max((r for r in range(2, min(factor, _LARGEST) + 1) if factor % r == 0), default=0)
+        if not largest:
+            raise ValueError(f"{factor} has no divisor up to {_LARGEST}")
+        result.append(Stage(largest))
+        factor //= largest
+    return tuple(result)
+
+
+def decimated(x: Array, factor: int) -> Array:
+    """``x`` decimated by all stages of ``factor``."""
+    for stage in stages(factor):
+        x = stage(x)
+    return x
+
+
+def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
+    """Indices, from 0, of the ``count`` samples that decimation by all stages of ``factor`` keeps."""
+    indices = np.arange(count)
+    for stage in stages(factor):
+        indices = indices[stage.first(len(indices)) :: stage.factor]
+    return indices

@@ -1,0 +1,64 @@
+"""Columns of a foreign file under this project's names: ``tau1: vir * gtau``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import sympy
+
+from generator import expressions
+from generator.errors import InputError
+from generator.robot import fields
+from generator.robot.document import Entry, Text
+from identification.recording import Array, Recording
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An exact expression over the names of a file's columns."""
+
+    expression: sympy.Expr
+    text: Text
+
+    def values(self, recording: Recording) -> Array:
+        """The column (N); raises InputError where the file lacks a name of the formula."""
+        names = sorted(symbol.name for symbol in self.expression.free_symbols)
+        for name in names:
+            if name not in recording.columns:
+                where = recording.where(None, name)
+                raise InputError(where, f"there is no column {name}", f"the columns of {self.text.content!r}")
+        symbols = [sympy.Symbol(name, real=True) for name in names]
+        function: Any = sympy.lambdify(symbols, self.expression, "numpy")
+        result = function(*(recording.columns[name] for name in names))
+        return np.array(np.broadcast_to(np.asarray(result, dtype=float), (recording.rows,)))
+
+
+def formulas(entry: Entry | None) -> dict[str, Formula]:
+    """The formulas of a table ``columns``; raises InputError for what is not an expression."""
+    if entry is None:
+        return {}
+    result = {}
+    for name, one in fields.named(entry.value, "columns").items():
+        text = fields.text(one.value, f"column {name}", "an expression over the file's columns")
+        result[name] = Formula(expressions.parse(text.content, text.inside or text.place), text)
+    return result
+
+
+def renamed(recording: Recording, given: Mapping[str, Formula]) -> Recording:
+    """The recording with the columns of ``given`` added; what the file itself has is replaced."""
+    if not given:
+        return recording
+    added = {name: formula.values(recording) for name, formula in given.items()}
+
+    def where(row: int | None, column: str) -> Any:
+        """A made column stands where the first column it is made of stands."""
+        if column in given:
+            names = [symbol.name for symbol in given[column].expression.free_symbols]
+            column = min(names, key=list(recording.columns).index, default=column)
+        return recording.where(row, column)
+
+    columns = {**recording.columns, **added}
+    return Recording(recording.file, columns, recording.sha256, where, recording.notes)

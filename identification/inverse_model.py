@@ -1,0 +1,203 @@
+"""Identification with the inverse dynamic model and least squares, IDIM-LS (report section 3.1), as one call."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification import recipe as recipes
+from identification.dataset import Run, load
+from identification.essential import RATIO, essential
+from identification.factors import Factor, added
+from identification.least_squares import Problem, Solution
+from identification.observation import Regressors
+from identification.observed import Observed
+from identification.recipe import Recipe
+from identification.residuals import Residuals, residuals
+from identification.robust import robust
+from identification.sampling import sampled
+from identification.sidecar import Payload
+from identification.suspicion import suspect
+
+
+@dataclass(frozen=True)
+class Options:
+    """What is asked for.
+
+    ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
+    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells.
+    """
+
+    recipe: Recipe | None = None
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    ratio: float = RATIO
+    robust: bool = False
+    payload: Payload | None = None
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A model's parameters with what they leave of the torques, on the runs used and on those held out (None if none).
+
+    ``sought`` are the parameters that were estimated; others are fixed or, in an essential model, zero.
+    """
+
+    solution: Solution
+    sought: tuple[str, ...]
+    train: Residuals
+    test: Residuals | None
+
+
+@dataclass(frozen=True)
+class Identification:
+    """All that was found: the model with all parameters and the essential one; every repair and doubt in ``notes``."""
+
+    regressors: Regressors
+    options: Options
+    recipe: Recipe
+    train: tuple[Observed, ...]
+    test: tuple[Observed, ...]
+    problem: Problem
+    full: Estimate
+    essential: Estimate
+    notes: tuple[str, ...]
+
+    @property
+    def robot(self) -> Robot:
+        """The robot as its file says."""
+        return self.regressors.model.robot
+
+
+def identify(
+    robot: Robot,
+    data: Sequence[str | Path],
+    test: Sequence[str | Path] = (),
+    options: Options | None = None,
+    regressors: Regressors | None = None,
+) -> Identification:
+    """Parameters of ``robot`` from the runs ``data``, tried on the runs ``test``.
+
+    A run is a path, or ``PATH@FROM:TO`` with times in s. ``regressors`` may be given to use them again.
+
+    Raises InputError for runs that cannot be used and for fixed parameters that the robot does not have.
+    """
+    options = options or Options()
+    recipe = options.recipe or recipes.recipe_of(robot.name)
+    regressors = regressors or Regressors(robot)
+    trained, tried = (
+        tuple(_observed(_loaded(str(source), robot, recipe, options), recipe, regressors) for source in sources)
+        for sources in (data, test)
+    )
+    factors = _added(trained)
+    problem = _problem(factors, regressors, _payloads(trained), recipe, options)
+    notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
+    problem, aside = _separable(problem, _payloads(trained))
+    notes += aside
+    if options.robust:
+        found = robust(problem, trained)
+        problem = found.problem
+        notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
+    tests = _added(tried)
+    full = _estimate(problem, problem.solve(), factors, tests)
+    notes += suspect(trained, regressors, full.train)
+    reduced, solution = essential(problem, options.ratio)
+    best = _estimate(reduced, solution, factors, tests)
+    notes += _doubts(regressors, full)
+    return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))
+
+
+def _loaded(source: str, robot: Robot, recipe: Recipe, options: Options) -> Run:
+    run = load(source, robot, recipe.columns)
+    return run if run.payload is not None else replace(run, payload=options.payload)
+
+
+def _observed(run: Run, recipe: Recipe, regressors: Regressors) -> Observed:
+    fewest = recipe.at(run.rate).fewest
+    if run.samples < fewest:
+        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        raise InputError(run.place, problem, f"at least {fewest} for the filters")
+    return Observed(sampled(run, recipe, regressors), regressors)
+
+
+def _added(runs: Iterable[Observed]) -> tuple[Factor, ...]:
+    return added([one for run in runs for one in run.factors])
+
+
+def _payloads(runs: Iterable[Observed]) -> dict[str, Payload]:
+    """By name; the first run that has one of a name tells what is known of it."""
+    result: dict[str, Payload] = {}
+    for one in runs:
+        payload = one.sampled.run.payload
+        if payload is not None:
+            known = result.setdefault(payload.name, payload).known
+            if known != payload.known:
+                raise InputError(one.sampled.run.place, f"payload {payload.name} has other values here", "one payload")
+    return result
+
+
+def _problem(
+    factors: tuple[Factor, ...],
+    regressors: Regressors,
+    payloads: Mapping[str, Payload],
+    recipe: Recipe,
+    options: Options,
+) -> Problem:
+    names = [*regressors.names, *(name for one in payloads.values() for name in one.names().values())]
+    fixed = {one.names()[stem]: value for one in payloads.values() for stem, value in one.known.items()}
+    fixed |= options.fixed
+    free = tuple(name for name in names if name not in fixed)
+    weighted = recipe.weights == recipes.JOINT
+    return Problem(factors, free, fixed, weighted, recipe.freedom == recipes.SAMPLES)
+
+
+def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Problem, list[str]]:
+    """Without the payload's parameters that the last body's hide: they count as part of it."""
+    notes = []
+    hidden = problem.solve().hidden
+    for payload in payloads.values():
+        mixed = [name for name in payload.names().values() if name in hidden]
+        if mixed and any(name not in payload.names().values() for name in hidden):
+            notes.append(
+                f"payload {payload.name}: no run without it tells {' '.join(mixed)} from the last body, "
+                "whose parameters hold them"
+            )
+            for name in mixed:
+                problem = problem.without(name)
+    return problem, notes
+
+
+def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], test: Sequence[Factor]) -> Estimate:
+    unknown = sorted({name for one in test for name in one.names} - set(solution.values))
+    values = {**solution.values, **dict.fromkeys(unknown, 0.0)}
+    return Estimate(solution, problem.names, residuals(train, values), residuals(test, values) if test else None)
+
+
+def _notes_on(one: Observed, robot: Robot) -> list[str]:
+    notes = list(one.sampled.run.notes)
+    name = one.sampled.run.name
+    for k in one.sampled.still:
+        notes.append(f"{name}: joint {robot.moving[k].number} stands still; its speed was taken as zero")
+    for factor in one.factors:
+        if not factor.rows:
+            number = robot.moving[factor.joint].number
+            notes.append(f"{name}: joint {number} is never faster than the standstill threshold; it has no rows")
+    return notes
+
+
+def _doubts(regressors: Regressors, full: Estimate) -> list[str]:
+    """Parameters that nothing shows, and those that matter cannot have."""
+    solution = full.solution
+    notes = [f"{name} cannot be identified: no motion in the data shows it alone" for name in solution.hidden]
+    for parameter in regressors.model.base_parameters:
+        name = parameter.name
+        if parameter.lower is None or name not in full.sought or name in solution.hidden:
+            continue
+        below = parameter.lower - solution.values[name]
+        if below > 3 * solution.std(name) and np.isfinite(below):
+            notes.append(f"{name} is {solution.values[name]:.4g}, below its bound {parameter.lower:g}")
+    return notes

@@ -1,0 +1,59 @@
+"""Runs as MATLAB files up to version 7: vectors, matrices with a column a joint, scalars that hold for all samples."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.io
+
+from generator.errors import InputError, Place
+from identification.recording import Array, Recording, digest
+
+EXTENSIONS = (".mat",)
+
+
+def read(path: Path) -> Recording:
+    """The numeric variables of a file; a matrix ``q`` of n columns gives ``q1`` to ``qn``, a scalar a constant column.
+
+    The number of samples is that of ``t``, else of the longest variable. What has another length is not a column.
+    Raises InputError for a file that is not of this format.
+    """
+    file = str(path)
+    try:
+        variables: dict[str, Any] = scipy.io.loadmat(file)
+    except NotImplementedError:
+        raise InputError(Place(file), "a MATLAB file of version 7.3", "one of version 7 (save -v7)") from None
+    except OSError:
+        raise
+    except Exception as error:  # a damaged file makes scipy raise errors of many kinds
+        problem = f"this is not a whole MATLAB file ({' '.join(str(error).split()) or type(error).__name__})"
+        raise InputError(Place(file), problem, "a MATLAB file up to version 7") from None
+    arrays = {
+        name: np.atleast_2d(np.asarray(value, dtype=float))
+        for name, value in variables.items()
+        if not name.startswith("__") and isinstance(value, np.ndarray) and value.dtype.kind in "fiu" and value.ndim <= 2
+    }
+    arrays = {name: value for name, value in arrays.items() if value.size}
+    length = max(arrays["t"].shape) if "t" in arrays else max((max(a.shape) for a in arrays.values()), default=0)
+    columns: dict[str, Array] = {}
+    for name, value in arrays.items():
+        columns |= _columns(name, value, length)
+    return Recording(file, columns, digest(path), lambda row, column: _place(file, list(columns), row, column))
+
+
+def _columns(name: str, value: Array, length: int) -> dict[str, Array]:
+    if value.size == 1:
+        return {name: np.broadcast_to(value.ravel(), (length,))}
+    upright = value if value.shape[0] == length else value.T
+    if upright.shape[0] != length:
+        return {}
+    if upright.shape[1] == 1:
+        return {name: np.ascontiguousarray(upright[:, 0])}
+    return {f"{name}{k}": np.ascontiguousarray(column) for k, column in enumerate(upright.T, start=1)}
+
+
+def _place(file: str, names: list[str], row: int | None, column: str) -> Place:
+    """Sample and variable count as line and column."""
+    return Place(file, 1 if row is None else row + 1, names.index(column) + 1 if column in names else 1)

@@ -1,0 +1,146 @@
+"""How runs are filtered before anything is identified: a recipe, with defaults that follow the rules of practice.
+
+Rules (Gautier 1997): the Butterworth filter passes five times the highest frequency of the motion's dynamics, the
+decimation twice that frequency.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from dataclasses import fields as of_class
+from pathlib import Path
+
+from generator.errors import InputError, Place
+from generator.resources import data_folder
+from generator.robot import fields
+from generator.robot.document import Entry
+from generator.robot.readers import text_of, yaml
+from identification.filtering import stages
+from identification.formula import Formula, formulas
+
+#: Cut-off of the Butterworth filter and new sampling rate, in frequencies of the dynamics. MATLAB's decimation by r
+#: passes 0.4 of the new rate, which makes twice the dynamics.
+_CUTOFF, _RATE = 5.0, 5.0
+#: Periods of the cut-off that the filter's ends are given.
+_ENDS = 5.0
+JOINT, NONE = "joint", "none"
+PARAMETERS, SAMPLES = "parameters", "samples"
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Settings of the filters and of the least squares; None where they follow from others.
+
+    ``dynamics`` [Hz] is the highest frequency of the motion's dynamics. ``cutoff`` [Hz] and ``order`` are those of the
+    Butterworth filter, ``factor`` is that of the decimation. ``dropped_first`` and ``dropped_last`` samples are left
+    out before it. Where a joint is slower than ``standstill`` [rad/s, m/s] its rows are left out. ``weights`` is
+    "joint" or "none". The residual's variance divides by rows minus estimated ``parameters``, or, as MATLAB's std, by
+    rows minus one (``freedom`` = "samples"). ``columns`` are formulas for files with names of their own.
+    """
+
+    dynamics: float = 2.0
+    cutoff: float | None = None
+    order: int = 4
+    factor: int | None = None
+    dropped_first: int | None = None
+    dropped_last: int | None = None
+    standstill: float = 0.03
+    weights: str = JOINT
+    freedom: str = PARAMETERS
+    columns: Mapping[str, Formula] = field(default_factory=dict)
+
+    def changed(self, **values: object) -> Recipe:
+        """The recipe with the ``values`` that are not None in place of its own."""
+        return replace(self, **{name: value for name, value in values.items() if value is not None})  # type: ignore[arg-type]
+
+    def at(self, rate: float) -> Filters:
+        """The filters for runs sampled at ``rate`` [Hz]."""
+        cutoff = min(self.cutoff or _CUTOFF * self.dynamics, 0.45 * rate)
+        factor = self.factor or _possible(rate / (_RATE * self.dynamics))
+        ends = round(_ENDS * rate / cutoff)
+        first = ends if self.dropped_first is None else self.dropped_first
+        last = ends if self.dropped_last is None else self.dropped_last
+        return Filters(rate, cutoff, self.order, factor, first, last)
+
+
+@dataclass(frozen=True)
+class Filters:
+    """Numbers for one sampling ``rate`` [Hz]: Butterworth ``cutoff`` [Hz] and ``order``, decimation ``factor``, and
+    the samples left out at both ends between the two.
+    """
+
+    rate: float
+    cutoff: float
+    order: int
+    factor: int
+    first: int
+    last: int
+
+    @property
+    def fewest(self) -> int:
+        """Samples that a run needs at least."""
+        return self.first + self.last + max(30, 10 * self.factor)
+
+
+def _possible(ratio: float) -> int:
+    """The factor nearest to ``ratio`` that decimation in stages can have."""
+    nearest = max(1, round(ratio))
+    candidates = sorted(range(max(1, nearest // 2), 2 * nearest + 1), key=lambda r: (abs(r - ratio), r))
+    return next(r for r in candidates if _has_stages(r))
+
+
+def _has_stages(factor: int) -> bool:
+    try:
+        stages(factor)
+    except ValueError:
+        return False
+    return True
+
+
+def recipe_of(robot: str) -> Recipe:
+    """The recipe in ``recipes/`` that is called as the robot is, else the defaults."""
+    path = data_folder("recipes") / f"{robot}.yaml"
+    return read(path) if path.is_file() else Recipe()
+
+
+def read(path: Path) -> Recipe:
+    """The recipe that a YAML file says; raises InputError, with line and column, for what no recipe has."""
+    file = str(path)
+    root = yaml.read(text_of(path, file, "a recipe"), file)
+    names = [one.name for one in of_class(Recipe)]
+    keys = fields.table(root, "the recipe", (), ("description", *names))
+    values: dict[str, object] = {"columns": formulas(keys.get("columns"))}
+    values |= {name: _positive(keys[name], name) for name in ("dynamics", "cutoff") if name in keys}
+    if "standstill" in keys:
+        values["standstill"] = _number(keys["standstill"], "standstill")
+    for name, least in (("order", 1), ("factor", 1), ("dropped_first", 0), ("dropped_last", 0)):
+        if name in keys:
+            values[name] = whole(fields.integer(keys[name].value, name), name, least, keys[name].value.place)
+    for name, known in (("weights", (JOINT, NONE)), ("freedom", (PARAMETERS, SAMPLES))):
+        if name in keys:
+            values[name] = fields.word(keys[name].value, name, known)
+    return Recipe().changed(**values)
+
+
+def whole(value: int, name: str, least: int, place: Place) -> int:
+    """``value`` itself; raises InputError where it is less than ``least`` or a factor without stages."""
+    if value < least:
+        raise InputError(place, f"{name} is {value}", f"at least {least}")
+    if name == "factor" and not _has_stages(value):
+        raise InputError(place, f"factor is {value}", "a product of numbers up to 13")
+    return value
+
+
+def _number(entry: Entry, name: str) -> float:
+    value = float(fields.number(entry.value, name))
+    if value < 0:
+        raise InputError(entry.value.place, f"{name} is {value:g}", "a number that is not negative")
+    return value
+
+
+def _positive(entry: Entry, name: str) -> float:
+    value = _number(entry, name)
+    if not value:
+        raise InputError(entry.value.place, f"{name} is 0", "a positive number")
+    return value

@@ -1,0 +1,47 @@
+"""What a file of a run says before anything is made of it: columns of numbers, each value with its place."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import Place
+
+Array: TypeAlias = NDArray[np.float64]
+
+_CHUNK = 1 << 20
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Columns by name (N each), as written.
+
+    ``where(row, column)`` is the place of a value, rows from 0, or of the column's name where ``row`` is None.
+    ``sha256`` is of the file; ``notes`` tell what was repaired in reading.
+    """
+
+    file: str
+    columns: Mapping[str, Array]
+    sha256: str
+    where: Callable[[int | None, str], Place]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> int:
+        """N."""
+        return min(map(len, self.columns.values()), default=0)
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file's content."""
+    result = hashlib.sha256()
+    with path.open("rb") as stream:
+        while chunk := stream.read(_CHUNK):
+            result.update(chunk)
+    return result.hexdigest()

@@ -1,0 +1,57 @@
+"""How much of the torques a set of parameters leaves unexplained, joint by joint and in total, in both norms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from identification.factors import Factor, added
+
+
+@dataclass(frozen=True)
+class Residual:
+    """Of ``rows`` rows: ``norm`` ||e||, that of the torques ||Y||, and their ``spread`` ||Y - mean(Y)|| [N m, N].
+
+    In total the spread is about each joint's own mean.
+    """
+
+    rows: int
+    norm: float
+    torque: float
+    spread: float
+
+    @property
+    def relative(self) -> float:
+        """||e|| / ||Y|| in %."""
+        return 100 * self.norm / self.torque if self.torque else 0.0
+
+    @property
+    def relative_to_mean(self) -> float:
+        """||e|| / ||Y - mean(Y)|| in %; infinite where the torque is constant."""
+        if not self.spread:
+            return float("inf") if self.norm else 0.0
+        return 100 * self.norm / self.spread
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Of several runs together: by joint (coordinates from 0) and in total."""
+
+    per_joint: Mapping[int, Residual]
+
+    @property
+    def total(self) -> Residual:
+        """All joints: roots of the sums of squares."""
+        each = self.per_joint.values()
+        norm, torque, spread = (
+            float(np.linalg.norm([getattr(one, name) for one in each])) for name in ("norm", "torque", "spread")
+        )
+        return Residual(sum(one.rows for one in each), norm, torque, spread)
+
+
+def residuals(factors: Sequence[Factor], values: Mapping[str, float]) -> Residuals:
+    """What ``values`` of all parameters leave of the rows behind ``factors``."""
+    each = {one.joint: Residual(one.rows, one.residual(values), one.norm, one.spread) for one in added(factors)}
+    return Residuals(each)

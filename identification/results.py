@@ -1,0 +1,223 @@
+"""What an identification leaves behind: results.json and a robot file with the identified parameters in it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from generator.robot.description import ParameterSet, ParameterValue
+from generator.version import VERSION
+from generator.writing import replace
+from identification.consistent_fit import ConsistentFit
+from identification.inverse_model import Estimate, Identification
+from identification.residuals import Residual, Residuals
+from identification.robot_file import with_parameter_set
+from identification.sampling import Sampled
+from identification.sidecar import UNITS
+
+#: Names of the files, and of the parameter sets in the robot file.
+RESULTS = "results.json"
+FULL, ESSENTIAL, CONSISTENT = "identified", "identified_essential", "identified_consistent"
+
+#: Infinity as a JSON number: readers make it infinite again, in Python and in a browser.
+_INFINITE = "1e999"
+_MARK = "\0infinite"
+
+
+def document(found: Identification, consistent: ConsistentFit | None = None) -> dict[str, Any]:
+    """The content of results.json, see docs/identification.md.
+
+    Angles in rad, torques in N m. Where the data do not show a parameter its std is infinite and its value None.
+    """
+    solution = found.full.solution
+    return {
+        "robot": found.robot.name,
+        "robot_sha256": found.robot.digest,
+        "version": VERSION,
+        "method": _method(found),
+        "data": {
+            kind: [_run(one.sampled) for one in runs] for kind, runs in (("train", found.train), ("test", found.test))
+        },
+        "condition": solution.condition,
+        "condition_scaled": solution.scaled_condition,
+        "rank": solution.rank,
+        "parameters": _parameters(found, found.full),
+        "residual": _residual(found, found.full),
+        "essential": {
+            "ratio": found.options.ratio,
+            "condition": found.essential.solution.condition,
+            "parameters": _parameters(found, found.essential),
+            "residual": _residual(found, found.essential),
+        },
+        "consistent": None if consistent is None else _consistent(found, consistent),
+        "payloads": _payload_values(found),
+        "notes": list(found.notes),
+    }
+
+
+def written(text: Mapping[str, Any]) -> str:
+    """The JSON text of a document; infinite numbers are written as ``1e999``, which JSON allows."""
+    return json.dumps(_marked(text), indent=1, ensure_ascii=False).replace(json.dumps(_MARK), _INFINITE) + "\n"
+
+
+def save(found: Identification, robot_file: Path, folder: Path, consistent: ConsistentFit | None = None) -> list[str]:
+    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+
+    Raises InputError where the folder cannot be written.
+    """
+    text = robot_file.read_text(encoding="utf-8-sig")
+    for one in parameter_sets(found, consistent):
+        text = with_parameter_set(text, one)
+    files = {RESULTS: written(document(found, consistent)).encode(), f"{found.robot.name}.yaml": text.encode()}
+    replace(folder, files)
+    return sorted(files)
+
+
+def parameter_sets(found: Identification, consistent: ConsistentFit | None = None) -> tuple[ParameterSet, ...]:
+    """What was identified as a robot file holds it: all base parameters, essential ones, consistent standard ones."""
+    runs = ", ".join(Path(one.sampled.run.name).name for one in found.train)
+    source = f"identified with the inverse dynamic model and least squares from {runs}"
+    units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    sets = [
+        ParameterSet(FULL, "all base parameters that the data show", source, _set(found.full, units)),
+        ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units)),
+    ]
+    if consistent is not None:
+        values = {
+            parameter.name: ParameterValue(consistent.standard[parameter.name], parameter.unit)
+            for parameter in found.regressors.model.standard_parameters
+        }
+        sets.append(ParameterSet(CONSISTENT, "standard parameters of bodies that can be", source, values))
+    return tuple(sets)
+
+
+def _set(estimate: Estimate, units: Mapping[str, str]) -> dict[str, ParameterValue]:
+    """Values of the estimated parameters of the robot and of those fixed at other values than zero."""
+    solution, result = estimate.solution, {}
+    for name, unit in units.items():
+        value = solution.values.get(name, 0.0)
+        if name in solution.hidden or (name not in estimate.sought and not value):
+            continue
+        relative = solution.relative_std(name)
+        known = name in estimate.sought and math.isfinite(relative)
+        note = "" if name in estimate.sought else "given, not identified"
+        result[name] = ParameterValue(value, unit, relative if known else None, note=note)
+    return result
+
+
+def _method(found: Identification) -> dict[str, Any]:
+    recipe, options = found.recipe, found.options
+    return {
+        "name": "IDIM-LS",
+        "least_squares": "weighted by joint" if found.problem.weighted else "ordinary",
+        "robust": options.robust,
+        "residual_variance": "rows minus one" if found.problem.by_samples else "rows minus parameters",
+        "std": "of independent residuals (report eq. 42-45); optimistic where residuals are coloured",
+        "standstill": recipe.standstill,
+        "fixed": {name: found.problem.fixed[name] for name in sorted(options.fixed)},
+    }
+
+
+def _run(one: Sampled) -> dict[str, Any]:
+    filters, run = one.filters, one.run
+    return {
+        "file": run.name,
+        "sha256": run.sha256,
+        "samples": run.samples,
+        "rate": run.rate,
+        "cutoff": filters.cutoff,
+        "order": filters.order,
+        "factor": filters.factor,
+        "dropped": [filters.first, filters.last],
+        "payload": None if run.payload is None else run.payload.name,
+    }
+
+
+def _parameters(found: Identification, estimate: Estimate) -> dict[str, Any]:
+    solution = estimate.solution
+    units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    return {
+        name: {
+            "value": None if name in solution.hidden else solution.values[name],
+            "std": solution.std(name),
+            "relative_std_percent": solution.relative_std(name),
+            "essential": name in found.essential.sought,
+            "fixed": name in found.options.fixed,
+            "identifiable": name not in solution.hidden,
+            "unit": unit,
+        }
+        for name, unit in units.items()
+        if name in solution.values and (estimate is found.full or name in estimate.sought)
+    }
+
+
+def _payload_values(found: Identification) -> dict[str, Any]:
+    """The payloads' parameters by name."""
+    solution = found.full.solution
+    result: dict[str, Any] = {}
+    for one in found.train:
+        payload = one.sampled.run.payload
+        if payload is None:
+            continue
+        result[payload.name] = {
+            name: {
+                "value": None if name in solution.hidden else solution.values[name],
+                "std": solution.std(name),
+                "relative_std_percent": solution.relative_std(name),
+                "known": stem in payload.known,
+                "unit": UNITS[stem],
+            }
+            for stem, name in payload.names().items()
+        }
+    return result
+
+
+def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
+    numbers = [joint.number for joint in found.robot.moving]
+    return {
+        "train": _norms(estimate.train, numbers),
+        "test": None if estimate.test is None else _norms(estimate.test, numbers),
+    }
+
+
+def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
+    model = found.regressors.model
+    numbers = [joint.number for joint in found.robot.moving]
+    return {
+        "weight": fit.weight,
+        "prior": fit.prior,
+        "parameters": {p.name: {"value": fit.standard[p.name], "unit": p.unit} for p in model.standard_parameters},
+        "base_parameters": {p.name: {"value": fit.base[p.name], "unit": p.unit} for p in model.base_parameters},
+        "residual": {
+            "train": _norms(fit.train, numbers),
+            "test": None if fit.test is None else _norms(fit.test, numbers),
+        },
+    }
+
+
+def _norms(of: Residuals, numbers: list[int]) -> dict[str, Any]:
+    per_joint = [{"joint": numbers[k], **_norm(one)} for k, one in sorted(of.per_joint.items())]
+    return {"per_joint": per_joint, "total": _norm(of.total)}
+
+
+def _norm(one: Residual) -> dict[str, Any]:
+    return {
+        "rows": one.rows,
+        "norm": one.norm,
+        "relative_percent": one.relative,
+        "relative_to_mean_percent": one.relative_to_mean,
+    }
+
+
+def _marked(value: Any) -> Any:
+    """Infinite numbers replaced by a text that no name contains."""
+    if isinstance(value, Mapping):
+        return {key: _marked(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_marked(one) for one in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return _MARK
+    return value

@@ -1,0 +1,154 @@
+"""Rows of the observation matrix: a run differentiated, its regressor and torques decimated alike (report eq. 40).
+
+The matrix of a long run is never held whole at the recorded rate: it is computed and decimated part by part, each part
+with so much of its neighbours that the filter has forgotten where the part ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.dataset import Run
+from identification.filtering import Stage, decimated, derivative, kept_indices, smoothed, stages
+from identification.observation import Motion, Regressors, standing
+from identification.recipe import Filters, Recipe
+
+Array = NDArray[np.float64]
+
+#: Samples of a part at the recorded rate.
+_PART = 1 << 15
+#: Range [rad, m] within which a joint that never moves faster than the threshold counts as standing still.
+_STILL = 1e-3
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Consecutive rows of one joint: regressor columns W (rows x columns), torques Y (rows), times [s] (rows)."""
+
+    joint: int
+    names: tuple[str, ...]
+    W: Array
+    Y: Array
+    t: Array
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A run ready to be observed: its filtered motion, without the ends; ``still`` are joints without motion."""
+
+    run: Run
+    filters: Filters
+    motion: Motion
+    tau: Array
+    left_out: NDArray[np.bool_]
+    still: tuple[int, ...]
+
+    @property
+    def times(self) -> Array:
+        """Times of the samples [s] (N)."""
+        numbers: Array = np.arange(self.filters.first, self.filters.first + self.motion.samples, dtype=float)
+        return self.run.start + self.run.period * numbers
+
+
+def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
+    """The motion of a run by the recipe's filters (report eq. 46); raises InputError where the run is too short."""
+    filters = recipe.at(run.rate)
+    q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    qd = derivative(q, run.period)
+    qdd = derivative(qd, run.period)
+    inner = slice(filters.first, run.samples - filters.last)
+    still = tuple(
+        k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= recipe.standstill
+    )
+    for k in still:
+        q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
+    motion = Motion(q[:, inner], qd[:, inner], qdd[:, inner])
+    left_out = standing(regressors.signs, motion.qd, recipe.standstill)
+    left_out[list(still)] = False
+    if run.unusable is not None:
+        left_out |= run.unusable[:, inner]
+    return Sampled(run, filters, motion, run.tau[:, inner], left_out, still)
+
+
+def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:
+    """All rows of a run, joint by joint, in parts; rows whose decimation window holds a left-out sample are not there.
+
+    The columns of a joint are those of the base parameters that it depends on, then those of the run's payload.
+    """
+    names = [list(row) for row in regressors.structure]
+    if one.run.payload is not None:
+        for row in names:
+            row += one.run.payload.names().values()
+    times = one.times
+    factor = one.filters.factor
+    keep = [_kept(one.left_out[k], factor) for k in range(len(names))]
+    indices = kept_indices(one.motion.samples, factor)
+    for part in _decimated_parts(one, regressors):
+        for k, (W, Y) in enumerate(part.columns):
+            inside = keep[k][part.start : part.start + len(Y)]
+            t = times[indices[part.start : part.start + len(Y)]]
+            yield Rows(k, tuple(names[k]), W[:, inside].T, Y[inside], t[inside])
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Decimated columns of all joints from row ``start``: (columns x rows, rows) a joint."""
+
+    start: int
+    columns: list[tuple[Array, Array]]
+
+
+def _decimated_parts(one: Sampled, regressors: Regressors) -> Iterator[_Part]:
+    steps = stages(one.filters.factor)
+    if not steps:
+        for start in range(0, one.motion.samples, _PART):
+            yield _Part(start, _columns(one, regressors, start, min(start + _PART, one.motion.samples)))
+        return
+    first = [*_first_stage(one, regressors, steps[0])]
+    if len(steps) == 1:
+        yield from first
+        return
+    rest = one.filters.factor // steps[0].factor
+    joined = [
+        tuple(np.concatenate([part.columns[k][i] for part in first], axis=-1) for i in (0, 1))
+        for k in range(len(first[0].columns))
+    ]
+    yield _Part(0, [(decimated(W, rest), decimated(Y, rest)) for W, Y in joined])
+
+
+def _first_stage(one: Sampled, regressors: Regressors, stage: Stage) -> Iterator[_Part]:
+    """The run after the first stage, in parts that begin with a sample that is kept."""
+    count, r = one.motion.samples, stage.factor
+    length, margin = max(_PART // r, 1) * r, -(-stage.margin // r) * r
+    for start in range(stage.first(count), count, length):
+        end = min(start + length, count)
+        left, right = max(start - margin, 0), min(end + margin, count)
+        kept = slice(start - left, end - left, r)
+        columns = _columns(one, regressors, left, right)
+        # Copies, so that what is not kept can be freed.
+        filtered = [(stage.filtered(W)[:, kept].copy(), stage.filtered(Y)[kept].copy()) for W, Y in columns]
+        yield _Part((start - stage.first(count)) // r, filtered)
+
+
+def _columns(one: Sampled, regressors: Regressors, start: int, end: int) -> list[tuple[Array, Array]]:
+    motion = one.motion.part(start, end)
+    base = regressors.base(motion)
+    if one.run.payload is not None:
+        base = [np.concatenate(pair) for pair in zip(base, regressors.payload(motion), strict=True)]
+    return [(W, one.tau[k, start:end]) for k, W in enumerate(base)]
+
+
+def _kept(left_out: NDArray[np.bool_], factor: int) -> NDArray[np.bool_]:
+    """Which decimated rows have no left-out sample in their window, ``factor`` samples to either side."""
+    indices = kept_indices(len(left_out), factor)
+    if not left_out.any():
+        return np.ones(len(indices), dtype=bool)
+    total = np.concatenate([[0], np.cumsum(left_out)])
+    reach = factor if factor > 1 else 0
+    lower, upper = np.maximum(indices - reach, 0), np.minimum(indices + reach + 1, len(left_out))
+    result: NDArray[np.bool_] = total[upper] == total[lower]
+    return result

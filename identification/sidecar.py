@@ -1,0 +1,102 @@
+"""What stands beside a run: ``A.yaml`` for ``A.csv`` tells the robot, the payload, and what the columns are called."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from generator import expressions
+from generator.errors import InputError, Place
+from generator.robot import fields
+from generator.robot.document import Entry, Text
+from generator.robot.parameters import INERTIAL
+from generator.robot.readers import text_of, yaml
+from identification.formula import Formula, formulas
+
+_UNKNOWN = "unknown"
+#: SI units of the ten parameters by stem.
+UNITS = {stem: unit for stem, unit, _ in INERTIAL}
+
+
+@dataclass(frozen=True)
+class Payload:
+    """A body fixed to the tool frame, by a name that its parameters carry: ``ML`` is the mass of payload ``L``.
+
+    ``known`` are exact values by stem [SI], in the tool frame; the other stems of the ten are ``sought``.
+    """
+
+    name: str
+    known: Mapping[str, float]
+
+    @property
+    def sought(self) -> tuple[str, ...]:
+        """Stems without a value, in their order."""
+        return tuple(stem for stem in UNITS if stem not in self.known)
+
+    def names(self) -> dict[str, str]:
+        """Stem -> parameter name, all ten."""
+        return {stem: f"{stem}{self.name}" for stem in UNITS}
+
+
+@dataclass(frozen=True)
+class Sidecar:
+    """All that a sidecar says; ``robot`` and ``notes`` are empty where it does not."""
+
+    robot: str = ""
+    notes: str = ""
+    payload: Payload | None = None
+    columns: Mapping[str, Formula] = field(default_factory=dict)
+
+
+def read(run: Path) -> Sidecar:
+    """The sidecar of a run file, an empty one where there is none.
+
+    Raises InputError, with line and column, for an unknown key and a value with a wrong unit.
+    """
+    path = run.with_suffix(".yaml")
+    if not path.is_file():
+        return Sidecar()
+    file = str(path)
+    root = yaml.read(text_of(path, file, "the sidecar of a run"), file)
+    keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns"))
+    return Sidecar(
+        robot=fields.prose(keys.get("robot"), "robot"),
+        notes=fields.prose(keys.get("notes"), "notes"),
+        payload=_payload(keys["payload"]) if "payload" in keys else None,
+        columns=formulas(keys.get("columns")),
+    )
+
+
+def _payload(entry: Entry) -> Payload | None:
+    """None for the text ``none``; stems that are not given, or are ``unknown``, are sought."""
+    if isinstance(entry.value, Text) and entry.value.content == "none":
+        return None
+    keys = fields.table(entry.value, "payload", (), ("name", *UNITS))
+    name = fields.prose(keys["name"], "name of the payload") if "name" in keys else "L"
+    if not name.isalpha() or len(name) > 8:
+        raise InputError(keys["name"].value.place, f"payload name {name!r}", "one to eight letters")
+    known = {}
+    for stem, unit in UNITS.items():
+        if stem in keys:
+            text = fields.text(keys[stem].value, f"{stem} of the payload", f"a value in {unit}, or {_UNKNOWN}")
+            if text.content != _UNKNOWN:
+                known[stem] = float(fields.quantity(text, f"{stem} of the payload", unit).value)
+    return Payload(name, known)
+
+
+def given(words: Sequence[str], place: Place) -> Payload:
+    """The payload of words such as ``M=150`` [SI] and ``name=L``; raises InputError for anything else."""
+    known: dict[str, float] = {}
+    name = "L"
+    for word in words:
+        stem, _, value = word.partition("=")
+        if stem == "name":
+            name = value
+        elif stem in UNITS:
+            known[stem] = float(expressions.parse_number(value, place))
+        else:
+            raise InputError(place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}")
+    if not name.isalpha() or len(name) > 8:
+        raise InputError(place, f"payload name {name!r}", "one to eight letters")
+    return Payload(name, known)

@@ -1,0 +1,88 @@
+"""Which columns of a recording are positions and efforts, and what they are on the joint side."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification.recording import Array, Recording
+
+#: Stems of the columns by what they hold; the first that a file has is taken.
+POSITIONS = ("q", "qm")
+EFFORTS = ("tau", "taum", "i")
+#: What a run may hold beside, one column a joint.
+FURTHER = ("qs", "qd", "qr", "temp")
+WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
+
+_NUMBERED = re.compile(r"([A-Za-z]+)(\d+)\Z")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Raw columns of one kind (n x N) and their names, in the joints' order."""
+
+    stem: str
+    names: tuple[str, ...]
+    values: Array
+
+
+def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str) -> Measured:
+    """The columns of the first stem that the recording has.
+
+    Raises InputError where a joint's column is missing and where there are columns for more joints than there are.
+    """
+    numbers = [joint.number for joint in robot.moving]
+    for stem in stems:
+        present = [int(match[2]) for name in recording.columns if (match := _NUMBERED.match(name)) and match[1] == stem]
+        if not present:
+            continue
+        wanted = [f"{stem}{number}" for number in numbers]
+        for number, name in zip(numbers, wanted, strict=True):
+            if number not in present:
+                near = difflib.get_close_matches(name, set(recording.columns) - set(wanted), n=1, cutoff=0.6)
+                expected = f"{wanted[0]} to {wanted[-1]}" + (f"; perhaps {near[0]} is meant" if near else "")
+                raise InputError(recording.where(None, wanted[0]), f"there is no column {name}", expected)
+        for number in sorted(present):
+            if number not in numbers:
+                name = f"{stem}{number}"
+                problem = f"column {name}, but {robot.name} has {len(numbers)} moving joints"
+                raise InputError(recording.where(None, name), problem, f"{what} of this robot alone")
+        return Measured(stem, tuple(wanted), np.stack([recording.columns[name] for name in wanted]))
+    choices = " or ".join(f"{stem}{numbers[0]} to {stem}{numbers[-1]}" for stem in stems)
+    raise InputError(recording.where(None, ""), f"there are no columns of {what}", choices)
+
+
+def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Array:
+    """Joint positions (n x N) [rad, m]: themselves, or N^-1 times the motors' (report eq. 14)."""
+    if found.stem != "qm":
+        return found.values
+    return np.asarray(np.linalg.solve(_coupling(robot, found, recording), found.values), dtype=float)
+
+
+def joint_torques(found: Measured, robot: Robot, recording: Recording) -> Array:
+    """Joint torques (n x N) [N m, N]: themselves, or N^T times the motors' (report eq. 18), those from currents [A]."""
+    if found.stem == "tau":
+        return found.values
+    N = _coupling(robot, found, recording)
+    if found.stem == "taum":
+        return N.T @ found.values
+    assert robot.drives is not None
+    if not robot.drives.torque_constants:
+        where = recording.where(None, found.names[0])
+        raise InputError(where, f"{found.names[0]} is a current", f"torque constants in the drives of {robot.name}")
+    constants = np.array([float(kt) for kt in robot.drives.torque_constants[robot.drives.torque_constant]])
+    return N.T @ (constants[:, None] * found.values)
+
+
+def _coupling(robot: Robot, found: Measured, recording: Recording) -> Array:
+    """N (n x n): motor speeds from joint speeds."""
+    if robot.drives is None:
+        where = recording.where(None, found.names[0])
+        raise InputError(where, f"{found.names[0]} is on the motor side", f"drives in the file of {robot.name}")
+    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])

@@ -1,0 +1,99 @@
+"""Fits that are too bad to be believed: is it another robot's run, or are columns swapped?
+
+Where a joint's residual is large, the fit is repeated on a thinned run with each two joints' columns exchanged. If that
+explains the torques far better, the columns are refused and named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from identification.factors import Factor, triangular
+from identification.filtering import smoothed
+from identification.least_squares import Problem
+from identification.observation import Motion, Regressors
+from identification.observed import Observed
+from identification.residuals import Residuals
+
+Array = NDArray[np.float64]
+
+#: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
+#: from which the data are refused.
+_DOUBTFUL, _REFUSED = 10.0, 50.0
+#: By how much the product of the joints' residuals must fall.
+_BETTER = 20.0
+#: Samples that the fits are repeated on.
+_THINNED = 1500
+
+
+def suspect(runs: Sequence[Observed], regressors: Regressors, residuals: Residuals) -> list[str]:
+    """Doubts about a fit; raises InputError where columns are swapped and where the model does not explain the data."""
+    each = residuals.per_joint
+    bad = [k for k, one in each.items() if one.rows and one.relative_to_mean > _DOUBTFUL]
+    if not bad:
+        return []
+    for run in runs:
+        _swapped(run, regressors, bad)
+    total = residuals.total.relative_to_mean
+    if total > _REFUSED:
+        problem = f"the model of {regressors.model.robot.name} leaves {total:.0f} % of the torques unexplained"
+        raise InputError(runs[0].sampled.run.place, problem, "a run of this robot, in rad and N m")
+    numbers = [joint.number for joint in regressors.model.robot.moving]
+    return [
+        f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained"
+        for k in bad
+        if each[k].relative_to_mean > _REFUSED
+    ]
+
+
+def _swapped(run: Observed, regressors: Regressors, bad: Sequence[int]) -> None:
+    one = run.sampled
+    tau = smoothed(one.tau, one.filters.order, one.filters.cutoff, one.filters.rate)
+    thin = np.unique(np.linspace(0, one.motion.samples - 1, _THINNED).astype(int))
+    motion = Motion(*(signal[:, thin] for signal in (one.motion.q, one.motion.qd, one.motion.qdd)))
+    tau, used = tau[:, thin], ~one.left_out[:, thin]
+    straight = list(range(len(tau)))
+    given = _Thinned(regressors, motion, tau, used)
+    best, what = given.misfit(straight) - np.log(_BETTER), ""
+    numbers = [joint.number for joint in regressors.model.robot.moving]
+    for i, k in combinations(straight, 2):
+        if i not in bad and k not in bad:
+            continue
+        order = straight.copy()
+        order[i], order[k] = k, i
+        other = _Thinned(regressors, Motion(motion.q[order], motion.qd[order], motion.qdd[order]), tau, used[order])
+        for name, misfit in (
+            ("torques", given.misfit(order)),
+            ("positions", other.misfit(straight)),
+            ("columns", other.misfit(order)),
+        ):
+            if misfit < best:
+                best, what = misfit, f"the {name} of joints {numbers[i]} and {numbers[k]} look swapped"
+    if what:
+        raise InputError(one.run.place, what, "columns in the joints' order")
+
+
+class _Thinned:
+    """Factors of a few rows, each joint's with the torques of all joints beside."""
+
+    def __init__(self, regressors: Regressors, motion: Motion, tau: Array, used: NDArray[np.bool_]) -> None:
+        self._names, self._structure = regressors.names, regressors.structure
+        self._rows = used.sum(axis=1)
+        self._factors = [
+            triangular(np.concatenate([W[:, rows], tau[:, rows]]).T)
+            for W, rows in zip(regressors.base(motion), used, strict=True)
+        ]
+
+    def misfit(self, order: Sequence[int]) -> float:
+        """Sum of the logarithms of the joints' residuals where joint k has the torques of joint ``order[k]``."""
+        factors = []
+        for k, (R, names) in enumerate(zip(self._factors, self._structure, strict=True)):
+            columns = [*range(len(names)), len(names) + order[k]]
+            factors.append(Factor(k, names, R[:, columns], int(self._rows[k]), 0.0))
+        sigma = Problem(tuple(factors), self._names, {}, weighted=True).solve().sigma
+        return float(np.log(list(sigma.values())).sum())

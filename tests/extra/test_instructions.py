@@ -1,0 +1,42 @@
+"""Instructions of the generated functions, counted by callgrind: never times."""
+
+from __future__ import annotations
+
+import platform
+from pathlib import Path
+
+import pytest
+
+from benchmarks.instructions import FLAGS, instructions
+from benchmarks.studies.instructions import LIMITS, ROTORS, Limit
+from benchmarks.variants import variant
+from tests.compiled import run
+from tests.extra.tools import tool
+
+#: Over the limits, which another release of the compiler may use up.
+_SLACK = 1.03
+
+
+def _is_gcc_12() -> bool:
+    return platform.machine() == "x86_64" and run([tool("gcc"), "-dumpversion"]).split(".")[0].strip() == "12"
+
+
+@pytest.mark.parametrize("limit", LIMITS, ids=lambda limit: f"{limit.function}-{limit.most}")
+@pytest.mark.parametrize("name", ["kr500", "kr270"])
+def test_no_function_takes_more_than_its_limit(name: str, limit: Limit, tmp_path: Path) -> None:
+    tool("valgrind")
+    if not _is_gcc_12():
+        pytest.skip("the limits are those of gcc 12 on x86-64")
+    if limit.effects is None and name != "kr500":
+        pytest.skip("the limit of the complete function is that of one robot")
+    counted = instructions(limit.robot(name), [limit.function], tmp_path)
+    assert counted[limit.function] <= _SLACK * limit.most
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="the flags are those of x86-64")
+def test_own_sine_and_cosine_take_fewer_instructions_than_the_librarys(tmp_path: Path) -> None:
+    tool("valgrind")
+    robot, function = variant("kr500", ROTORS), "inverse_dynamics"
+    own = instructions(robot, [function], tmp_path)[function]
+    library = instructions(robot, [function], tmp_path, flags=(*FLAGS, "-DKR500_USE_LIBM"))[function]
+    assert own < 0.8 * library

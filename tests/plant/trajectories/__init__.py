@@ -1,0 +1,1 @@
+"""Ways to move, one file each: a function that returns a Trajectory."""

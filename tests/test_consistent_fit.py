@@ -1,0 +1,97 @@
+"""Least squares among parameters that matter can have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from identification.consistency import grouped
+from identification.consistent_fit import ConsistentFit, consistent_fit
+from identification.inverse_model import Identification, Options, identify
+from identification.observation import Regressors
+from identification.pseudo_inertia import of_body, uniform_bar
+from identification.recipe import Recipe
+from tests.recorded import Recorded, recorded, two_links
+
+#: Two bars with rotors; what the base parameters are made of.
+BARS = {1: uniform_bar(20.0, (0, 0, 0), (0.5, 0, 0), 0.1), 2: uniform_bar(6.0, (0, 0, 0), (0.4, 0.05, 0), 0.08)}
+DRIVES = {"Ia1": 1.5, "Fv1": 14.0, "Fc1": 9.0, "Off1": 1.5, "Ia2": 0.9, "Fv2": 7.0, "Fc2": 4.0, "Off2": -0.8}
+WEIGHT = 0.03
+
+
+def ten(number: int, P: np.ndarray) -> dict[str, float]:
+    """The inertial parameters of a pseudo-inertia."""
+    S, half = P[:3, :3], np.trace(P[:3, :3])
+    tensor = half * np.eye(3) - S
+    values = [*tensor[np.triu_indices(3)], *P[:3, 3], P[3, 3]]
+    stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+    return {f"{stem}{number}": float(value) for stem, value in zip(stems, values, strict=True)}
+
+
+STANDARD = {**ten(1, BARS[1]), **ten(2, BARS[2]), **DRIVES}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("runs")
+
+
+@pytest.fixture(scope="module")
+def links(folder: Path) -> Regressors:
+    return two_links(folder)
+
+
+def found(links: Regressors, run: Recorded, path: Path, **options: object) -> Identification:
+    recipe = Recipe(dynamics=4.0)
+    return identify(links.model.robot, [run.save(path)], [path], Options(recipe=recipe, **options), links)  # type: ignore[arg-type]
+
+
+def possible(links: Regressors, fit: ConsistentFit) -> bool:
+    bodies = [of_body(number, fit.standard) for number in (1, 2)]
+    bounded = all(
+        fit.standard[p.name] >= p.lower - 1e-6 for p in links.model.standard_parameters if p.lower is not None
+    )
+    return bounded and min(np.linalg.eigvalsh(P).min() / P[3, 3] for P in bodies) > -1e-9
+
+
+def test_possible_bodies_are_found_again(links: Regressors, folder: Path) -> None:
+    truth = grouped(links.model, STANDARD)
+    one = found(links, recorded(links, truth, noise=0.005), folder / "a.csv")
+    fit = consistent_fit(one, STANDARD, WEIGHT)
+    assert possible(links, fit)
+    assert dict(fit.base) == pytest.approx(truth, rel=0.02, abs=0.05)
+    assert fit.base == pytest.approx(grouped(links.model, fit.standard))
+    assert fit.train.total.norm < 1.01 * one.full.train.total.norm
+    assert fit.test is not None
+    assert fit.test.total.norm == pytest.approx(fit.train.total.norm)
+
+
+def test_impossible_estimates_become_possible(links: Regressors, folder: Path) -> None:
+    """Torques that no bodies and no friction make."""
+    impossible = {**grouped(links.model, STANDARD), "ZZ2": -0.2, "Fc1": -2.0}
+    one = found(links, recorded(links, impossible, noise=0.005), folder / "b.csv")
+    values = one.full.solution.values
+    assert (values["ZZ2"], values["Fc1"]) == pytest.approx((-0.2, -2.0), abs=0.1)
+    fit = consistent_fit(one, None, WEIGHT)
+    assert possible(links, fit)
+    assert fit.base["ZZ2"] >= fit.base["MX2"] ** 2 / fit.standard["M2"] > 0
+    assert fit.base["Fc1"] >= -1e-6
+    assert fit.train.total.norm > one.full.train.total.norm
+
+
+def test_given_values_are_kept_or_refused(links: Regressors, folder: Path) -> None:
+    truth = grouped(links.model, STANDARD)
+    run = recorded(links, truth, noise=0.01)
+    fit = consistent_fit(found(links, run, folder / "c.csv", fixed={"MX2": 1.0, "Fc1": 8.0}), None, WEIGHT)
+    assert (fit.base["MX2"], fit.base["Fc1"]) == pytest.approx((1.0, 8.0), rel=1e-4)
+    with pytest.raises(ValueError, match="no physically consistent parameters were found"):
+        consistent_fit(found(links, run, folder / "c.csv", fixed={"Fc1": -1.0}), None, WEIGHT)
+
+
+def test_an_impossible_prior_is_refused(links: Regressors, folder: Path) -> None:
+    one = found(links, recorded(links, grouped(links.model, STANDARD)), folder / "d.csv")
+    with pytest.raises(InputError, match="body 2 of the prior is impossible, expected a positive pseudo-inertia"):
+        consistent_fit(one, {**STANDARD, "ZZ2": -1.0}, WEIGHT)

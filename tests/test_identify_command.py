@@ -1,0 +1,166 @@
+"""``counterpoise identify``: files that it leaves, the summary, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from generator.robot.readers import read
+from tests.commands import Done, command
+from tests.recorded import TRUTH, TWO_LINKS, recorded, two_links
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("identify")
+    links = two_links(folder)
+    recorded(links, TRUTH, seed=1, noise=0.02).save(folder / "a.csv")
+    recorded(links, TRUTH, seed=2, noise=0.02).save(folder / "b.csv")
+    recorded(links, TRUTH, seed=3, noise=0.02).save(folder / "c.csv")
+    return folder
+
+
+def identified(folder: Path, capsys: pytest.CaptureFixture[str], *more: str) -> Done:
+    robot, runs = folder / "two_links.yaml", [folder / "a.csv", folder / "b.csv"]
+    words = ["identify", robot, "--data", *runs, "--test", folder / "c.csv", "--out", folder / "out", *more]
+    return command(*words, capsys=capsys)
+
+
+def results(folder: Path) -> dict[str, Any]:
+    contents: dict[str, Any] = json.loads((folder / "out" / "results.json").read_text())
+    return contents
+
+
+def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = identified(folder, capsys, "--dynamics", "4")
+    assert (done.status, done.err.splitlines()[-1]) == (0, "making the parameters physically consistent")
+    assert done.out.startswith("two_links: 13 parameters, ")
+    found = results(folder)
+    assert set(found["parameters"]) == set(TRUTH)
+    for name, one in found["parameters"].items():
+        assert one["value"] == pytest.approx(TRUTH[name], abs=5 * one["std"] + 0.01 * abs(TRUTH[name]))
+        assert one["relative_std_percent"] == pytest.approx(100 * one["std"] / abs(one["value"]))
+        assert {"essential", "unit"} <= set(one)
+    for kind, rows in (("train", 2), ("test", 1)):
+        residual = found["residual"][kind]
+        assert [one["joint"] for one in residual["per_joint"]] == [1, 2]
+        assert 0 < residual["total"]["relative_percent"] < residual["total"]["relative_to_mean_percent"] < 3
+        assert len(found["data"][kind]) == rows
+    assert all(len(one["sha256"]) == 64 for one in found["data"]["train"])
+    assert found["condition"] > found["condition_scaled"] > 1
+    assert found["method"]["name"] == "IDIM-LS"
+    again = read(folder / "out" / "two_links.yaml")
+    values = again.parameter_sets["identified"].values
+    assert {n: v.value for n, v in values.items()} == pytest.approx(
+        {n: one["value"] for n, one in found["parameters"].items()}, rel=1e-5
+    )
+    essential = again.parameter_sets["identified_essential"].values
+    assert set(essential) == {n for n, one in found["parameters"].items() if one["essential"]}
+    standard = again.parameter_sets["identified_consistent"].values
+    assert {n: v.value for n, v in standard.items()} == pytest.approx(
+        {n: one["value"] for n, one in found["consistent"]["parameters"].items()}, rel=1e-5, abs=1e-6
+    )
+    assert found["consistent"]["residual"]["test"]["total"]["relative_to_mean_percent"] < 3
+    q = ("--q", "0.3", "0.2", "--qd", "1", "1", "--qdd", "1", "1")
+    robot = folder / "out" / "two_links.yaml"
+    done = command("evaluate", robot, "inverse_dynamics", *q, "--parameters", "identified", capsys=capsys)
+    assert done.status == 0
+
+
+def test_identifying_twice_gives_the_same_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    identified(folder, capsys)
+    first = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
+    identified(folder, capsys)
+    assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == first
+
+
+def test_unknown_parameters_are_infinite_in_json_and_absent_from_the_set(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (folder / "a.csv").read_text().splitlines()
+    rows = [line.split(",") for line in text[1:]]
+    held = [",".join([t, q1, "0.5", tau1, tau2]) for t, q1, _, tau1, tau2 in rows]
+    (folder / "held.csv").write_text("\n".join([text[0], *held]) + "\n")
+    # The torques are of a moving joint 2, so the model cannot explain them well: the note says so.
+    robot = folder / "two_links.yaml"
+    done = command(
+        "identify", robot, "--data", folder / "held.csv", "--fix", "Fc1=9", "--out", folder / "out", capsys=capsys
+    )
+    if done.status == 2:
+        assert "unexplained" in done.err
+        return
+    found = results(folder)
+    unknown = {name for name, one in found["parameters"].items() if one["value"] is None}
+    assert "Fv2" in unknown
+    assert all(math.isinf(found["parameters"][name]["std"]) for name in unknown)
+    assert "Infinity" not in (folder / "out" / "results.json").read_text()
+    values = read(folder / "out" / "two_links.yaml").parameter_sets["identified"].values
+    assert set(values) == set(TRUTH) - unknown
+
+
+def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = identified(
+        folder, capsys, "--fix", "Off*=0", "Fc1=9", "--weights", "none", "--robust", "--essential", "15", "--cutoff",
+        "20", "--order", "3", "--factor", "8", "--standstill", "0.02", "--payload", "M=0", "--no-consistent",
+        "--recipe", str(_recipe(folder)),
+    )  # fmt: skip
+    assert done.status == 0
+    found = results(folder)
+    assert found["consistent"] is None
+    assert found["method"]["fixed"] == {"Fc1": 9.0, "Off1": 0.0, "Off2": 0.0}
+    assert (found["method"]["least_squares"], found["method"]["robust"]) == ("ordinary", True)
+    assert found["essential"]["ratio"] == 15
+    run = found["data"]["train"][0]
+    assert (run["cutoff"], run["order"], run["factor"], run["payload"]) == (20, 3, 8, "L")
+    assert any("payload L" in note for note in found["notes"])
+    assert found["parameters"]["Fc1"]["fixed"]
+
+
+def _recipe(folder: Path) -> Path:
+    path = folder / "recipe.yaml"
+    path.write_text("description: mine\ndynamics: 3\ndropped_first: 7\nfreedom: samples\n")
+    return path
+
+
+REFUSED = {
+    ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
+    ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
+    ("--fix", "Fv1=x"): "error: --fix:1:1: 'x' is not a number, expected numbers, pi and + - * / ^ ( )",
+    ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected none",
+    ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",
+    ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
+    ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
+    ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
+    ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
+    ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED, ids=" ".join)
+def test_bad_words_are_refused(words: tuple[str, str], folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = identified(folder, capsys, *words)
+    assert done.status == 2
+    assert done.err.splitlines()[-1].startswith(REFUSED[words])
+
+
+def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for text, message in (
+        ("cutof: 3\n", "1:1: unknown key 'cutof' in the recipe, expected perhaps 'cutoff'"),
+        ("dynamics: 0\n", "1:11: dynamics is 0, expected a positive number"),
+        ("order: 0\n", "1:8: order is 0, expected at least 1"),
+        ("weights: all\n", "1:10: weights is 'all', expected one of joint, none"),
+    ):
+        path = folder / "bad.yaml"
+        path.write_text(text)
+        done = identified(folder, capsys, "--recipe", str(path))
+        assert done.status == 2
+        assert done.err.splitlines()[-1] == f"error: {path}:{message}"
+
+
+def test_the_small_robot_is_a_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert (folder / "two_links.yaml").read_text() == TWO_LINKS
+    assert command("check", folder / "two_links.yaml", capsys=capsys).status == 0

@@ -1,0 +1,260 @@
+"""The generated Python module: every quantity against the NumPy module, arrays in place, mistakes by name."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.backends import batch, c, numpy, python
+from generator.derivation import derive
+from generator.errors import InputError
+from generator.python_library import build_library
+from generator.resources import find_robot
+from generator.robot.readers import read
+from tests.commands import PENDULUM, ROOT, command
+from tests.compiled import module, write
+from tests.subject import Subject, subject
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Made:
+    """A robot's module with its compiled library, and the NumPy module that it is compared with."""
+
+    arm: Subject
+    module: Any
+    numpy: ModuleType
+    folder: Path
+
+    def inputs(self, name: str, seed: int) -> Mapping[str, Array]:
+        return self.arm.inputs(self.arm.model.functions[name], seed)
+
+    def wanted(self, name: str, inputs: Mapping[str, Array]) -> Any:
+        """The quantity by the NumPy module."""
+        function = self.numpy.FUNCTIONS[name]
+        arguments = function.__code__.co_varnames[: function.__code__.co_argcount]
+        return function(*({"parameters": self.arm.parameters, **inputs}[argument] for argument in arguments))
+
+
+def load(path: Path) -> Any:
+    specification = importlib.util.spec_from_file_location(path.stem, path)
+    assert specification is not None
+    assert specification.loader is not None
+    result = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(result)
+    return result
+
+
+def folder_of(arm: Subject, folder: Path) -> Path:
+    write(folder / "c", c.library(arm.model, ()))
+    for backend in (batch, python):
+        write(folder / backend.NAME, backend.emit(arm.model))
+    return folder
+
+
+@pytest.fixture(scope="module", params=["kr500", "scara", "tree_two_arms", "pendulum"])
+def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
+    folder = tmp_path_factory.mktemp(request.param)
+    file = folder / "pendulum.yaml"
+    file.write_text(PENDULUM)
+    arm = subject(read(file if request.param == "pendulum" else find_robot(request.param)))
+    name = arm.robot.name
+    build_library(folder_of(arm, folder), name)
+    numpy_module = module(numpy.emit(arm.model)[f"{name}.py"], name)
+    return Made(arm, load(folder / "python" / f"{name}.py"), numpy_module, folder)
+
+
+@pytest.fixture(scope="module")
+def robot(made: Made) -> Any:
+    return made.module.Robot(made.arm.parameters)
+
+
+def agree(found: Array, wanted: Array, tolerance: float = 1e-12) -> bool:
+    assert found.shape == wanted.shape
+    return bool(np.abs(found - wanted).max(initial=0.0) <= tolerance * np.abs(wanted).max(initial=1e-300))
+
+
+def test_every_quantity_is_that_of_the_numpy_module(made: Made, robot: Any) -> None:
+    for name in made.arm.model.functions:
+        tolerance = 1e-8 if "direct" in name else 1e-12
+        inputs = made.inputs(name, 1)
+        found, wanted = getattr(robot, name)(**inputs), made.wanted(name, inputs)
+        several = isinstance(wanted, tuple)
+        for value, right in zip(found if several else [found], wanted if several else [wanted], strict=True):
+            assert agree(value, right, tolerance), name
+
+
+def test_results_go_where_they_are_asked_to_go(made: Made, robot: Any) -> None:
+    for name, function in made.arm.model.functions.items():
+        inputs = made.inputs(name, 2)
+        places = tuple(np.full(output.signal.shape, np.nan) for output in function.outputs)
+        out = places if len(places) > 1 else places[0]
+        found = getattr(robot, name)(**inputs, out=out)
+        fresh = getattr(robot, name)(**inputs)
+        for place, value, again in zip(places, _several(found), _several(fresh), strict=True):
+            assert value is place
+            assert (value == again).all()
+
+
+def _several(results: Any) -> tuple[Any, ...]:
+    return results if isinstance(results, tuple) else (results,)
+
+
+def test_constants_are_those_of_the_numpy_module(made: Made) -> None:
+    for name in ("PARAMETERS", "STANDARD_PARAMETERS", "PARAMETER_SETS", "SPARSITY"):
+        assert getattr(made.module, name) == getattr(made.numpy, name)
+    assert list(made.module.BASE_PARAMETERS) == [p.name for p in made.arm.model.base_parameters]
+    assert list(made.module.DEFAULTS) == list(made.arm.model.default_parameters())
+
+
+def test_parameters_by_set_name_value_and_default(made: Made) -> None:
+    Robot, names = made.module.Robot, made.module.PARAMETERS
+    assert list(Robot().parameters) == list(made.module.DEFAULTS)
+    assert list(Robot(made.arm.parameters).parameters) == list(made.arm.parameters)
+    for chosen, values in made.module.PARAMETER_SETS.items():
+        assert list(Robot(chosen).parameters) == list(values)
+    robot = Robot({names[0]: 3.5})
+    assert robot.parameters[0] == 3.5
+    before = robot.inverse_dynamics(*(np.ones(made.module.NQ) for _ in range(3)))
+    robot.update({names[0]: 7.0})
+    assert (robot.inverse_dynamics(*(np.ones(made.module.NQ) for _ in range(3))) != before).any()
+    for wrong in ("no such set", {"no_such_parameter": 1.0}, np.zeros(len(names) + 1)):
+        with pytest.raises(ValueError, match="parameters"):
+            Robot(wrong)
+
+
+def samples(made: Made, n: int = 100) -> list[Array]:
+    return list(np.random.default_rng(n).uniform(-2.0, 2.0, (3, n, made.module.NQ)))
+
+
+def test_many_samples(made: Made, robot: Any) -> None:
+    signals = samples(made)
+    given = dict(zip(("q", "qd", "qdd"), signals, strict=True))
+    tau = robot.inverse_dynamics(*signals)
+    assert agree(tau, made.wanted("inverse_dynamics", given))
+    W = made.wanted("regressor", given)
+    rows, columns = robot.observation_matrix(*signals), robot.observation_matrix(*signals, layout="columns")
+    assert agree(rows, W.reshape(-1, W.shape[2]))
+    assert agree(columns, W.transpose(1, 0, 2).reshape(-1, W.shape[2]))
+    assert columns.flags.f_contiguous or columns.strides[0] == 8
+    taps = (0.25, 0.5, 0.25)
+    kept = robot.observation_matrix(*signals, taps=taps, decimation=2)
+    picked = 0.25 * W[:-2:2] + 0.5 * W[1:-1:2] + 0.25 * W[2::2]
+    assert agree(kept, picked.reshape(-1, W.shape[2]))
+    y = made.module.filtered(tau, taps, 2)
+    assert agree(y, 0.25 * tau[:-2:2] + 0.5 * tau[1:-1:2] + 0.25 * tau[2::2])
+    G, R = robot.observation_gram(*signals, tau), robot.observation_qr(*signals, tau)
+    stacked = np.concatenate([W, tau[:, :, None]], axis=2).transpose(1, 0, 2)
+    assert agree(G, stacked.transpose(0, 2, 1) @ stacked)
+    assert agree(R.transpose(0, 2, 1) @ R, G)
+
+
+def test_many_samples_go_where_they_are_asked_to_go(made: Made, robot: Any) -> None:
+    signals = samples(made)
+    size, width = 100 * made.module.NQ, made.module.NBASE
+    tau = np.zeros((100, made.module.NQ))
+    assert robot.inverse_dynamics(*signals, out=tau) is tau
+    padded = np.full((size, width + 3), -7.0)
+    assert robot.observation_matrix(*signals, out=padded[:, :width]).base is padded
+    assert (padded[:, width:] == -7.0).all()
+    assert (padded[:, :width] == robot.observation_matrix(*signals)).all()
+    tall = np.full((width, size + 5), -7.0)
+    robot.observation_matrix(*signals, out=tall[:, :size].T, layout="columns")
+    assert (tall[:, size:] == -7.0).all()
+    assert (robot.observation_matrix(*signals, layout="columns") == tall[:, :size].T).all()
+
+
+def test_no_samples(made: Made, robot: Any) -> None:
+    signals = samples(made, 0)
+    assert robot.inverse_dynamics(*signals).shape == (0, made.module.NQ)
+    for layout in ("rows", "columns"):
+        assert robot.observation_matrix(*signals, layout=layout).shape == (0, made.module.NBASE)
+    assert not robot.observation_qr(*signals, signals[0]).any()
+
+
+def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
+    n, (q, qd, qdd) = made.module.NQ, samples(made)
+    one, huge = np.zeros(n), np.zeros((100, n + 1))
+    frozen = np.zeros(n)
+    frozen.flags.writeable = False
+    mistakes: list[tuple[type[Exception], str, Any]] = [
+        (ValueError, "^q has shape", lambda: robot.gravity(np.zeros(n + 1))),
+        (TypeError, "^q is no array of numbers", lambda: robot.gravity("text")),
+        (TypeError, "^out is a list", lambda: robot.gravity(one, out=[0.0] * n)),
+        (TypeError, "^out has elements of float32", lambda: robot.gravity(one, out=np.zeros(n, np.float32))),
+        (ValueError, "^out has shape", lambda: robot.gravity(one, out=np.zeros(n + 1))),
+        (ValueError, "^out is read-only", lambda: robot.gravity(one, out=frozen)),
+        (TypeError, "^qd has elements of float32", lambda: robot.inverse_dynamics(q, qd.astype(np.float32), qdd)),
+        (TypeError, "^qd is a list", lambda: robot.inverse_dynamics(q, qd.tolist(), qdd)),
+        (ValueError, "^qdd has shape", lambda: robot.inverse_dynamics(q, qd, huge)),
+        (ValueError, "^qdd has 50 samples, q has 100", lambda: robot.inverse_dynamics(q, qd, qdd[:50])),
+        (ValueError, "^out shares memory with q", lambda: robot.inverse_dynamics(q, qd, qdd, out=q)),
+        (ValueError, "^layout is 'diagonal'", lambda: robot.observation_matrix(q, qd, qdd, layout="diagonal")),
+        (ValueError, "^taps has shape", lambda: robot.observation_matrix(q, qd, qdd, taps=[0.5, 0.5])),
+        (ValueError, "^decimation is 0", lambda: robot.observation_matrix(q, qd, qdd, decimation=0)),
+        (ValueError, "^out has not the shape", lambda: robot.observation_matrix(q, qd, qdd, out=np.zeros((1, 1)))),
+        (ValueError, "^out has shape", lambda: robot.observation_qr(q, qd, qdd, q, out=np.zeros((1, 1, 1)))),
+    ]
+    if n > 1:
+        mistakes.append((ValueError, "^q is not contiguous", lambda: robot.inverse_dynamics(q[::2], qd[::2], qdd[::2])))
+    for kind, message, call in mistakes:
+        with pytest.raises(kind, match=message):
+            call()
+
+
+def test_an_input_that_is_not_contiguous_is_copied_for_one_state(made: Made, robot: Any) -> None:
+    q = np.arange(2.0 * made.module.NQ)
+    assert (robot.gravity(q[::2]) == robot.gravity(q[::2].tolist())).all()
+
+
+def test_a_module_without_its_library_says_so(made: Made, tmp_path: Path) -> None:
+    name = made.arm.robot.name
+    (tmp_path / f"{name}.py").write_text((made.folder / "python" / f"{name}.py").read_text())
+    with pytest.raises(
+        ImportError, match=rf"lib{name}\.so is not there; counterpoise generate ROBOT --library compiles"
+    ):
+        load(tmp_path / f"{name}.py")
+
+
+def test_the_library_is_no_part_of_the_manifest_and_goes_with_an_older_generation(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "pendulum.yaml"
+    file.write_text(PENDULUM)
+    library = tmp_path / "out" / "pendulum" / "python" / "libpendulum.so"
+    assert command("generate", file, "--out", tmp_path / "out", "--library", capsys=capsys).status == 0
+    assert library.is_file()
+    assert ".so" not in (tmp_path / "out" / "pendulum" / "manifest.json").read_text()
+    script = "import pendulum; print(pendulum.Robot('light').gravity([0.0])[0])"
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=library.parent, capture_output=True, text=True, check=True
+    )
+    assert abs(float(done.stdout) - 9.81 * 3) < 1e-9
+    assert command("generate", file, "--out", tmp_path / "out", capsys=capsys).status == 0
+    assert not library.exists()
+    ignored = subprocess.run(
+        ["git", "check-ignore", "-q", "generated/kr500/python/libkr500.so"], cwd=ROOT, check=False
+    ).returncode
+    assert ignored in (0, 128)  # 128: no checkout
+
+
+def test_a_compiler_that_is_missing_or_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "pendulum.yaml"
+    file.write_text(PENDULUM)
+    arm = Subject(derive(read(file), check=False), {})
+    folder = folder_of(arm, tmp_path / "out")
+    for compiler, message in (("/no/such/cc", "there is no such program"), ("false", "it cannot be compiled")):
+        monkeypatch.setenv("CC", compiler)
+        with pytest.raises(InputError, match=message):
+            build_library(folder, "pendulum")

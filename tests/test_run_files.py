@@ -1,0 +1,273 @@
+"""Runs in all formats, on the joint or the motor side; and files that are not what they should be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.io
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification.dataset import Run, load
+from tests.recorded import TRUTH, Recorded, recorded, two_links
+
+N = np.array([[100.0, 0.0], [5.0, -80.0]])
+KT = np.array([0.5, 0.4])
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("runs")
+
+
+@pytest.fixture(scope="module")
+def robot(folder: Path) -> Robot:
+    return two_links(folder).model.robot
+
+
+@pytest.fixture(scope="module")
+def good(folder: Path) -> Recorded:
+    return recorded(two_links(folder), TRUTH, duration=8.0)
+
+
+def stacked(run: Recorded, stem: str) -> np.ndarray:
+    return np.stack([run.columns[f"{stem}{j}"] for j in (1, 2)])
+
+
+def same(run: Run, good: Recorded) -> bool:
+    return np.allclose(run.q, stacked(good, "q"), atol=1e-12) and np.allclose(run.tau, stacked(good, "tau"), atol=1e-9)
+
+
+# -- formats ----------------------------------------------------------------------------------------------------------
+
+
+def test_text(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    run = load(str(good.save(tmp_path / "a.csv")), robot)
+    assert same(run, good)
+    assert (run.samples, run.notes) == (1600, ())
+    assert run.rate == pytest.approx(200)
+    text = (tmp_path / "a.csv").read_text()
+    (tmp_path / "b.csv").write_text("\ufeff" + text.replace(",", ";").replace("\n", "\r\n"))
+    assert same(load(str(tmp_path / "b.csv"), robot), good)
+
+
+def test_matlab(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    variables = {"t": good.columns["t"][:, None], "q": stacked(good, "q").T, "tau": stacked(good, "tau").T, "note": "x"}
+    scipy.io.savemat(tmp_path / "a.mat", variables)
+    assert same(load(str(tmp_path / "a.mat"), robot), good)
+
+
+def test_parquet(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    import pyarrow
+    from pyarrow import parquet
+
+    parquet.write_table(pyarrow.table(dict(good.columns)), tmp_path / "a.parquet")
+    assert same(load(str(tmp_path / "a.parquet"), robot), good)
+
+
+def test_motor_side_and_currents(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    qm, taum = N @ stacked(good, "q"), np.linalg.solve(N.T, stacked(good, "tau"))
+    columns = {"t": good.columns["t"], "qm1": qm[0], "qm2": qm[1]}
+    motors = Recorded(columns | {"taum1": taum[0], "taum2": taum[1]}).save(tmp_path / "motors.csv")
+    currents = Recorded(columns | {"i1": taum[0] / KT[0], "i2": taum[1] / KT[1]}).save(tmp_path / "currents.csv")
+    assert same(load(str(motors), robot), good)
+    assert same(load(str(currents), robot), good)
+
+
+def test_further_columns_are_kept_and_unknown_ones_are_not(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    more = good.with_columns(
+        qs1=good.columns["q1"] + 1e-4, fz=good.columns["t"], temp2=good.columns["t"], x=good.columns["t"]
+    )
+    assert sorted(load(str(more.save(tmp_path / "a.csv")), robot).others) == ["fz", "qs1", "temp2"]
+
+
+def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = good.save(tmp_path / "a.csv")
+    run = load(f"{path}@2:5", robot)
+    assert (run.start, run.samples) == (2.0, 601)
+    assert load(f"{path}@:5", robot).samples == 1001
+    with pytest.raises(InputError, match=r"no sample from 20 s to inf s, expected times from 0 to 7.995"):
+        load(f"{path}@20:", robot)
+    with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
+        load(f"{path}@2:x", robot)
+
+
+def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    foreign = Recorded({"time": good.columns["t"] * 1000, **good.without("t").columns})
+    path = foreign.save(tmp_path / "a.csv")
+    side = tmp_path / "a.yaml"
+    side.write_text("robot: two_links\nnotes: spindle\npayload: {M: 500 g, MX: unknown}\ncolumns: {t: time / 1000}\n")
+    run = load(str(path), robot)
+    assert same(run, good)
+    assert run.payload is not None
+    assert (run.payload.name, run.payload.known, run.payload.sought[-2:]) == ("L", {"M": 0.5}, ("MY", "MZ"))
+    side.write_text("robot: other\n")
+    with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
+        load(str(path), robot)
+    side.write_text("payload: {M: 3 m}\n")
+    with pytest.raises(InputError, match=r"a.yaml:1:\d+: 'm' is the wrong unit"):
+        load(str(path), robot)
+
+
+# -- files that are not what they should be ---------------------------------------------------------------------------
+
+
+def put(run: Recorded, name: str, rows: slice | int, value: float) -> Recorded:
+    column = run.columns[name].copy()
+    column[rows] = value
+    return run.with_columns(**{name: column})
+
+
+def degrees(run: Recorded) -> Recorded:
+    return run.with_columns(q1=np.degrees(run.columns["q1"]), q2=np.degrees(run.columns["q2"]))
+
+
+def gap(run: Recorded) -> Recorded:
+    return Recorded({name: np.delete(values, slice(500, 600)) for name, values in run.columns.items()})
+
+
+def two_rates(run: Recorded) -> Recorded:
+    keep = np.r_[0:800, 800:1600:2]
+    return Recorded({name: values[keep] for name, values in run.columns.items()})
+
+
+def cut_off(run: Recorded) -> Recorded:
+    return run.with_columns(q1=np.minimum(run.columns["q1"], 0.6 * run.columns["q1"].max()))
+
+
+def exchanged(run: Recorded) -> Recorded:
+    q1, q2 = run.columns["q1"], run.columns["q2"]
+    return run.with_columns(q1=q2, q2=q1, qr1=q1 + 1e-3, qr2=q2 + 1e-3)
+
+
+BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
+    "missing column": (lambda r: r.without("q2"), r":1:\d+: there is no column q2, expected q1 to q2"),
+    "misspelt": (
+        lambda r: Recorded({**r.without("tau2").columns, "tau_2": r.columns["tau2"]}),
+        r":1:\d+: there is no column tau2, expected tau1 to tau2; perhaps tau_2 is meant",
+    ),
+    "no time": (lambda r: r.without("t"), ":1:1: there is no column t, expected times in s"),
+    "no torques": (
+        lambda r: r.without("tau1", "tau2"),
+        "there are no columns of efforts, expected tau1 to tau2 or taum1",
+    ),
+    "nan": (lambda r: put(r, "tau1", 77, np.nan), r":79:\d+: tau1 is nan, expected a finite number"),
+    "infinite": (lambda r: put(r, "q1", 5, np.inf), r":7:\d+: q1 is inf, expected a finite number"),
+    "gap": (gap, r":502:1: time steps by 0.505 s to 3 s, where it stepped by 0.005 s, expected one rate without gaps"),
+    "jump in time": (
+        lambda r: put(r, "t", slice(900, None), 0).with_columns(t=r.columns["t"] + 3 * (np.arange(1600) >= 900)),
+        r":902:1: time steps by 3.005 s",
+    ),
+    "time goes back": (
+        lambda r: put(r, "t", 300, 0.1),
+        r":302:1: time goes from 1.495 s to 0.1 s, expected times that inc",
+    ),
+    "two rates": (
+        two_rates,
+        r":802:1: time steps by 0.01 s to 4.005 s, where it stepped by 0.005 s|:803:1: time steps",
+    ),
+    "constant torque": (
+        lambda r: put(r, "tau2", slice(None), 4.0),
+        r":2:\d+: tau2 is 4 in all rows, expected a measured",
+    ),
+    "cut-off position": (
+        cut_off,
+        r":\d+:\d+: q1 stays at [\d.]+ from here for \d+ rows, expected a position that is not",
+    ),
+    "degrees": (degrees, r"q\d gives joint \d [-\d.]+ rad, outside of -2.793 to 2.793, .* are these degrees\?"),
+    "swapped": (exchanged, r"q1 follows qr2, not qr1, expected columns in the joints' order; are two swapped\?"),
+    "another robot": (lambda r: r.with_columns(q3=r.columns["q1"]), "column q3, but two_links has 2 moving joints"),
+    "a jump": (lambda r: put(r, "q2", slice(700, None), 2.5), r":702:\d+: q2 jumps from"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_runs_are_refused_with_their_row(name: str, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    change, message = BAD[name]
+    path = change(good).save(tmp_path / "bad.csv")
+    with pytest.raises(InputError, match=message) as caught:
+        load(str(path), robot)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+def text_of(good: Recorded, tmp_path: Path) -> str:
+    return good.save(tmp_path / "good.csv").read_text()
+
+
+TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
+    "empty": (lambda text: "", ":1:1: the file is empty"),
+    "header alone": (lambda text: text.splitlines()[0] + "\n", ":1:1: there are no samples in the file"),
+    "no header": (lambda text: text.partition("\n")[2], ":1:1: column name '0.0', expected a header row"),
+    "twice": (lambda text: text.replace("tau2", "tau1", 1), r":1:\d+: column tau1 is there twice"),
+    "word": (lambda text: text.replace("\n0.015,", "\n0.015,fast,", 1), r":5:7: q1 is 'fast', expected a number"),
+    "empty field": (lambda text: text.replace("\n0.015,", "\n0.015,,", 1), r":5:7: q1 is missing, expected a number"),
+    "short row": (
+        lambda text: "\n".join([*text.splitlines()[:40], text.splitlines()[40].rpartition(",")[0], ""]),
+        ":41:1: 4 fields in a row, 5 names in the header, expected a complete row; is the file cut off",
+    ),
+    "empty line": (lambda text: text.replace("\n0.1,", "\n\n0.1,", 1), ":22:1: the line is empty"),
+    "underscore": (lambda text: text.replace("\n0.1,", "\n0_1,", 1), ":22:1: t is '0_1', expected a number"),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_bad_texts_are_refused_with_line_and_column(name: str, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    change, message = TEXTS[name]
+    path = tmp_path / "bad.csv"
+    path.write_text(change(text_of(good, tmp_path)))
+    with pytest.raises(InputError, match=message):
+        load(str(path), robot)
+
+
+def test_a_line_without_end_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / "cut.csv"
+    path.write_text(text_of(good, tmp_path)[:-4])
+    run = load(str(path), robot)
+    assert run.samples == 1599
+    assert run.notes == (f"{path}:1601: the last line has no end and is left out, the file may be cut off there",)
+
+
+def test_a_torque_at_its_limit_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    tau = good.columns["tau1"]
+    limited = good.with_columns(tau1=np.minimum(tau, np.quantile(tau, 0.95)))
+    run = load(str(limited.save(tmp_path / "a.csv")), robot)
+    assert run.unusable is not None
+    assert not run.unusable[1].any()
+    stuck = limited.columns["tau1"] == limited.columns["tau1"].max()
+    assert (run.unusable[0] <= stuck).all()
+    assert run.unusable[0].sum() > 0.9 * stuck.sum()
+    assert "tau1 is cut off for" in run.notes[0]
+
+
+def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    t = good.columns["t"].copy()
+    t[1:-1] += 0.001 * np.sin(np.arange(1598))
+    shaken = {name: np.interp(t, good.columns["t"], good.columns[name]) for name in ("q1", "q2", "tau1", "tau2")}
+    run = load(str(Recorded({"t": t, **shaken}).save(tmp_path / "a.csv")), robot)
+    assert "times are uneven; samples were interpolated to 200 Hz" in run.notes[0]
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
+
+
+def test_slowly_logged_torques_are_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    held = good.with_columns(tau1=np.repeat(good.columns["tau1"][::4], 4))
+    run = load(str(held.save(tmp_path / "a.csv")), robot)
+    assert "tau1 keeps each value for 4 rows: it was logged more slowly" in run.notes[0]
+
+
+@pytest.mark.parametrize("ending", [".mat", ".parquet"])
+def test_damaged_binary_files_are_refused(ending: str, robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / f"a{ending}"
+    path.write_bytes(b"MATLAB 5.0 MAT-file, Platform" + bytes(range(256)) * 3)
+    with pytest.raises(InputError, match="this is not a whole"):
+        load(str(path), robot)
+
+
+def test_other_files_are_refused(robot: Robot, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"there is no such file, expected a run in .csv"):
+        load(str(tmp_path / "none.csv"), robot)
+    with pytest.raises(InputError, match=r"a run file ending in '.doc'"):
+        load(str(tmp_path / "a.doc"), robot)
