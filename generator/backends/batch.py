@@ -50,8 +50,13 @@ class LaneFunction:
 
 
 def emit(model: Model) -> dict[str, str | bytes]:
-    """The header and the source by their paths; nothing for a model without the functions that they are made of."""
+    """The header and the source by their paths.
+
+    Nothing for a model without the functions that they are made of, and for one whose effects read more than the motion.
+    """
     if not {_DYNAMICS, _REGRESSOR} <= model.functions.keys():
+        return {}
+    if any(signal.name not in _INPUTS for name in (_DYNAMICS, _REGRESSOR) for signal in model.functions[name].inputs):
         return {}
     prefix = model.robot.name
     prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})
