@@ -52,7 +52,7 @@ class LaneFunction:
 def emit(model: Model) -> dict[str, str | bytes]:
     """The header and the source by their paths.
 
-    Nothing for a model without the functions that they are made of, and for one whose effects read more than the motion.
+    Nothing for a model without the functions that they are made of, or whose effects read more than the motion.
     """
     if not {_DYNAMICS, _REGRESSOR} <= model.functions.keys():
         return {}
