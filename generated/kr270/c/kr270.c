@@ -76,6 +76,9 @@ static void kr270_library_sines_cosines(
 #ifndef KR270_LANES
 #define KR270_LANES 1
 #endif
+#if (KR270_LANES != 1) && (KR270_LANES != 4)
+#error "KR270_LANES is 1 or 4"
+#endif
 #ifdef KR270_USE_FLOAT
 typedef uint32_t kr270_bits;
 #else

@@ -83,6 +83,9 @@ static void kr500_library_sines_cosines(
 #ifndef KR500_LANES
 #define KR500_LANES 1
 #endif
+#if (KR500_LANES != 1) && (KR500_LANES != 4)
+#error "KR500_LANES is 1 or 4"
+#endif
 #ifdef KR500_USE_FLOAT
 typedef uint32_t kr500_bits;
 #else

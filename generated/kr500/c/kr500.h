@@ -17,11 +17,10 @@
  *             that move a body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and
  *             first moment; u marks axes that do not spin with the joint, a trailing n the negative.
  *   Precision double, or float with KR500_USE_FLOAT defined for the library and all of its users.
- *   Angles    sine and cosine are computed here, for all angles of a call side by side: wrong by at most 2 units in the
- *             last place for |x| <= 1e3 (float: 1e3), by 2.2e-16 for |x| <= 1e5; a call with a larger angle, infinity
- *             or NaN takes those of <math.h>. KR500_USE_LIBM takes them always, -Dkr500_sin=my_sin
- *             -Dkr500_cos=my_cos takes yours; so do -ffast-math and arithmetic in excess precision take <math.h>'s.
- *             The rounding mode is to nearest.
+ *   Angles    sine and cosine are computed here, four angles side by side: wrong by at most 2 units in the last place
+ *             for |x| <= 1e3, and by 2.2e-16 for |x| <= 1e5 (float: 2 units and 1.2e-7 for |x| <= 1e3). Larger angles,
+ *             infinities and NaN go to <math.h>; with KR500_USE_LIBM all do, as under -ffast-math and in excess
+ *             precision. -Dkr500_sin=my_sin -Dkr500_cos=my_cos takes yours. Rounding is to nearest.
  *
  * Use: fill a kr500_params, call kr500_prepare() once, then any function, from any thread. Nothing is
  * allocated, and no state is kept. Compile kr500.c as C99 or later with -O2 -ffp-contract=fast and for your
