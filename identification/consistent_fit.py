@@ -25,9 +25,11 @@ from identification.sidecar import Payload
 
 Array = NDArray[np.float64]
 
-#: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; length [m] of that
-#: link and mass [kg] of the ball where nothing tells them.
+#: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; that link's
+#: length [m] and the ball's mass [kg] where nothing tells them.
 _PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
+#: The solver loses its way where misfits of thousands stand beside small divergences, not where they are small numbers.
+_SCALE = 1e-6
 #: Radius of gyration [m] that a prior body has at least in every direction: none is a point.
 _LEAST_RADIUS = 0.02
 
@@ -85,7 +87,7 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     constraints = [X >> 0 for X in relative]
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
-    _solve(cp.Problem(cp.Minimize(cost), constraints), cp)
+    _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
     standard = {name: float(variable.value) for name, variable in s.items()}
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
