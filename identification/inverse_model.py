@@ -11,6 +11,7 @@ import numpy as np
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
+from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import RATIO, essential
 from identification.factors import Factor, added
@@ -30,7 +31,8 @@ class Options:
     """What is asked for.
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
-    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells.
+    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells. So many ``draws`` of
+    a block bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None
@@ -38,6 +40,7 @@ class Options:
     ratio: float = RATIO
     robust: bool = False
     payload: Payload | None = None
+    draws: int = 0
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,10 @@ def identify(
         problem = found.problem
         notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
     tests = _added(tried)
-    full = _estimate(problem, problem.solve(), factors, tests)
+    solution = problem.solve()
+    if options.draws:
+        solution = bootstrapped(problem, solution, trained, options.draws)
+    full = _estimate(problem, solution, factors, tests)
     notes += suspect(trained, regressors, full.train)
     reduced, solution = essential(problem, options.ratio)
     best = _estimate(reduced, solution, factors, tests)

@@ -115,10 +115,16 @@ def _method(found: Identification) -> dict[str, Any]:
         "least_squares": "weighted by joint" if found.problem.weighted else "ordinary",
         "robust": options.robust,
         "residual_variance": "rows minus one" if found.problem.by_samples else "rows minus parameters",
-        "std": "of independent residuals (report eq. 42-45); optimistic where residuals are coloured",
+        "std": _std_of(options.draws),
         "standstill": recipe.standstill,
         "fixed": {name: found.problem.fixed[name] for name in sorted(options.fixed)},
     }
+
+
+def _std_of(draws: int) -> str:
+    if draws:
+        return f"block bootstrap of {draws} draws; of the essential model that of independent residuals"
+    return "of independent residuals (report eq. 42-45); optimistic where residuals are coloured"
 
 
 def _run(one: Sampled) -> dict[str, Any]:

@@ -135,6 +135,7 @@ REFUSED = {
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
+    ("--bootstrap", "3"): "error: --bootstrap:1:1: 3 draws, expected 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
     ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
 }

@@ -45,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
+    method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
     method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
@@ -106,6 +107,7 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),
         robust=arguments.robust,
+        draws=_draws(arguments.bootstrap),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
@@ -145,6 +147,12 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
         raise InputError(command_line("--standstill"), f"{arguments.standstill:g}", "a number that is not negative")
     names = ("dynamics", "cutoff", "order", "factor", "standstill", "weights")
     return base.changed(**{name: getattr(arguments, name) for name in names})
+
+
+def _draws(count: int) -> int:
+    if count and not 50 <= count <= 100_000:
+        raise InputError(command_line("--bootstrap"), f"{count} draws", "50 to 100000")
+    return count
 
 
 def _more(value: float, option: str, least: float) -> float:
