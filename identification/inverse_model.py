@@ -31,8 +31,8 @@ class Options:
     """What is asked for.
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
-    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells. So many ``draws`` of
-    a block bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
+    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells. So many ``draws``
+    of a block bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None

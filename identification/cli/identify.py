@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
-        from identification.consistent_fit import consistent_fit
+        from identification.consistent_fit import consistent_fit, doubts
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.results import save
@@ -87,6 +87,7 @@ def run(arguments: argparse.Namespace) -> None:
         with stage("making the parameters physically consistent"):
             try:
                 consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
+                found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
     folder = arguments.out or Path("identified") / robot.name
