@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 _PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
 #: The solver loses its way where misfits of thousands stand beside small divergences, not where they are small numbers.
 _SCALE = 1e-6
-#: What possible bodies leave of the torques' spread [%], and in parts of what least squares leave, where data are doubted.
+#: What possible bodies leave of the torques' spread [%], and in parts of what least squares leave, to doubt the data.
 _POOR, _POORER = 4.0, 2.0
 #: Radius of gyration [m] that a prior body has at least in every direction: none is a point.
 _LEAST_RADIUS = 0.02
@@ -102,10 +102,9 @@ def doubts(found: Identification, fit: ConsistentFit) -> list[str]:
     free, possible = (one.train.total.relative_to_mean for one in (found.full, fit))
     if possible < _POOR or possible < _POORER * free:
         return []
-    return [
-        f"no possible bodies and friction explain these torques ({possible:.1f} % of their spread is left, {free:.1f} % "
-        f"by impossible ones): are they of {found.robot.name}, all columns in place, with the right signs and units?"
-    ]
+    left = f"{possible:.1f} % of their spread is left, {free:.1f} % by impossible ones"
+    question = f"are they of {found.robot.name}, all columns in place, with right signs and units?"
+    return [f"no possible bodies and friction explain these torques ({left}): {question}"]
 
 
 def _solve(problem: Any, cp: Any) -> None:

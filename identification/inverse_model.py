@@ -26,6 +26,10 @@ from identification.sidecar import Payload
 from identification.suspicion import suspect
 
 
+#: Residual of the essential parameters, in parts of that of all, from which it is told.
+_COSTLY = 2.0
+
+
 @dataclass(frozen=True)
 class Options:
     """What is asked for.
@@ -114,6 +118,8 @@ def identify(
     reduced, solution = essential(problem, options.ratio)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)
+    if best.train.total.norm > _COSTLY * full.train.total.norm:
+        notes.append("the essential parameters leave far more of the torques than all do; a larger ratio keeps more")
     return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))
 
 
