@@ -25,7 +25,6 @@ from identification.sampling import sampled
 from identification.sidecar import Payload
 from identification.suspicion import suspect
 
-
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0
 
