@@ -126,6 +126,21 @@ def _recipe(folder: Path) -> Path:
     return path
 
 
+def test_sensitivity_to_the_filters(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = identified(folder, capsys, "--cutoff", "3", "--factor", "10", "--sensitivity")
+    assert done.status == 0
+    found = results(folder)["sensitivity"]
+    assert [(one["setting"], one["value"]) for one in found] == [
+        ("cutoff", 1.5),
+        ("cutoff", 6),
+        ("factor", 5),
+        ("factor", 20),
+    ]
+    # Half of the cut-off filters what the runs hold, twice of it does not.
+    assert found[0]["change"] > 5 * found[1]["change"] > 0
+    assert "cutoff 6: no parameter moves by more than" in done.out
+
+
 REFUSED = {
     ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
     ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",

@@ -42,6 +42,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters.add_argument(
         "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
     )
+    filters.add_argument(
+        "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
+    )
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
@@ -70,6 +73,7 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.results import save
+        from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise identify"), f"{error.name} is not installed", extra) from None
@@ -91,8 +95,14 @@ def run(arguments: argparse.Namespace) -> None:
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
     folder = arguments.out or Path("identified") / robot.name
-    files = save(found, path, folder, consistent)
+    variations = []
+    if arguments.sensitivity:
+        with stage("trying other filters"):
+            variations = sensitivity(found, arguments.data)
+    files = save(found, path, folder, consistent, variations)
     print(_summary(found, consistent))
+    for one in variations:
+        print(f"{one.setting} {one.value:g}: no parameter moves by more than {one.change:.2f} std ({one.parameter})")
     print(f"files            {', '.join(files)} in {folder}/")
 
 
