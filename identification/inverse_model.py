@@ -100,7 +100,7 @@ def identify(
         for sources in (data, test)
     )
     factors = _added(trained)
-    problem = _problem(factors, regressors, _payloads(trained), recipe, options)
+    problem = _problem(factors, regressors, _known_payloads(trained, tried), recipe, options)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
     problem, aside = _separable(problem, _payloads(trained))
     notes += aside
@@ -151,6 +151,17 @@ def _payloads(runs: Iterable[Observed]) -> dict[str, Payload]:
     return result
 
 
+def _known_payloads(trained: Sequence[Observed], tried: Sequence[Observed]) -> dict[str, Payload]:
+    """Of all runs; raises InputError where a run is tried whose payload nothing tells."""
+    result = _payloads((*trained, *tried))
+    for one in tried:
+        payload = one.sampled.run.payload
+        if payload is not None and payload.sought and payload.name not in _payloads(trained):
+            problem = f"payload {payload.name} is not on any run that is identified from"
+            raise InputError(one.sampled.run.place, problem, f"values of {' '.join(payload.sought)} in the sidecar")
+    return result
+
+
 def _problem(
     factors: tuple[Factor, ...],
     regressors: Regressors,
@@ -183,9 +194,8 @@ def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Probl
 
 
 def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], test: Sequence[Factor]) -> Estimate:
-    unknown = sorted({name for one in test for name in one.names} - set(solution.values))
-    values = {**solution.values, **dict.fromkeys(unknown, 0.0)}
-    return Estimate(solution, problem.names, residuals(train, values), residuals(test, values) if test else None)
+    tried = residuals(test, solution.values) if test else None
+    return Estimate(solution, problem.names, residuals(train, solution.values), tried)
 
 
 def _notes_on(one: Observed, robot: Robot) -> list[str]:

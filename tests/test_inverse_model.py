@@ -225,6 +225,22 @@ def test_a_payload_is_told_from_the_arm_by_a_run_without_it(links: Regressors, f
     assert solution.values["Mbox"] == pytest.approx(2.5, abs=max(3 * solution.std("Mbox"), 0.02))
 
 
+def test_a_run_with_a_known_payload_is_tried_with_it(links: Regressors, folder: Path, clean: Path) -> None:
+    path = recorded(links, TRUTH, seed=4, payload=LOAD).save(folder / "tried.csv")
+    options = Options(recipe=Recipe(dynamics=4.0))
+    units = ["kg m2"] * 6 + ["kg m"] * 3 + ["kg"]
+    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(TEN, LOAD, units, strict=True))
+    (folder / "tried.yaml").write_text(f"payload: {{{given}}}\n")
+    found = identify(links.model.robot, [clean], [path], options, links)
+    assert found.full.test is not None
+    assert found.full.test.total.relative_to_mean < 0.2
+    (folder / "tried.yaml").write_text("payload: {M: 2.5 kg}\n")
+    with pytest.raises(
+        InputError, match=r"tried.csv:1:1: payload L is not on any run that is identified from, expected"
+    ):
+        identify(links.model.robot, [clean], [path], options, links)
+
+
 def test_a_payload_in_all_runs_counts_as_part_of_the_last_body(links: Regressors, folder: Path) -> None:
     loaded = recorded(links, TRUTH, seed=3, payload=LOAD).save(folder / "always.csv")
     options = Options(recipe=Recipe(dynamics=4.0), payload=Payload("L", {}))

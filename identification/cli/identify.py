@@ -183,13 +183,13 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  essential")
     for name in names:
         hidden = name in solution.hidden
-        value = "unknown" if hidden else f"{solution.values[name]:.6g}"
+        value = "unknown" if hidden else f"{solution.values[name]:.7g}"
         mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential.sought else "no"
         lines.append(
             f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
         )
     lines.append(
-        f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
+        f"condition of W   {solution.condition:.7g}, with columns of unit length {solution.scaled_condition:.6g}"
     )
     for title, estimate in (
         ("all parameters", found.full),
@@ -204,7 +204,7 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
             each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(result.per_joint.items()))
             total = result.total
             lines.append(
-                f"{title}, {kind}: ||e|| {total.norm:.6g}, ||e||/||Y|| {total.relative:.4f} %, "
+                f"{title}, {kind}: ||e|| {total.norm:.7g}, ||e||/||Y|| {total.relative:.4f} %, "
                 f"||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})"
             )
     return "\n".join(lines)
