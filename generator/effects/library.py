@@ -75,9 +75,19 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
             site = Site(joint, _values(use, effect))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
+            _check_joints(robot, use, instances[number, effect.id])
     _check_names(robot, list(instances.values()))
     order = list(library())
     return tuple(instances[key] for key in sorted(instances, key=lambda key: (key[0], order.index(key[1]))))
+
+
+def _check_joints(robot: Robot, use: EffectUse, instance: Instance) -> None:
+    """An effect acts on joints that move."""
+    moving = [joint.number for joint in robot.moving]
+    for joint in {joint: None for column in instance.columns() for joint in column}:
+        if joint not in moving:
+            problem = f"effect {use.effect} acts on joint {joint}, which does not move"
+            raise InputError(use.place, problem, f"one of {', '.join(map(str, moving))}")
 
 
 def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:
