@@ -25,10 +25,11 @@ Results = Mapping[str, Any]
 
 def documented(results: Results) -> dict[Path, str]:
     """The documents and the picture as the results have them, by their paths in the repository."""
-    performance = _replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))
+    files = {PERFORMANCE: _replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))}
     for name, result in results["studies"].items():
-        performance = _replaced(_with_section(performance, name, result["title"]), f"study {name}", shown(result))
-    files = {PERFORMANCE: performance}
+        page = _page(name)
+        text = files[page] if page in files else _read(page)
+        files[page] = _replaced(_with_section(text, name, result["title"]), f"study {name}", shown(result))
     if rows := results["studies"].get("peers", {}).get("rows"):
         files[README] = _replaced(_read(README), "performance", table(summary(rows)))
         files[PICTURE] = chart(f"Time of one call, {rows[0]['robot']}", bars(rows), "the generated C")
@@ -37,6 +38,12 @@ def documented(results: Results) -> dict[Path, str]:
 
 def _facts(machine: Mapping[str, str]) -> list[dict[str, object]]:
     return [{"": name, "measured on": value} for name, value in machine.items()]
+
+
+def _page(name: str) -> Path:
+    """The document that has a place for a study's results; the page on performance for one that has none."""
+    pages = sorted(path.relative_to(ROOT) for path in (ROOT / "docs").glob("*.md"))
+    return next((page for page in pages if f"<!-- study {name} -->" in _read(page)), PERFORMANCE)
 
 
 def _read(path: Path) -> str:

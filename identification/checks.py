@@ -75,7 +75,8 @@ def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
         bad = np.flatnonzero((x < lower - allowed) | (x > upper + allowed))
         if bad.size:
             row = int(bad[0])
-            inside = np.all((np.radians(x) >= lower - allowed) & (np.radians(x) <= upper + allowed))
+            turned = np.radians(x)
+            inside = np.abs(x).max() > 2 * np.pi and turned.min() >= lower - allowed and turned.max() <= upper + allowed
             problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, outside of {lower:.4g} to {upper:.4g}"
             hint = "; are these degrees?" if inside and unit == "rad" else "; is this a run of another robot?"
             raise InputError(where(row, name), problem, f"{unit} within the robot's limits{hint}")

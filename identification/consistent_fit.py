@@ -25,9 +25,13 @@ from identification.sidecar import Payload
 
 Array = NDArray[np.float64]
 
-#: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; length [m] of that
-#: link and mass [kg] of the ball where nothing tells them.
+#: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; that link's
+#: length [m] and the ball's mass [kg] where nothing tells them.
 _PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
+#: The solver loses its way where misfits of thousands stand beside small divergences, not where they are small numbers.
+_SCALE = 1e-6
+#: What possible bodies leave of the torques' spread [%], and in parts of what least squares leave, to doubt the data.
+_POOR, _POORER = 4.0, 2.0
 #: Radius of gyration [m] that a prior body has at least in every direction: none is a point.
 _LEAST_RADIUS = 0.02
 
@@ -85,12 +89,22 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     constraints = [X >> 0 for X in relative]
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
-    _solve(cp.Problem(cp.Minimize(cost), constraints), cp)
+    _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
     standard = {name: float(variable.value) for name, variable in s.items()}
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
     test = residuals([f for run in found.test for f in run.factors], at) if found.test else None
     return ConsistentFit(standard, {name: at[name] for name in base}, weight, prior is not None, train, test)
+
+
+def doubts(found: Identification, fit: ConsistentFit) -> list[str]:
+    """Torques that free parameters explain and no bodies do are another robot's, or of wrong sign or order."""
+    free, possible = (one.train.total.relative_to_mean for one in (found.full, fit))
+    if possible < _POOR or possible < _POORER * free:
+        return []
+    left = f"{possible:.1f} % of their spread is left, {free:.1f} % by impossible ones"
+    question = f"are they of {found.robot.name}, all columns in place, with right signs and units?"
+    return [f"no possible bodies and friction explain these torques ({left}): {question}"]
 
 
 def _solve(problem: Any, cp: Any) -> None:

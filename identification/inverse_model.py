@@ -11,6 +11,7 @@ import numpy as np
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
+from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import RATIO, essential
 from identification.factors import Factor, added
@@ -24,13 +25,17 @@ from identification.sampling import sampled
 from identification.sidecar import Payload
 from identification.suspicion import suspect
 
+#: Residual of the essential parameters, in parts of that of all, from which it is told.
+_COSTLY = 2.0
+
 
 @dataclass(frozen=True)
 class Options:
     """What is asked for.
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
-    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells.
+    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells. So many ``draws``
+    of a block bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None
@@ -38,6 +43,7 @@ class Options:
     ratio: float = RATIO
     robust: bool = False
     payload: Payload | None = None
+    draws: int = 0
 
 
 @dataclass(frozen=True)
@@ -94,7 +100,7 @@ def identify(
         for sources in (data, test)
     )
     factors = _added(trained)
-    problem = _problem(factors, regressors, _payloads(trained), recipe, options)
+    problem = _problem(factors, regressors, _known_payloads(trained, tried), recipe, options)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
     problem, aside = _separable(problem, _payloads(trained))
     notes += aside
@@ -103,11 +109,16 @@ def identify(
         problem = found.problem
         notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
     tests = _added(tried)
-    full = _estimate(problem, problem.solve(), factors, tests)
+    solution = problem.solve()
+    if options.draws:
+        solution = bootstrapped(problem, solution, trained, options.draws)
+    full = _estimate(problem, solution, factors, tests)
     notes += suspect(trained, regressors, full.train)
     reduced, solution = essential(problem, options.ratio)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)
+    if best.train.total.norm > _COSTLY * full.train.total.norm:
+        notes.append("the essential parameters leave far more of the torques than all do; a larger ratio keeps more")
     return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))
 
 
@@ -137,6 +148,17 @@ def _payloads(runs: Iterable[Observed]) -> dict[str, Payload]:
             known = result.setdefault(payload.name, payload).known
             if known != payload.known:
                 raise InputError(one.sampled.run.place, f"payload {payload.name} has other values here", "one payload")
+    return result
+
+
+def _known_payloads(trained: Sequence[Observed], tried: Sequence[Observed]) -> dict[str, Payload]:
+    """Of all runs; raises InputError where a run is tried whose payload nothing tells."""
+    result = _payloads((*trained, *tried))
+    for one in tried:
+        payload = one.sampled.run.payload
+        if payload is not None and payload.sought and payload.name not in _payloads(trained):
+            problem = f"payload {payload.name} is not on any run that is identified from"
+            raise InputError(one.sampled.run.place, problem, f"values of {' '.join(payload.sought)} in the sidecar")
     return result
 
 
@@ -172,9 +194,8 @@ def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Probl
 
 
 def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], test: Sequence[Factor]) -> Estimate:
-    unknown = sorted({name for one in test for name in one.names} - set(solution.values))
-    values = {**solution.values, **dict.fromkeys(unknown, 0.0)}
-    return Estimate(solution, problem.names, residuals(train, values), residuals(test, values) if test else None)
+    tried = residuals(test, solution.values) if test else None
+    return Estimate(solution, problem.names, residuals(train, solution.values), tried)
 
 
 def _notes_on(one: Observed, robot: Robot) -> list[str]:

@@ -57,7 +57,7 @@ class Recipe:
     def at(self, rate: float) -> Filters:
         """The filters for runs sampled at ``rate`` [Hz]."""
         cutoff = min(self.cutoff or _CUTOFF * self.dynamics, 0.45 * rate)
-        factor = self.factor or _possible(rate / (_RATE * self.dynamics))
+        factor = self.factor or possible_factor(rate / (_RATE * self.dynamics))
         ends = round(_ENDS * rate / cutoff)
         first = ends if self.dropped_first is None else self.dropped_first
         last = ends if self.dropped_last is None else self.dropped_last
@@ -83,7 +83,7 @@ class Filters:
         return self.first + self.last + max(30, 10 * self.factor)
 
 
-def _possible(ratio: float) -> int:
+def possible_factor(ratio: float) -> int:
     """The factor nearest to ``ratio`` that decimation in stages can have."""
     nearest = max(1, round(ratio))
     candidates = sorted(range(max(1, nearest // 2), 2 * nearest + 1), key=lambda r: (abs(r - ratio), r))

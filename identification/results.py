@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from identification.inverse_model import Estimate, Identification
 from identification.residuals import Residual, Residuals
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
+from identification.sensitivity import Variation
 from identification.sidecar import UNITS
 
 #: Names of the files, and of the parameter sets in the robot file.
@@ -27,7 +29,9 @@ _INFINITE = "1e999"
 _MARK = "\0infinite"
 
 
-def document(found: Identification, consistent: ConsistentFit | None = None) -> dict[str, Any]:
+def document(
+    found: Identification, consistent: ConsistentFit | None = None, variations: Sequence[Variation] = ()
+) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md.
 
     Angles in rad, torques in N m. Where the data do not show a parameter its std is infinite and its value None.
@@ -54,6 +58,7 @@ def document(found: Identification, consistent: ConsistentFit | None = None) -> 
         },
         "consistent": None if consistent is None else _consistent(found, consistent),
         "payloads": _payload_values(found),
+        "sensitivity": [asdict(one) for one in variations],
         "notes": list(found.notes),
     }
 
@@ -63,7 +68,13 @@ def written(text: Mapping[str, Any]) -> str:
     return json.dumps(_marked(text), indent=1, ensure_ascii=False).replace(json.dumps(_MARK), _INFINITE) + "\n"
 
 
-def save(found: Identification, robot_file: Path, folder: Path, consistent: ConsistentFit | None = None) -> list[str]:
+def save(
+    found: Identification,
+    robot_file: Path,
+    folder: Path,
+    consistent: ConsistentFit | None = None,
+    variations: Sequence[Variation] = (),
+) -> list[str]:
     """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
@@ -71,7 +82,10 @@ def save(found: Identification, robot_file: Path, folder: Path, consistent: Cons
     text = robot_file.read_text(encoding="utf-8-sig")
     for one in parameter_sets(found, consistent):
         text = with_parameter_set(text, one)
-    files = {RESULTS: written(document(found, consistent)).encode(), f"{found.robot.name}.yaml": text.encode()}
+    files = {
+        RESULTS: written(document(found, consistent, variations)).encode(),
+        f"{found.robot.name}.yaml": text.encode(),
+    }
     replace(folder, files)
     return sorted(files)
 
@@ -115,10 +129,16 @@ def _method(found: Identification) -> dict[str, Any]:
         "least_squares": "weighted by joint" if found.problem.weighted else "ordinary",
         "robust": options.robust,
         "residual_variance": "rows minus one" if found.problem.by_samples else "rows minus parameters",
-        "std": "of independent residuals (report eq. 42-45); optimistic where residuals are coloured",
+        "std": _std_of(options.draws),
         "standstill": recipe.standstill,
         "fixed": {name: found.problem.fixed[name] for name in sorted(options.fixed)},
     }
+
+
+def _std_of(draws: int) -> str:
+    if draws:
+        return f"block bootstrap of {draws} draws; of the essential model that of independent residuals"
+    return "of independent residuals (report eq. 42-45); optimistic where residuals are coloured"
 
 
 def _run(one: Sampled) -> dict[str, Any]:

@@ -223,6 +223,11 @@ def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(
     [
         ("alpha: pi/2", "alpha: pi/2 m", ":5:"),
         ("viscous_friction", "viscous_fiction", ":7:14: unknown effect 'viscous_fiction'"),
+        (
+            "effect: viscous_friction, joints: all}",
+            "effect: coupled_rotor, joint: 1, values: {other: 2, ratio: 1}}",
+            ":7:55: other of joint 1 is 2, expected a second joint",
+        ),
         ("MX1: 3 kg m", "MX1: 3 kg", ":14:7: MX1 is given in kg, expected kg m"),
         ("MX1: 3 kg m", "MX3: 3 kg m", ":14:7: the robot has no parameter 'MX3', expected perhaps 'MX1'"),
     ],

@@ -9,7 +9,7 @@ import pytest
 
 from generator.errors import InputError
 from identification.consistency import grouped
-from identification.consistent_fit import ConsistentFit, consistent_fit
+from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
 from identification.observation import Regressors
 from identification.pseudo_inertia import of_body, uniform_bar
@@ -67,6 +67,7 @@ def test_possible_bodies_are_found_again(links: Regressors, folder: Path) -> Non
     assert fit.train.total.norm < 1.01 * one.full.train.total.norm
     assert fit.test is not None
     assert fit.test.total.norm == pytest.approx(fit.train.total.norm)
+    assert doubts(one, fit) == []
 
 
 def test_impossible_estimates_become_possible(links: Regressors, folder: Path) -> None:
@@ -80,6 +81,16 @@ def test_impossible_estimates_become_possible(links: Regressors, folder: Path) -
     assert fit.base["ZZ2"] >= fit.base["MX2"] ** 2 / fit.standard["M2"] > 0
     assert fit.base["Fc1"] >= -1e-6
     assert fit.train.total.norm > one.full.train.total.norm
+
+
+def test_torques_of_no_robot_are_doubted(links: Regressors, folder: Path) -> None:
+    """Joint 2 with its torque's sign turned: free parameters explain it as well as before."""
+    run = recorded(links, grouped(links.model, STANDARD), noise=0.005)
+    turned = run.with_columns(tau2=-run.columns["tau2"])
+    one = found(links, turned, folder / "turned.csv")
+    assert one.full.train.total.relative_to_mean < 20
+    (doubt,) = doubts(one, consistent_fit(one, None, WEIGHT))
+    assert doubt.startswith("no possible bodies and friction explain these torques (")
 
 
 def test_given_values_are_kept_or_refused(links: Regressors, folder: Path) -> None:

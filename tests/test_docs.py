@@ -21,7 +21,7 @@ from generator.resources import robots
 from tests.documents import ROOT, SESSIONS, Workshop, agree, blocks
 
 DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").glob("*.md"))]
-FOLDERS = ("generator", "robots", "templates", "tests")
+FOLDERS = ("generator", "identification", "recipes", "robots", "templates", "tests")
 
 _LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"`([^`]+)`")
@@ -189,14 +189,16 @@ def test_what_report_md_refers_to_exists() -> None:
 
 
 def _exists(module: str, name: str) -> bool:
-    """Whether a test of ``tests/`` is declared, or a module of ``generator`` has an object."""
+    """Whether a test of ``tests/`` is declared, or a module of the packages has an object."""
     if module.startswith("test_"):
         return name in _declared(module)
-    try:
-        reduce(getattr, name.split("."), importlib.import_module(f"generator.{module}"))
-    except (ImportError, AttributeError):
-        return False
-    return True
+    for package in ("generator", "identification"):
+        try:
+            reduce(getattr, name.split("."), importlib.import_module(f"{package}.{module}"))
+        except (ImportError, AttributeError):
+            continue
+        return True
+    return False
 
 
 @cache

@@ -126,6 +126,21 @@ def _recipe(folder: Path) -> Path:
     return path
 
 
+def test_sensitivity_to_the_filters(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = identified(folder, capsys, "--cutoff", "3", "--factor", "10", "--sensitivity")
+    assert done.status == 0
+    found = results(folder)["sensitivity"]
+    assert [(one["setting"], one["value"]) for one in found] == [
+        ("cutoff", 1.5),
+        ("cutoff", 6),
+        ("factor", 5),
+        ("factor", 20),
+    ]
+    # Half of the cut-off filters what the runs hold, twice of it does not.
+    assert found[0]["change"] > 2 * found[1]["change"] > 0
+    assert "cutoff 6: no parameter moves by more than" in done.out
+
+
 REFUSED = {
     ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
     ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
@@ -135,6 +150,7 @@ REFUSED = {
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
+    ("--bootstrap", "3"): "error: --bootstrap:1:1: 3 draws, expected 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
     ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
 }

@@ -134,6 +134,29 @@ def test_uncertainty_covers_the_truth(links: Regressors, folder: Path) -> None:
     assert 0.88 < inside / count < 0.995
 
 
+def coloured(links: Regressors, seed: int) -> Recorded:
+    """A run with noise that lasts for a fifth of a second."""
+    run = recorded(links, TRUTH, seed=seed)
+    draw = np.random.default_rng(seed + 50)
+    noise = signal.lfilter([1.0], [1, -0.975], draw.normal(size=(2, len(run.columns["t"]))))
+    return run.with_columns(tau1=run.columns["tau1"] + noise[0], tau2=run.columns["tau2"] + 0.3 * noise[1])
+
+
+def test_blocks_tell_the_uncertainty_under_coloured_noise(links: Regressors, folder: Path) -> None:
+    """Estimates over many seeds are the judge; independent residuals promise too much."""
+    plain, blocks, z = [], [], []
+    for seed in range(14):
+        path = coloured(links, seed).save(folder / f"coloured{seed}.csv")
+        for draws, into in ((0, plain), (200, blocks)):
+            options = Options(recipe=PLAIN, draws=draws)
+            solution = identify(links.model.robot, [path], options=options, regressors=links).full.solution
+            into.append([solution.std(name) for name in TRUTH])
+        z.append([solution.values[name] - truth for name, truth in TRUTH.items()])
+    actual = np.sqrt(np.mean(np.square(z), axis=0))
+    assert np.median(actual / np.mean(plain, axis=0)) > 1.5
+    assert 0.75 < np.median(actual / np.mean(blocks, axis=0)) < 1.4
+
+
 def test_several_runs_and_held_out_ones(links: Regressors, clean: Path, noisy: Path) -> None:
     robot = links.model.robot
     both = identify(robot, [clean, noisy], [clean], Options(recipe=PLAIN), links)
@@ -202,6 +225,22 @@ def test_a_payload_is_told_from_the_arm_by_a_run_without_it(links: Regressors, f
     assert solution.values["Mbox"] == pytest.approx(2.5, abs=max(3 * solution.std("Mbox"), 0.02))
 
 
+def test_a_run_with_a_known_payload_is_tried_with_it(links: Regressors, folder: Path, clean: Path) -> None:
+    path = recorded(links, TRUTH, seed=4, payload=LOAD).save(folder / "tried.csv")
+    options = Options(recipe=Recipe(dynamics=4.0))
+    units = ["kg m2"] * 6 + ["kg m"] * 3 + ["kg"]
+    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(TEN, LOAD, units, strict=True))
+    (folder / "tried.yaml").write_text(f"payload: {{{given}}}\n")
+    found = identify(links.model.robot, [clean], [path], options, links)
+    assert found.full.test is not None
+    assert found.full.test.total.relative_to_mean < 0.2
+    (folder / "tried.yaml").write_text("payload: {M: 2.5 kg}\n")
+    with pytest.raises(
+        InputError, match=r"tried.csv:1:1: payload L is not on any run that is identified from, expected"
+    ):
+        identify(links.model.robot, [clean], [path], options, links)
+
+
 def test_a_payload_in_all_runs_counts_as_part_of_the_last_body(links: Regressors, folder: Path) -> None:
     loaded = recorded(links, TRUTH, seed=3, payload=LOAD).save(folder / "always.csv")
     options = Options(recipe=Recipe(dynamics=4.0), payload=Payload("L", {}))
@@ -214,7 +253,7 @@ def test_a_payload_in_all_runs_counts_as_part_of_the_last_body(links: Regressors
 def test_outliers_pull_the_robust_estimate_less(links: Regressors, folder: Path) -> None:
     run = recorded(links, TRUTH, seed=5, noise=0.02)
     struck = run.columns["tau1"].copy()
-    struck[1000:1060] += 150.0
+    struck[1000:1060] += 40.0
     path = run.with_columns(tau1=struck).save(folder / "struck.csv")
     robot = links.model.robot
     plain = identify(robot, [path], options=Options(recipe=PLAIN), regressors=links)

@@ -1,7 +1,11 @@
-"""Recordings of real robots, where they are at hand (../shared/data): what is held out is explained."""
+"""Recordings of real robots, where they are at hand: what is held out is explained.
+
+They are looked for in ../shared/data and in the folder that COUNTERPOISE_RECORDINGS names.
+"""
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,13 +22,12 @@ from identification.sidecar import Payload
 from tests.commands import ROOT
 from tests.recorded import regressors
 
-DATA = next((p for p in (ROOT.parent / "shared" / "data", Path("/work/shared/data")) if p.is_dir()), None)
+DATA = Path(os.environ.get("COUNTERPOISE_RECORDINGS", ROOT.parent / "shared" / "data"))
 
-pytestmark = pytest.mark.skipif(DATA is None, reason="no recordings of real robots in ../shared/data")
+pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no recordings of real robots in ../shared/data")
 
 
 def data(*names: str) -> list[str]:
-    assert DATA is not None
     return [f"{DATA}/{name}" for name in names]
 
 

@@ -121,6 +121,10 @@ def put(run: Recorded, name: str, rows: slice | int, value: float) -> Recorded:
     return run.with_columns(**{name: column})
 
 
+def shifted(run: Recorded) -> Recorded:
+    return run.with_columns(q2=run.columns["q2"] + 3.0)
+
+
 def degrees(run: Recorded) -> Recorded:
     return run.with_columns(q1=np.degrees(run.columns["q1"]), q2=np.degrees(run.columns["q2"]))
 
@@ -178,6 +182,7 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
         r":\d+:\d+: q1 stays at [\d.]+ from here for \d+ rows, expected a position that is not",
     ),
     "degrees": (degrees, r"q\d gives joint \d [-\d.]+ rad, outside of -2.793 to 2.793, .* are these degrees\?"),
+    "another pose": (shifted, r"q2 gives joint 2 [\d.]+ rad, outside of .* is this a run of another robot\?"),
     "swapped": (exchanged, r"q1 follows qr2, not qr1, expected columns in the joints' order; are two swapped\?"),
     "another robot": (lambda r: r.with_columns(q3=r.columns["q1"]), "column q3, but two_links has 2 moving joints"),
     "a jump": (lambda r: put(r, "q2", slice(700, None), 2.5), r":702:\d+: q2 jumps from"),

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import subprocess
-import tempfile
 from pathlib import Path
 
 from benchmarks.instructions import instructions
 from benchmarks.studies.instructions import ROTORS
-from benchmarks.table import table
+from benchmarks.study import alone
 from benchmarks.variants import variant
 
 TITLE = "Compiler flags"
@@ -86,5 +85,6 @@ def run(build: Path) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder:
-        print(table(run(Path(folder))["rows"]))  # type: ignore[arg-type]
+    import benchmarks.studies.flags as study
+
+    alone(__file__, study)

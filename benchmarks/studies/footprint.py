@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 import subprocess
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from benchmarks.table import table
+from benchmarks.study import alone
 from generator.backends import c
 from generator.derivation import derive
 from generator.resources import find_robot
@@ -66,5 +65,6 @@ def _output(*command: str) -> str:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder:
-        print(table(run(Path(folder))["rows"]))  # type: ignore[arg-type]
+    import benchmarks.studies.footprint as study
+
+    alone(__file__, study)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.instructions import FLAGS, instructions
-from benchmarks.table import table
+from benchmarks.study import alone
 from benchmarks.variants import variant
 from generator.robot.description import Robot
 
@@ -60,6 +59,6 @@ def run(build: Path) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder:
-        result = run(Path(folder))
-    print(table(result["rows"]))  # type: ignore[arg-type]
+    import benchmarks.studies.instructions as study
+
+    alone(__file__, study)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import shutil
-import tempfile
 from pathlib import Path
 
 from benchmarks.sine_cosine import SineCosine, exact, samples, sources
-from benchmarks.table import table
+from benchmarks.study import alone
 
 TITLE = "Errors of sine and cosine"
 
@@ -44,12 +43,12 @@ def run(build: Path) -> dict[str, object]:
                 rows.append(
                     {
                         "precision": precision,
-                        "up to [rad]": f"{limit:g}",
+                        "up to [rad]": limit,
                         "compiler": compiler,
                         "mode": mode,
-                        "sine [ulp]": f"{errors[0][0]:.2f}",
-                        "cosine [ulp]": f"{errors[1][0]:.2f}",
-                        "absolute": f"{max(absolute for _, absolute in errors):.2g}",
+                        "sine [ulp]": round(errors[0][0], 2),
+                        "cosine [ulp]": round(errors[1][0], 2),
+                        "absolute": float(f"{max(absolute for _, absolute in errors):.2g}"),
                     }
                 )
     others = "others of every magnitude and next to multiples of pi/2"
@@ -57,5 +56,6 @@ def run(build: Path) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as folder:
-        print(table(run(Path(folder))["rows"]))  # type: ignore[arg-type]
+    import benchmarks.studies.sine_cosine as study
+
+    alone(__file__, study)

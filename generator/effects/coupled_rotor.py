@@ -18,7 +18,8 @@ def _sum(at: Site, own: sympy.Symbol, stem: str) -> sympy.Expr:
 
 def _shared(at: Site, torque: sympy.Expr) -> Column:
     """The rotor's torque on its own joint and, by equal power, on the other one."""
-    return {at.joint.number: torque, int(at.values["other"]): at.values["ratio"] * torque}
+    own, other, ratio = at.joint.number, at.values["other"], at.values["ratio"]
+    return {own: (1 + ratio) * torque} if own == other else {own: torque, other: ratio * torque}
 
 
 def _columns(at: Site) -> tuple[Column, ...]:

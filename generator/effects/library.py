@@ -90,18 +90,7 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
         effect = _effect(use)
         for number in use.joints:
             joint = robot.joints[number - 1]
-            if (number, effect.id) in instances:
-                raise InputError(use.place, f"effect {effect.id} stands twice on joint {number}", "it once")
-            if joint.sigma == FIXED:
-                raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
-            if joint.sigma not in effect.kinds:
-                raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
-            if "qe" in effect.needs and number not in robot.flexible:
-                raise InputError(use.place, f"the drive train of joint {number} is not elastic", "a joint of flexible")
-            balancers = [one for (j, _), one in instances.items() if j == number and one.effect.observables]
-            if balancers and effect.observables:
-                raise InputError(use.place, f"joint {number} has two balancers", "one, whose outputs carry its number")
-            _check_others(use, effect, robot, joint)
+            _check_joint(use, effect, robot, joint, [one.effect for (j, _), one in instances.items() if j == number])
             site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
@@ -109,6 +98,22 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
     _check_names(robot, list(rigid.values()))
     order = list(library())
     return tuple(rigid[key] for key in sorted(rigid, key=lambda key: (key[0], order.index(key[1]))))
+
+
+def _check_joint(use: EffectUse, effect: Effect, robot: Robot, joint: Joint, there: list[Effect]) -> None:
+    """The joint can carry the effect, beside those that are there."""
+    number = joint.number
+    if effect in there:
+        raise InputError(use.place, f"effect {effect.id} stands twice on joint {number}", "it once")
+    if joint.sigma == FIXED:
+        raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
+    if joint.sigma not in effect.kinds:
+        raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
+    if "qe" in effect.needs and number not in robot.flexible:
+        raise InputError(use.place, f"the drive train of joint {number} is not elastic", "a joint of flexible")
+    if effect.observables and any(one.observables for one in there):
+        raise InputError(use.place, f"joint {number} has two balancers", "one, whose outputs carry its number")
+    _check_others(use, effect, robot, joint)
 
 
 def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:

@@ -42,9 +42,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters.add_argument(
         "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
     )
+    filters.add_argument(
+        "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
+    )
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
+    method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
     method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
@@ -65,10 +69,11 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
-        from identification.consistent_fit import consistent_fit
+        from identification.consistent_fit import consistent_fit, doubts
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.results import save
+        from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise identify"), f"{error.name} is not installed", extra) from None
@@ -86,11 +91,18 @@ def run(arguments: argparse.Namespace) -> None:
         with stage("making the parameters physically consistent"):
             try:
                 consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
+                found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
     folder = arguments.out or Path("identified") / robot.name
-    files = save(found, path, folder, consistent)
+    variations = []
+    if arguments.sensitivity:
+        with stage("trying other filters"):
+            variations = sensitivity(found, arguments.data)
+    files = save(found, path, folder, consistent, variations)
     print(_summary(found, consistent))
+    for one in variations:
+        print(f"{one.setting} {one.value:g}: no parameter moves by more than {one.change:.2f} std ({one.parameter})")
     print(f"files            {', '.join(files)} in {folder}/")
 
 
@@ -106,6 +118,7 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),
         robust=arguments.robust,
+        draws=_draws(arguments.bootstrap),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
@@ -147,6 +160,12 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     return base.changed(**{name: getattr(arguments, name) for name in names})
 
 
+def _draws(count: int) -> int:
+    if count and not 50 <= count <= 100_000:
+        raise InputError(command_line("--bootstrap"), f"{count} draws", "50 to 100000")
+    return count
+
+
 def _more(value: float, option: str, least: float) -> float:
     if not least < value < float("inf"):
         raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
@@ -164,13 +183,13 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  essential")
     for name in names:
         hidden = name in solution.hidden
-        value = "unknown" if hidden else f"{solution.values[name]:.6g}"
+        value = "unknown" if hidden else f"{solution.values[name]:.7g}"
         mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential.sought else "no"
         lines.append(
             f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
         )
     lines.append(
-        f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
+        f"condition of W   {solution.condition:.7g}, with columns of unit length {solution.scaled_condition:.6g}"
     )
     for title, estimate in (
         ("all parameters", found.full),
@@ -185,7 +204,7 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
             each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(result.per_joint.items()))
             total = result.total
             lines.append(
-                f"{title}, {kind}: ||e|| {total.norm:.6g}, ||e||/||Y|| {total.relative:.4f} %, "
+                f"{title}, {kind}: ||e|| {total.norm:.7g}, ||e||/||Y|| {total.relative:.4f} %, "
                 f"||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})"
             )
     return "\n".join(lines)

@@ -14,10 +14,14 @@ EXTENSIONS = (".parquet",)
 
 def read(path: Path) -> Recording:
     """The columns; a missing value is NaN. Raises InputError for a damaged file and a column that is not of numbers."""
-    import pyarrow
-    from pyarrow import parquet
-
     file = str(path)
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ModuleNotFoundError:
+        raise InputError(
+            Place(file), "pyarrow is not installed", "pip install 'counterpoise[identification]'"
+        ) from None
     try:
         table = parquet.read_table(path)
     except pyarrow.ArrowException as error:
