@@ -3,13 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-import os
-import shutil
-import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
-from importlib.metadata import distribution
 from pathlib import Path
 from typing import Any
 
@@ -17,60 +12,61 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-SOURCES = Path(__file__).parent
+from benchmarks.compiling import compiled, compilers, run
+from benchmarks.peers.library import SOURCES
+from benchmarks.peers.pinocchio import libraries
+from benchmarks.peers.subject import write
+
 FIGAROH = "figaroh==1.0.2"
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
 class Loop:
-    """Nanoseconds a sample of Pinocchio's C++ loops, and what they gave for the first samples."""
+    """Pinocchio's C++ functions in a loop over samples, by one compiler."""
 
-    regressor: float
-    inverse_dynamics: float
-    W: Array
-    tau: Array
+    def __init__(self, compiler: str, path: Path, data: Path, loop: Any) -> None:
+        self.compiler = compiler
+        self._library, self._loop = ctypes.CDLL(str(path)), loop
+        if self._library.peer_load(str(data).encode()):
+            raise RuntimeError(f"{path} does not read {data}")
 
-
-def run(words: Sequence[str | Path], **options: Any) -> str:
-    """What a command prints; raises RuntimeError with all that it said if it fails."""
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}")
-    return str(done.stdout)
-
-
-def stream_write(build: Path) -> Any:
-    """The function of stream_write.c, compiled for this machine."""
-    library = build / "stream_write.so"
-    flags = ("-std=gnu99", "-O2", "-march=native", "-fopenmp", "-Wno-psabi", "-shared", "-fPIC")
-    run([os.environ.get("CC", "gcc"), *flags, SOURCES / "stream_write.c", "-o", library])
-    function = ctypes.CDLL(str(library)).stream_write
-    function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_int)
-    return function
+    def __call__(self, function: str, signals: Sequence[Array], out: Array | None = None) -> None:
+        """``regressor`` or ``inverse_dynamics`` of each sample (n x nv): to ``out`` (n x size) if given."""
+        n, nv = signals[0].shape
+        pointers = [x.ctypes.data for x in signals]
+        place, size = (None, 0) if out is None else (out.ctypes.data, out.size // n)
+        self._loop(getattr(self._library, function), n, nv, *pointers, place, size)
 
 
-def pinocchio(model: pin.Model, signals: Sequence[Array], build: Path) -> Loop:
-    """Pinocchio's loops over the samples, compiled for this machine with the flags of the generated code."""
-    prefix = Path(str(distribution("libpinocchio").locate_file("cmeel.prefix")))
-    eigen = Path(str(distribution("casadi").locate_file("casadi/include/eigen3")))
-    program, saved, samples, results = (build / name for name in ("loops", "model.bin", "samples.bin", "results.bin"))
-    if not program.exists() or program.stat().st_mtime < (SOURCES / "pinocchio_loops.cpp").stat().st_mtime:
-        limits = ("LIST_SIZE=30", "VECTOR_SIZE=30")
-        macros = ["-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", *(f"-DBOOST_MPL_LIMIT_{limit}" for limit in limits)]
-        macros += ["-DBOOST_FUSION_INVOKE_MAX_ARITY=12", "-DNDEBUG"]
-        flags = ("-std=c++17", "-O2", "-march=native", "-ffp-contract=fast")
-        include, lib = ("-isystem", prefix / "include", "-isystem", eigen), prefix / "lib"
-        link = (f"-L{lib}", "-lpinocchio_default", "-lboost_serialization", f"-Wl,-rpath,{lib}")
-        source = SOURCES / "pinocchio_loops.cpp"
-        run([shutil.which("g++") or "c++", *flags, *macros, *include, source, *link, "-o", program])
-    model.saveToBinary(str(saved))
-    np.stack(signals, axis=1).tofile(samples)
-    regressor, inverse_dynamics = map(float, run([program, saved, samples, results]).split())
-    found = np.fromfile(results).reshape(200, -1)
-    W, tau = found[:, : -model.nv], found[:, -model.nv :]
-    return Loop(regressor, inverse_dynamics, W.reshape(200, model.nv, -1), tau)
+def memory_and_loop(build: Path) -> tuple[Any, Any]:
+    """The functions of stream_write.c and sample_loop.c, compiled for this machine."""
+    sources = [SOURCES / "stream_write.c", SOURCES / "sample_loop.c"]
+    options = ["-shared", "-fPIC", "-fopenmp", "-Wno-psabi"]
+    path = compiled(compilers()[0], "-std=gnu99", build / "loops.so", sources, options)
+    library = ctypes.CDLL(str(path))
+    stream, loop = library.stream_write, library.sample_loop
+    stream.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_int)
+    size, pointer = ctypes.c_size_t, ctypes.c_void_p
+    loop.argtypes = (pointer, size, size, pointer, pointer, pointer, pointer, size)
+    return stream, loop
+
+
+def pinocchio(model: pin.Model, loop: Any, build: Path) -> list[Loop]:
+    """The loops by each compiler, for a chain of joints about or along z."""
+    data = write(_numbers(model), build / "pinocchio.bin")
+    return [Loop(compiler, path, data, loop) for compiler, path in libraries(build, "pinocchio_samples").items()]
+
+
+def _numbers(model: pin.Model) -> list[float]:
+    """The chain as pinocchio_model.hpp reads it."""
+    result = [*map(float, model.gravity.linear)]
+    for j in range(1, model.njoints):
+        place = model.jointPlacements[j]
+        prismatic = float("P" in model.joints[j].shortname().removeprefix("JointModel"))
+        result += [prismatic, *place.rotation.ravel(), *place.translation]
+        result += [model.armature[model.idx_vs[j]], *model.inertias[j].toDynamicParameters()]
+    return result
 
 
 def figaroh(model: pin.Model, signals: Sequence[Array], build: Path) -> dict[str, Any]:
@@ -85,5 +81,5 @@ def figaroh(model: pin.Model, signals: Sequence[Array], build: Path) -> dict[str
     saved, samples, results = (build / name for name in ("model.bin", "samples.npz", "figaroh.npz"))
     model.saveToBinary(str(saved))
     np.savez(samples, **dict(zip(("q", "qd", "qdd"), signals, strict=True)))
-    run([python, SOURCES / "figaroh_regressor.py", saved, samples, results])
+    run([python, Path(__file__).parent / "figaroh_regressor.py", saved, samples, results])
     return dict(np.load(results))

@@ -22,19 +22,24 @@ _LIMITS = (
 
 def build(subject: Subject, folder: Path) -> list[Library]:
     """By each C++ compiler; the library is the same for every robot."""
+    data = write(numbers(subject), folder / "pinocchio.bin")
+    built = libraries(folder.parent).items()
+    return [Library(NAME, compiler, path, data, standard=True) for compiler, path in built]
+
+
+def libraries(folder: Path, source: str = "pinocchio") -> dict[str, Path]:
+    """A source file compiled into ``folder`` by each C++ compiler: the libraries by the names of the compilers."""
     able = [compiler for compiler in compilers() if compiler.cpp]
     if not able:
         raise Missing("neither g++ nor clang++")
     options = [*SHARED, "-DNDEBUG", *includes()]
 
     def made(compiler: Compiler) -> Path:
-        target = folder.parent / f"pinocchio_{compiler.name}.so"
-        return compiled(compiler, CPP, target, [SOURCES / "pinocchio.cpp"], options)
+        target = folder / f"{source}_{compiler.name}.so"
+        return compiled(compiler, CPP, target, [SOURCES / f"{source}.cpp"], options)
 
     with ThreadPoolExecutor(max_workers=2) as pool:
-        paths = list(pool.map(made, able))
-    data = write(numbers(subject), folder / "pinocchio.bin")
-    return [Library(NAME, compiler.name, path, data, standard=True) for compiler, path in zip(able, paths, strict=True)]
+        return dict(zip((compiler.name for compiler in able), pool.map(made, able), strict=True))
 
 
 def includes() -> list[str]:

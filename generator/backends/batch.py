@@ -32,7 +32,7 @@ _LANGUAGE = Language(
     calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign")},
     statement="const lanes {name} = {value};",
     literal="R({value})",
-    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "pitch", *_INPUTS},
+    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "PITCH", *_INPUTS},
 )
 
 

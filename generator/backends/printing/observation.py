@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
+from math import ceil
 
 from generator.backends.printing.language import LINE
 from generator.backends.printing.signals import listed
 from generator.symbolic.function import Sparsity
 
-#: Kept samples of a block of rows, and the most numbers that a line of the cache holds.
-_BLOCK, _LINE = 128, 16
+#: Kept samples of a block of rows, and the most numbers that a line of the cache holds, and its bytes.
+_BLOCK, _LINE, _LINE_BYTES = 64, 16, 64
 #: Parts into which the samples are divided: as many threads are kept busy.
 _PARTS = 16
 
@@ -44,6 +45,13 @@ class Layout:
         """Numbers of a part of the work area, in whole lines: a block of kept samples of all entries, the squares."""
         size = self.start[-1] * (self.block + _LINE) + self.squares[-1]
         return -(-size // _LINE) * _LINE
+
+    @property
+    def stack(self) -> int:
+        """KiB of a thread's stack, in double precision: two blocks of all entries, a tile of rows, and what is small."""
+        pitch = 8 * self.block + _LINE_BYTES
+        size = 2 * (self.start[-1] + 1) * pitch + (_LINE_BYTES + 16) * self.joints * self.width + 8192
+        return 64 * ceil(size / 2**16)
 
     @property
     def work(self) -> int:
