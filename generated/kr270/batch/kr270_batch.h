@@ -35,7 +35,7 @@ extern "C" {
 #define KR270_NGRAM (KR270_NBASE + 1)
 
 /** Numbers of the work area of kr270_observation_gram() and kr270_observation_qr(). */
-#define KR270_OBSERVATION_WORK 482832
+#define KR270_OBSERVATION_WORK 307728
 
 /**
  * A filter without phase, and decimation: what an identification engineer applies to each column of W and to each torque

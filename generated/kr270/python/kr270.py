@@ -22,6 +22,7 @@ absent, importing this module raises ImportError.
 from pathlib import Path
 
 import numpy as np
+from _cffi_backend import FFI as Buffers
 from cffi import FFI
 
 #: Names of the parameters, in order; the first 60 are the base parameters.
@@ -232,10 +233,50 @@ def _library():
 
 
 _lib = _library()
-_array, _double, _buffer = np.ndarray, np.dtype(float), _ffi.from_buffer
+_array, _double = np.ndarray, np.dtype(float)
+# The method of cffi's compiled class: that of cffi.FFI is Python around it, as slow as all the rest.
+_buffer = Buffers().from_buffer
+_c_balancer = _lib.kr270_balancer
+_c_base_parameters = _lib.kr270_base_parameters
+_c_bias = _lib.kr270_bias
+_c_direct_dynamics = _lib.kr270_direct_dynamics
+_c_direct_dynamics_loaded = _lib.kr270_direct_dynamics_loaded
+_c_direct_dynamics_sliding = _lib.kr270_direct_dynamics_sliding
+_c_direct_dynamics_smooth = _lib.kr270_direct_dynamics_smooth
+_c_dynamics = _lib.kr270_dynamics
+_c_flexible_direct_dynamics = _lib.kr270_flexible_direct_dynamics
+_c_flexible_direct_dynamics_sliding = _lib.kr270_flexible_direct_dynamics_sliding
+_c_flexible_direct_dynamics_smooth = _lib.kr270_flexible_direct_dynamics_smooth
+_c_flexible_inverse_dynamics = _lib.kr270_flexible_inverse_dynamics
+_c_flexible_regressor = _lib.kr270_flexible_regressor
+_c_gravity = _lib.kr270_gravity
+_c_inertia_matrix = _lib.kr270_inertia_matrix
+_c_inverse_dynamics = _lib.kr270_inverse_dynamics
+_c_inverse_dynamics_loaded = _lib.kr270_inverse_dynamics_loaded
+_c_inverse_dynamics_standard = _lib.kr270_inverse_dynamics_standard
+_c_jacobians = _lib.kr270_jacobians
+_c_joint_position = _lib.kr270_joint_position
+_c_joint_speed = _lib.kr270_joint_speed
+_c_joint_torque = _lib.kr270_joint_torque
+_c_joint_torque_from_current = _lib.kr270_joint_torque_from_current
+_c_kinetic_energy = _lib.kr270_kinetic_energy
+_c_motor_current = _lib.kr270_motor_current
+_c_motor_position = _lib.kr270_motor_position
+_c_motor_speed = _lib.kr270_motor_speed
+_c_motor_torque = _lib.kr270_motor_torque
+_c_payload_regressor = _lib.kr270_payload_regressor
+_c_potential_energy = _lib.kr270_potential_energy
+_c_regressor = _lib.kr270_regressor
+_c_regressor_packed = _lib.kr270_regressor_packed
+_c_regressor_standard = _lib.kr270_regressor_standard
+_c_regressor_standard_packed = _lib.kr270_regressor_standard_packed
+_c_tool_jacobian = _lib.kr270_tool_jacobian
+_c_tool_transform = _lib.kr270_tool_transform
+_c_transforms = _lib.kr270_transforms
+_c_wrench_torque = _lib.kr270_wrench_torque
 
 #: Numbers of the work area of observation_gram and observation_qr.
-_WORK = 482832
+_WORK = 307728
 
 
 def _signal(value, shape, name):
@@ -370,7 +411,7 @@ class Robot:
         length, force, torque = _several(
             out, ((), (), ())
         )
-        _lib.kr270_balancer(
+        _c_balancer(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(length),
@@ -390,7 +431,7 @@ class Robot:
             base_parameters: (60) base parameters, in their order [SI]
         """
         base_parameters = _new(out, (60,))
-        _lib.kr270_base_parameters(
+        _c_base_parameters(
             self._prepared,
             _signal(standard_parameters, (86,), "standard_parameters"),
             _buffer(base_parameters),
@@ -409,7 +450,7 @@ class Robot:
             H: (6) torques without acceleration, on the joint side [N m]
         """
         H = _new(out, (6,))
-        _lib.kr270_bias(
+        _c_bias(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -431,7 +472,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr270_direct_dynamics(
+        _c_direct_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -457,7 +498,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr270_direct_dynamics_loaded(
+        _c_direct_dynamics_loaded(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -482,7 +523,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr270_direct_dynamics_sliding(
+        _c_direct_dynamics_sliding(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -506,7 +547,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr270_direct_dynamics_smooth(
+        _c_direct_dynamics_smooth(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -534,7 +575,7 @@ class Robot:
         tau, M, Q = _several(
             out, ((6,), (6, 6), (6,))
         )
-        _lib.kr270_dynamics(
+        _c_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -558,7 +599,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr270_flexible_direct_dynamics(
+        _c_flexible_direct_dynamics(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -584,7 +625,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr270_flexible_direct_dynamics_sliding(
+        _c_flexible_direct_dynamics_sliding(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -613,7 +654,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr270_flexible_direct_dynamics_smooth(
+        _c_flexible_direct_dynamics_smooth(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -641,7 +682,7 @@ class Robot:
         tau_mdi, tau_e = _several(
             out, ((6,), (6,))
         )
-        _lib.kr270_flexible_inverse_dynamics(
+        _c_flexible_inverse_dynamics(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -666,7 +707,7 @@ class Robot:
                 parameters, then motor side [SI]
         """
         W = _new(out, (12, 90))
-        _lib.kr270_flexible_regressor(
+        _c_flexible_regressor(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -686,7 +727,7 @@ class Robot:
             Q: (6) gravity torques, on the joint side [N m]
         """
         Q = _new(out, (6,))
-        _lib.kr270_gravity(
+        _c_gravity(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(Q),
@@ -704,7 +745,7 @@ class Robot:
             M: (6 x 6) inertia matrix, symmetric, rotor inertias included [SI]
         """
         M = _new(out, (6, 6))
-        _lib.kr270_inertia_matrix(
+        _c_inertia_matrix(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(M),
@@ -728,7 +769,7 @@ class Robot:
         if getattr(q, "ndim", 1) == 2:
             return self._many_inverse_dynamics(q, qd, qdd, out)
         tau = _new(out, (6,))
-        _lib.kr270_inverse_dynamics(
+        _c_inverse_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -754,7 +795,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr270_inverse_dynamics_loaded(
+        _c_inverse_dynamics_loaded(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -779,7 +820,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr270_inverse_dynamics_standard(
+        _c_inverse_dynamics_standard(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -802,7 +843,7 @@ class Robot:
                 then wx wy wz [SI]
         """
         J = _new(out, (7, 6, 6))
-        _lib.kr270_jacobians(
+        _c_jacobians(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(J),
@@ -820,7 +861,7 @@ class Robot:
             q: (6) joint positions [rad]
         """
         q = _new(out, (6,))
-        _lib.kr270_joint_position(
+        _c_joint_position(
             self._prepared,
             _signal(qr, (6,), "qr"),
             _buffer(q),
@@ -838,7 +879,7 @@ class Robot:
             qd: (6) joint speeds [rad/s]
         """
         qd = _new(out, (6,))
-        _lib.kr270_joint_speed(
+        _c_joint_speed(
             self._prepared,
             _signal(qrd, (6,), "qrd"),
             _buffer(qd),
@@ -856,7 +897,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr270_joint_torque(
+        _c_joint_torque(
             self._prepared,
             _signal(tau_r, (6,), "tau_r"),
             _buffer(tau),
@@ -874,7 +915,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr270_joint_torque_from_current(
+        _c_joint_torque_from_current(
             self._prepared,
             _signal(current, (6,), "current"),
             _buffer(tau),
@@ -893,7 +934,7 @@ class Robot:
             T: (scalar) kinetic energy [J]
         """
         T = _new(out, ())
-        _lib.kr270_kinetic_energy(
+        _c_kinetic_energy(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -912,7 +953,7 @@ class Robot:
             current: (6) motor currents [A]
         """
         current = _new(out, (6,))
-        _lib.kr270_motor_current(
+        _c_motor_current(
             self._prepared,
             _signal(tau, (6,), "tau"),
             _buffer(current),
@@ -930,7 +971,7 @@ class Robot:
             qr: (6) rotor positions [rad]
         """
         qr = _new(out, (6,))
-        _lib.kr270_motor_position(
+        _c_motor_position(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(qr),
@@ -948,7 +989,7 @@ class Robot:
             qrd: (6) rotor speeds [rad/s]
         """
         qrd = _new(out, (6,))
-        _lib.kr270_motor_speed(
+        _c_motor_speed(
             self._prepared,
             _signal(qd, (6,), "qd"),
             _buffer(qrd),
@@ -966,7 +1007,7 @@ class Robot:
             tau_r: (6) electromagnetic torques of the rotors [N m]
         """
         tau_r = _new(out, (6,))
-        _lib.kr270_motor_torque(
+        _c_motor_torque(
             self._prepared,
             _signal(tau, (6,), "tau"),
             _buffer(tau_r),
@@ -986,7 +1027,7 @@ class Robot:
             W: (6 x 10) torque per unit of XX XY XZ YY YZ ZZ MX MY MZ M [SI]
         """
         W = _new(out, (6, 10))
-        _lib.kr270_payload_regressor(
+        _c_payload_regressor(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1006,7 +1047,7 @@ class Robot:
             U: (scalar) potential energy, zero at q = 0 [J]
         """
         U = _new(out, ())
-        _lib.kr270_potential_energy(
+        _c_potential_energy(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(U),
@@ -1026,7 +1067,7 @@ class Robot:
             W: (6 x 60) regressor: torque of each row per unit of each parameter [SI]
         """
         W = _new(out, (6, 60))
-        _lib.kr270_regressor(
+        _c_regressor(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1048,7 +1089,7 @@ class Robot:
             W: (165) structural nonzeros of the regressor, row by row [SI]
         """
         W = _new(out, (165,))
-        _lib.kr270_regressor_packed(
+        _c_regressor_packed(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1070,7 +1111,7 @@ class Robot:
             W: (6 x 86) regressor: torque of each row per unit of each parameter [SI]
         """
         W = _new(out, (6, 86))
-        _lib.kr270_regressor_standard(
+        _c_regressor_standard(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1093,7 +1134,7 @@ class Robot:
             W: (216) structural nonzeros of the regressor, row by row [SI]
         """
         W = _new(out, (216,))
-        _lib.kr270_regressor_standard_packed(
+        _c_regressor_standard_packed(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1114,7 +1155,7 @@ class Robot:
             J: (6 x 6) Jacobian in world axes: rows vx vy vz of the origin, then wx wy wz [SI]
         """
         J = _new(out, (6, 6))
-        _lib.kr270_tool_jacobian(
+        _c_tool_jacobian(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(J),
@@ -1132,7 +1173,7 @@ class Robot:
             T: (4 x 4) pose of the tool frame in the world frame [1, m]
         """
         T = _new(out, (4, 4))
-        _lib.kr270_tool_transform(
+        _c_tool_transform(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(T),
@@ -1151,7 +1192,7 @@ class Robot:
                 frames [1, m]
         """
         T = _new(out, (7, 4, 4))
-        _lib.kr270_transforms(
+        _c_transforms(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(T),
@@ -1171,7 +1212,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr270_wrench_torque(
+        _c_wrench_torque(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(wrench, (6,), "wrench"),

@@ -43,9 +43,19 @@ typedef uint64_t real_bits;
 #define LANES (LANES_BYTES / REAL_BYTES)
 #define INLINE static inline __attribute__((always_inline))
 #define LANE(x, l) ((x)[l])
+#define UNROLL _Pragma("GCC unroll 16")
 #define ZERO { R(0.0) }
 typedef real lanes __attribute__((vector_size(LANES_BYTES)));
 typedef real_bits lane_bits __attribute__((vector_size(LANES_BYTES)));
+#if LANES == 16
+#define EACH_LANE(f) f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)
+#elif LANES == 8
+#define EACH_LANE(f) f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)
+#elif LANES == 4
+#define EACH_LANE(f) f(0), f(1), f(2), f(3)
+#else
+#define EACH_LANE(f) f(0), f(1)
+#endif
 #if !defined(__clang__)
 /* Lanes are passed between static functions alone: no other file sees how. */
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -54,6 +64,8 @@ typedef real_bits lane_bits __attribute__((vector_size(LANES_BYTES)));
 #define LANES 1
 #define INLINE static inline
 #define LANE(x, l) (*(&(x) + (l)))
+#define UNROLL
+#define EACH_LANE(f) f(0)
 #define ZERO R(0.0)
 typedef real lanes;
 typedef real_bits lane_bits;
@@ -76,6 +88,45 @@ INLINE lanes lanes_load(const real *from)
 INLINE void lanes_store(real *to, lanes x)
 {
     memcpy(to, &x, sizeof x);
+}
+
+/* The first halves of a and b in turns, and the second halves: a0 b0 a1 b1 ... */
+INLINE void lanes_interleave(lanes a, lanes b, lanes *first, lanes *second)
+{
+#if defined(__GNUC__) && !defined(__clang__) && (LANES > 1)
+#define FIRST(l) (((l) / 2) + (((l) % 2) * LANES))
+#define SECOND(l) (FIRST(l) + (LANES / 2))
+    const lane_bits low = { EACH_LANE(FIRST) };
+    const lane_bits high = { EACH_LANE(SECOND) };
+    *first = __builtin_shuffle(a, b, low);
+    *second = __builtin_shuffle(a, b, high);
+#else
+#define FIRST(l) (((l) % 2 != 0) ? LANE(b, (l) / 2) : LANE(a, (l) / 2))
+#define SECOND(l) (((l) % 2 != 0) ? LANE(b, (LANES + (l)) / 2) : LANE(a, (LANES + (l)) / 2))
+    const lanes low = { EACH_LANE(FIRST) };
+    const lanes high = { EACH_LANE(SECOND) };
+    *first = low;
+    *second = high;
+#endif
+#undef FIRST
+#undef SECOND
+}
+
+/* Number l of x[i] becomes number i of x[l]: each stage interleaves the first and the second half of the vectors. */
+INLINE void lanes_transpose(lanes x[LANES])
+{
+    UNROLL
+    for (size_t stage = 1; stage < LANES; stage *= 2) {
+        lanes y[LANES];
+        UNROLL
+        for (size_t i = 0; 2 * i < LANES; ++i) {
+            lanes_interleave(x[i], x[i + (LANES / 2)], &y[2 * i], &y[(2 * i) + 1]);
+        }
+        UNROLL
+        for (size_t i = 0; i < LANES; ++i) {
+            x[i] = y[i];
+        }
+    }
 }
 
 INLINE real lanes_sum(lanes x)
@@ -243,6 +294,13 @@ INLINE lanes lanes_sign(lanes x)
 /* Entries of a tile: joint by joint its structural nonzeros of the regressor, then its torque. */
 #define ENTRIES 170
 
+/*
+ * A block holds BLOCK kept samples of every entry, the entries PITCH numbers apart: an odd number of lines, so that they
+ * spread over the cache.
+ */
+#define BLOCK 64
+#define PITCH (BLOCK + TILE)
+
 /* Joint j's entries are start[j] to start[j + 1] - 1. */
 static const size_t start[NQ + 1] = { 0, 40, 80, 113, 139, 158, 170 };
 
@@ -291,15 +349,13 @@ size_t kr500_filtered_count(const kr500_filter *filter, size_t n)
 /* x[j] = joint j's numbers of the samples at[0] to at[LANES - 1]. */
 INLINE void gather(const real *signal, const size_t *at, lanes x[NQ])
 {
-    real lane[NQ][LANES];
-    for (size_t l = 0; l < LANES; ++l) {
-        for (size_t j = 0; j < NQ; ++j) {
-            lane[j][l] = signal[(at[l] * NQ) + j];
-        }
-    }
+#define NUMBER(l) signal[(at[l] * NQ) + j]
+    UNROLL
     for (size_t j = 0; j < NQ; ++j) {
-        x[j] = lanes_load(lane[j]);
+        const lanes numbers = { EACH_LANE(NUMBER) };
+        x[j] = numbers;
     }
+#undef NUMBER
 }
 
 /*
@@ -528,10 +584,9 @@ INLINE void dynamics_lanes(
     tau[5] = prepared->Off6 + (prepared->Ia6*qdd[5] + t105);
 }
 
-/* The nonzeros of LANES samples: each to its entry's place, the entries pitch numbers apart. */
+/* The nonzeros of LANES samples: each to its entry's place. */
 static void regressor_lanes(
-    const kr500_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], real *restrict to,
-    size_t pitch)
+    const kr500_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], real *restrict to)
 {
     (void)prepared;
     const lanes t1 = lanes_sin(q[1]);
@@ -754,170 +809,170 @@ static void regressor_lanes(
     const lanes t131 = t56*t67 - t57*U6_12n;
     const lanes VPu7_2 = R(0.29)*U6_23n + VP6_2;
     const lanes VPu7_1 = R(0.29)*U6_13n + VP6_1;
-    lanes_store(&to[0 * pitch], qdd[0]);
-    lanes_store(&to[1 * pitch], qd[0]);
-    lanes_store(&to[2 * pitch], lanes_sign(qd[0]));
-    lanes_store(&to[3 * pitch], lanes_splat(R(1.0)));
-    lanes_store(&to[4 * pitch], t1*WP2_1 + t3);
-    lanes_store(&to[5 * pitch], t2*U2_32 - t1*U2_31);
-    lanes_store(&to[6 * pitch], t1*U2_21 - t2*t6);
-    lanes_store(&to[7 * pitch], t2*U2_12n - t1*t7);
-    lanes_store(&to[8 * pitch], t1*t4 - t3);
-    lanes_store(&to[9 * pitch], t2*VP2_3n - R(0.5)*U2_31);
-    lanes_store(&to[10 * pitch], -(t1*VP2_3n + R(0.5)*U2_32));
-    lanes_store(&to[11 * pitch], t9*WP3_1 - t12);
-    lanes_store(&to[12 * pitch], t11*U3_32n - t9*U3_31);
-    lanes_store(&to[13 * pitch], t9*U3_21 - t11*t14);
-    lanes_store(&to[14 * pitch], t9*t16 - t11*U3_12n);
-    lanes_store(&to[15 * pitch], t12 - t9*WP3_1n);
-    lanes_store(&to[16 * pitch], t11*t19 - t20*U3_31);
-    lanes_store(&to[17 * pitch], t20*U3_32n + t9*t19);
-    lanes_store(&to[18 * pitch], t11*t23 - (t28*WP4_1n - t26));
-    lanes_store(&to[19 * pitch], t28*U4_31n + t25*U4_32n + t11*t33);
-    lanes_store(&to[20 * pitch], t28*U4_21 - t25*t32 + t11*U4_23);
-    lanes_store(&to[21 * pitch], t28*t31 - t25*U4_12n + t11*U4_13n);
-    lanes_store(&to[22 * pitch], -(t26 + t28*t27 + t11*WP4_3));
-    lanes_store(&to[23 * pitch], U4_21*t39 - (U4_11n*t38 - (t11*t36 + t25*VPu4_3)));
-    lanes_store(&to[24 * pitch], -(U4_22n*t39 + (U4_12n*t38 + (t11*t40 - t28*VPu4_3))));
-    lanes_store(&to[25 * pitch], t25*t43 - (t48*WP5_1n - t46));
-    lanes_store(&to[26 * pitch], t48*U5_31n - t45*U5_32 - t25*t53);
-    lanes_store(&to[27 * pitch], t48*U5_21 - t45*t52 - t25*U5_23);
-    lanes_store(&to[28 * pitch], t48*t51 - t45*U5_12n + t25*U5_13);
-    lanes_store(&to[29 * pitch], t25*WP5_3 - (t46 - t48*t47));
-    lanes_store(&to[30 * pitch], U5_31n*t39 - (U5_21*t55 + (U5_11n*t54 - (t25*VP5_2 + t45*t36))));
-    lanes_store(&to[31 * pitch], U5_22n*t55 - (U5_12n*t54 + (t25*VP5_1 - t48*t36)) - U5_32*t39);
-    lanes_store(&to[32 * pitch], t45*t58 - (t63*WP6_1n - t61));
-    lanes_store(&to[33 * pitch], t45*t69 + (t60*U6_32n - t63*t64));
-    lanes_store(&to[34 * pitch], t70);
-    lanes_store(&to[35 * pitch], t71);
-    lanes_store(&to[36 * pitch], -(t61 + t63*t62 + t45*WP6_3));
-    lanes_store(&to[37 * pitch], R(0.29)*t70 + t74);
-    lanes_store(&to[38 * pitch], R(0.29)*t71 - t75);
-    lanes_store(&to[40 * pitch], -U2_12);
-    lanes_store(&to[41 * pitch], t7 + t6);
-    lanes_store(&to[42 * pitch], U2_23n);
-    lanes_store(&to[43 * pitch], U2_13);
-    lanes_store(&to[44 * pitch], qdd[1]);
-    lanes_store(&to[45 * pitch], VP2_2);
-    lanes_store(&to[46 * pitch], VP2_1n);
-    lanes_store(&to[47 * pitch], qd[1]);
-    lanes_store(&to[48 * pitch], lanes_sign(qd[1]));
-    lanes_store(&to[49 * pitch], lanes_splat(R(1.0)));
-    lanes_store(&to[50 * pitch], R(0.09968739)*lanes_sin(t76)/(t77*(t77 - R(1.4767799349556487))));
-    lanes_store(&to[51 * pitch], t15);
-    lanes_store(&to[52 * pitch], -t78);
-    lanes_store(&to[53 * pitch], U3_23n);
-    lanes_store(&to[54 * pitch], -U3_13n);
-    lanes_store(&to[55 * pitch], WP3_3);
-    lanes_store(&to[56 * pitch], -(t80*U3_21 + (t79*U3_11n - VP3_2)));
-    lanes_store(&to[57 * pitch], t80*U3_22n - (t79*U3_12n - t35));
-    lanes_store(&to[58 * pitch], t82);
-    lanes_store(&to[59 * pitch], -t83);
-    lanes_store(&to[60 * pitch], -t84);
-    lanes_store(&to[61 * pitch], -t85);
-    lanes_store(&to[62 * pitch], -t86);
-    lanes_store(&to[63 * pitch], t80*U4_31n - (t91*U4_21 + (t90*U4_11n - t89)));
-    lanes_store(&to[64 * pitch], t80*U4_32n + (t91*U4_22n - (t90*U4_12n - t92)));
-    lanes_store(&to[65 * pitch], t96);
-    lanes_store(&to[66 * pitch], -t97);
-    lanes_store(&to[67 * pitch], -t98);
-    lanes_store(&to[68 * pitch], -t99);
-    lanes_store(&to[69 * pitch], t100);
-    lanes_store(&to[70 * pitch], -(t91*U5_31n + (U5_21*t105 + (U5_11n*t104 + t103))));
-    lanes_store(&to[71 * pitch], t91*U5_32 + (U5_22n*t105 - (U5_12n*t104 - t106)));
-    lanes_store(&to[72 * pitch], t110);
-    lanes_store(&to[73 * pitch], -t111);
-    lanes_store(&to[74 * pitch], -t112);
-    lanes_store(&to[75 * pitch], -t113);
-    lanes_store(&to[76 * pitch], -t114);
-    lanes_store(&to[77 * pitch], -(t120 + (t119 + (U6_11n*t116 + U6_21*t115 + t105*t64))));
-    lanes_store(&to[78 * pitch], -(t122 + (U6_12n*t116 - U6_22n*t115 - U6_32n*t105 - t121)));
-    lanes_store(&to[80 * pitch], t15);
-    lanes_store(&to[81 * pitch], -t78);
-    lanes_store(&to[82 * pitch], U3_23n);
-    lanes_store(&to[83 * pitch], -U3_13n);
-    lanes_store(&to[84 * pitch], WP3_3);
-    lanes_store(&to[85 * pitch], VP3_2);
-    lanes_store(&to[86 * pitch], t35);
-    lanes_store(&to[87 * pitch], qdd[2]);
-    lanes_store(&to[88 * pitch], qd[2]);
-    lanes_store(&to[89 * pitch], lanes_sign(qd[2]));
-    lanes_store(&to[90 * pitch], lanes_splat(R(1.0)));
-    lanes_store(&to[91 * pitch], t82);
-    lanes_store(&to[92 * pitch], -t83);
-    lanes_store(&to[93 * pitch], -t84);
-    lanes_store(&to[94 * pitch], -t85);
-    lanes_store(&to[95 * pitch], -t86);
-    lanes_store(&to[96 * pitch], t89);
-    lanes_store(&to[97 * pitch], t92);
-    lanes_store(&to[98 * pitch], t96);
-    lanes_store(&to[99 * pitch], -t97);
-    lanes_store(&to[100 * pitch], -t98);
-    lanes_store(&to[101 * pitch], -t99);
-    lanes_store(&to[102 * pitch], t100);
-    lanes_store(&to[103 * pitch], -t103);
-    lanes_store(&to[104 * pitch], t106);
-    lanes_store(&to[105 * pitch], t110);
-    lanes_store(&to[106 * pitch], -t111);
-    lanes_store(&to[107 * pitch], -t112);
-    lanes_store(&to[108 * pitch], -t113);
-    lanes_store(&to[109 * pitch], -t114);
-    lanes_store(&to[110 * pitch], -(t120 + t119));
-    lanes_store(&to[111 * pitch], t121 - t122);
-    lanes_store(&to[113 * pitch], -t23);
-    lanes_store(&to[114 * pitch], -t33);
-    lanes_store(&to[115 * pitch], -U4_23);
-    lanes_store(&to[116 * pitch], -U4_13n);
-    lanes_store(&to[117 * pitch], WP4_3);
-    lanes_store(&to[118 * pitch], -t36);
-    lanes_store(&to[119 * pitch], t40);
-    lanes_store(&to[120 * pitch], qdd[3]);
-    lanes_store(&to[121 * pitch], qd[3]);
-    lanes_store(&to[122 * pitch], lanes_sign(qd[3]));
-    lanes_store(&to[123 * pitch], lanes_splat(R(1.0)));
-    lanes_store(&to[124 * pitch], -(t41*WP5_1n + t123));
-    lanes_store(&to[125 * pitch], t41*U5_31n + t42*U5_32);
-    lanes_store(&to[126 * pitch], t41*U5_21 + t42*t52);
-    lanes_store(&to[127 * pitch], t41*t51 + t42*U5_12n);
-    lanes_store(&to[128 * pitch], t123 + t41*t47);
-    lanes_store(&to[129 * pitch], -t42*t36);
-    lanes_store(&to[130 * pitch], t41*t36);
-    lanes_store(&to[131 * pitch], -(t126*WP6_1n + t125 + t42*t58));
-    lanes_store(&to[132 * pitch], -(t42*t69 + (t124*U6_32n + t126*t64)));
-    lanes_store(&to[133 * pitch], t127);
-    lanes_store(&to[134 * pitch], t128);
-    lanes_store(&to[135 * pitch], t125 - t126*t62 + t42*WP6_3);
-    lanes_store(&to[136 * pitch], R(0.29)*t127 + (t42*VP6_2 - t124*VP5_2));
-    lanes_store(&to[137 * pitch], R(0.29)*t128 - (t42*VP6_1 - t126*VP5_2));
-    lanes_store(&to[139 * pitch], t43);
-    lanes_store(&to[140 * pitch], -t53);
-    lanes_store(&to[141 * pitch], -U5_23);
-    lanes_store(&to[142 * pitch], U5_13);
-    lanes_store(&to[143 * pitch], WP5_3);
-    lanes_store(&to[144 * pitch], VP5_2);
-    lanes_store(&to[145 * pitch], -VP5_1);
-    lanes_store(&to[146 * pitch], qdd[4]);
-    lanes_store(&to[147 * pitch], qd[4]);
-    lanes_store(&to[148 * pitch], lanes_sign(qd[4]));
-    lanes_store(&to[149 * pitch], lanes_splat(R(1.0)));
-    lanes_store(&to[150 * pitch], t129 - t56*WP6_1n);
-    lanes_store(&to[151 * pitch], t57*U6_32n - t56*t64);
-    lanes_store(&to[152 * pitch], t130);
-    lanes_store(&to[153 * pitch], t131);
-    lanes_store(&to[154 * pitch], -(t129 + t56*t62));
-    lanes_store(&to[155 * pitch], R(0.29)*t130 + t57*VP5_2);
-    lanes_store(&to[156 * pitch], R(0.29)*t131 + t56*VP5_2);
-    lanes_store(&to[158 * pitch], -t58);
-    lanes_store(&to[159 * pitch], -t69);
-    lanes_store(&to[160 * pitch], U6_23n);
-    lanes_store(&to[161 * pitch], -U6_13n);
-    lanes_store(&to[162 * pitch], WP6_3);
-    lanes_store(&to[163 * pitch], VPu7_2);
-    lanes_store(&to[164 * pitch], -VPu7_1);
-    lanes_store(&to[165 * pitch], qdd[5]);
-    lanes_store(&to[166 * pitch], qd[5]);
-    lanes_store(&to[167 * pitch], lanes_sign(qd[5]));
-    lanes_store(&to[168 * pitch], lanes_splat(R(1.0)));
+    lanes_store(&to[0 * PITCH], qdd[0]);
+    lanes_store(&to[1 * PITCH], qd[0]);
+    lanes_store(&to[2 * PITCH], lanes_sign(qd[0]));
+    lanes_store(&to[3 * PITCH], lanes_splat(R(1.0)));
+    lanes_store(&to[4 * PITCH], t1*WP2_1 + t3);
+    lanes_store(&to[5 * PITCH], t2*U2_32 - t1*U2_31);
+    lanes_store(&to[6 * PITCH], t1*U2_21 - t2*t6);
+    lanes_store(&to[7 * PITCH], t2*U2_12n - t1*t7);
+    lanes_store(&to[8 * PITCH], t1*t4 - t3);
+    lanes_store(&to[9 * PITCH], t2*VP2_3n - R(0.5)*U2_31);
+    lanes_store(&to[10 * PITCH], -(t1*VP2_3n + R(0.5)*U2_32));
+    lanes_store(&to[11 * PITCH], t9*WP3_1 - t12);
+    lanes_store(&to[12 * PITCH], t11*U3_32n - t9*U3_31);
+    lanes_store(&to[13 * PITCH], t9*U3_21 - t11*t14);
+    lanes_store(&to[14 * PITCH], t9*t16 - t11*U3_12n);
+    lanes_store(&to[15 * PITCH], t12 - t9*WP3_1n);
+    lanes_store(&to[16 * PITCH], t11*t19 - t20*U3_31);
+    lanes_store(&to[17 * PITCH], t20*U3_32n + t9*t19);
+    lanes_store(&to[18 * PITCH], t11*t23 - (t28*WP4_1n - t26));
+    lanes_store(&to[19 * PITCH], t28*U4_31n + t25*U4_32n + t11*t33);
+    lanes_store(&to[20 * PITCH], t28*U4_21 - t25*t32 + t11*U4_23);
+    lanes_store(&to[21 * PITCH], t28*t31 - t25*U4_12n + t11*U4_13n);
+    lanes_store(&to[22 * PITCH], -(t26 + t28*t27 + t11*WP4_3));
+    lanes_store(&to[23 * PITCH], U4_21*t39 - (U4_11n*t38 - (t11*t36 + t25*VPu4_3)));
+    lanes_store(&to[24 * PITCH], -(U4_22n*t39 + (U4_12n*t38 + (t11*t40 - t28*VPu4_3))));
+    lanes_store(&to[25 * PITCH], t25*t43 - (t48*WP5_1n - t46));
+    lanes_store(&to[26 * PITCH], t48*U5_31n - t45*U5_32 - t25*t53);
+    lanes_store(&to[27 * PITCH], t48*U5_21 - t45*t52 - t25*U5_23);
+    lanes_store(&to[28 * PITCH], t48*t51 - t45*U5_12n + t25*U5_13);
+    lanes_store(&to[29 * PITCH], t25*WP5_3 - (t46 - t48*t47));
+    lanes_store(&to[30 * PITCH], U5_31n*t39 - (U5_21*t55 + (U5_11n*t54 - (t25*VP5_2 + t45*t36))));
+    lanes_store(&to[31 * PITCH], U5_22n*t55 - (U5_12n*t54 + (t25*VP5_1 - t48*t36)) - U5_32*t39);
+    lanes_store(&to[32 * PITCH], t45*t58 - (t63*WP6_1n - t61));
+    lanes_store(&to[33 * PITCH], t45*t69 + (t60*U6_32n - t63*t64));
+    lanes_store(&to[34 * PITCH], t70);
+    lanes_store(&to[35 * PITCH], t71);
+    lanes_store(&to[36 * PITCH], -(t61 + t63*t62 + t45*WP6_3));
+    lanes_store(&to[37 * PITCH], R(0.29)*t70 + t74);
+    lanes_store(&to[38 * PITCH], R(0.29)*t71 - t75);
+    lanes_store(&to[40 * PITCH], -U2_12);
+    lanes_store(&to[41 * PITCH], t7 + t6);
+    lanes_store(&to[42 * PITCH], U2_23n);
+    lanes_store(&to[43 * PITCH], U2_13);
+    lanes_store(&to[44 * PITCH], qdd[1]);
+    lanes_store(&to[45 * PITCH], VP2_2);
+    lanes_store(&to[46 * PITCH], VP2_1n);
+    lanes_store(&to[47 * PITCH], qd[1]);
+    lanes_store(&to[48 * PITCH], lanes_sign(qd[1]));
+    lanes_store(&to[49 * PITCH], lanes_splat(R(1.0)));
+    lanes_store(&to[50 * PITCH], R(0.09968739)*lanes_sin(t76)/(t77*(t77 - R(1.4767799349556487))));
+    lanes_store(&to[51 * PITCH], t15);
+    lanes_store(&to[52 * PITCH], -t78);
+    lanes_store(&to[53 * PITCH], U3_23n);
+    lanes_store(&to[54 * PITCH], -U3_13n);
+    lanes_store(&to[55 * PITCH], WP3_3);
+    lanes_store(&to[56 * PITCH], -(t80*U3_21 + (t79*U3_11n - VP3_2)));
+    lanes_store(&to[57 * PITCH], t80*U3_22n - (t79*U3_12n - t35));
+    lanes_store(&to[58 * PITCH], t82);
+    lanes_store(&to[59 * PITCH], -t83);
+    lanes_store(&to[60 * PITCH], -t84);
+    lanes_store(&to[61 * PITCH], -t85);
+    lanes_store(&to[62 * PITCH], -t86);
+    lanes_store(&to[63 * PITCH], t80*U4_31n - (t91*U4_21 + (t90*U4_11n - t89)));
+    lanes_store(&to[64 * PITCH], t80*U4_32n + (t91*U4_22n - (t90*U4_12n - t92)));
+    lanes_store(&to[65 * PITCH], t96);
+    lanes_store(&to[66 * PITCH], -t97);
+    lanes_store(&to[67 * PITCH], -t98);
+    lanes_store(&to[68 * PITCH], -t99);
+    lanes_store(&to[69 * PITCH], t100);
+    lanes_store(&to[70 * PITCH], -(t91*U5_31n + (U5_21*t105 + (U5_11n*t104 + t103))));
+    lanes_store(&to[71 * PITCH], t91*U5_32 + (U5_22n*t105 - (U5_12n*t104 - t106)));
+    lanes_store(&to[72 * PITCH], t110);
+    lanes_store(&to[73 * PITCH], -t111);
+    lanes_store(&to[74 * PITCH], -t112);
+    lanes_store(&to[75 * PITCH], -t113);
+    lanes_store(&to[76 * PITCH], -t114);
+    lanes_store(&to[77 * PITCH], -(t120 + (t119 + (U6_11n*t116 + U6_21*t115 + t105*t64))));
+    lanes_store(&to[78 * PITCH], -(t122 + (U6_12n*t116 - U6_22n*t115 - U6_32n*t105 - t121)));
+    lanes_store(&to[80 * PITCH], t15);
+    lanes_store(&to[81 * PITCH], -t78);
+    lanes_store(&to[82 * PITCH], U3_23n);
+    lanes_store(&to[83 * PITCH], -U3_13n);
+    lanes_store(&to[84 * PITCH], WP3_3);
+    lanes_store(&to[85 * PITCH], VP3_2);
+    lanes_store(&to[86 * PITCH], t35);
+    lanes_store(&to[87 * PITCH], qdd[2]);
+    lanes_store(&to[88 * PITCH], qd[2]);
+    lanes_store(&to[89 * PITCH], lanes_sign(qd[2]));
+    lanes_store(&to[90 * PITCH], lanes_splat(R(1.0)));
+    lanes_store(&to[91 * PITCH], t82);
+    lanes_store(&to[92 * PITCH], -t83);
+    lanes_store(&to[93 * PITCH], -t84);
+    lanes_store(&to[94 * PITCH], -t85);
+    lanes_store(&to[95 * PITCH], -t86);
+    lanes_store(&to[96 * PITCH], t89);
+    lanes_store(&to[97 * PITCH], t92);
+    lanes_store(&to[98 * PITCH], t96);
+    lanes_store(&to[99 * PITCH], -t97);
+    lanes_store(&to[100 * PITCH], -t98);
+    lanes_store(&to[101 * PITCH], -t99);
+    lanes_store(&to[102 * PITCH], t100);
+    lanes_store(&to[103 * PITCH], -t103);
+    lanes_store(&to[104 * PITCH], t106);
+    lanes_store(&to[105 * PITCH], t110);
+    lanes_store(&to[106 * PITCH], -t111);
+    lanes_store(&to[107 * PITCH], -t112);
+    lanes_store(&to[108 * PITCH], -t113);
+    lanes_store(&to[109 * PITCH], -t114);
+    lanes_store(&to[110 * PITCH], -(t120 + t119));
+    lanes_store(&to[111 * PITCH], t121 - t122);
+    lanes_store(&to[113 * PITCH], -t23);
+    lanes_store(&to[114 * PITCH], -t33);
+    lanes_store(&to[115 * PITCH], -U4_23);
+    lanes_store(&to[116 * PITCH], -U4_13n);
+    lanes_store(&to[117 * PITCH], WP4_3);
+    lanes_store(&to[118 * PITCH], -t36);
+    lanes_store(&to[119 * PITCH], t40);
+    lanes_store(&to[120 * PITCH], qdd[3]);
+    lanes_store(&to[121 * PITCH], qd[3]);
+    lanes_store(&to[122 * PITCH], lanes_sign(qd[3]));
+    lanes_store(&to[123 * PITCH], lanes_splat(R(1.0)));
+    lanes_store(&to[124 * PITCH], -(t41*WP5_1n + t123));
+    lanes_store(&to[125 * PITCH], t41*U5_31n + t42*U5_32);
+    lanes_store(&to[126 * PITCH], t41*U5_21 + t42*t52);
+    lanes_store(&to[127 * PITCH], t41*t51 + t42*U5_12n);
+    lanes_store(&to[128 * PITCH], t123 + t41*t47);
+    lanes_store(&to[129 * PITCH], -t42*t36);
+    lanes_store(&to[130 * PITCH], t41*t36);
+    lanes_store(&to[131 * PITCH], -(t126*WP6_1n + t125 + t42*t58));
+    lanes_store(&to[132 * PITCH], -(t42*t69 + (t124*U6_32n + t126*t64)));
+    lanes_store(&to[133 * PITCH], t127);
+    lanes_store(&to[134 * PITCH], t128);
+    lanes_store(&to[135 * PITCH], t125 - t126*t62 + t42*WP6_3);
+    lanes_store(&to[136 * PITCH], R(0.29)*t127 + (t42*VP6_2 - t124*VP5_2));
+    lanes_store(&to[137 * PITCH], R(0.29)*t128 - (t42*VP6_1 - t126*VP5_2));
+    lanes_store(&to[139 * PITCH], t43);
+    lanes_store(&to[140 * PITCH], -t53);
+    lanes_store(&to[141 * PITCH], -U5_23);
+    lanes_store(&to[142 * PITCH], U5_13);
+    lanes_store(&to[143 * PITCH], WP5_3);
+    lanes_store(&to[144 * PITCH], VP5_2);
+    lanes_store(&to[145 * PITCH], -VP5_1);
+    lanes_store(&to[146 * PITCH], qdd[4]);
+    lanes_store(&to[147 * PITCH], qd[4]);
+    lanes_store(&to[148 * PITCH], lanes_sign(qd[4]));
+    lanes_store(&to[149 * PITCH], lanes_splat(R(1.0)));
+    lanes_store(&to[150 * PITCH], t129 - t56*WP6_1n);
+    lanes_store(&to[151 * PITCH], t57*U6_32n - t56*t64);
+    lanes_store(&to[152 * PITCH], t130);
+    lanes_store(&to[153 * PITCH], t131);
+    lanes_store(&to[154 * PITCH], -(t129 + t56*t62));
+    lanes_store(&to[155 * PITCH], R(0.29)*t130 + t57*VP5_2);
+    lanes_store(&to[156 * PITCH], R(0.29)*t131 + t56*VP5_2);
+    lanes_store(&to[158 * PITCH], -t58);
+    lanes_store(&to[159 * PITCH], -t69);
+    lanes_store(&to[160 * PITCH], U6_23n);
+    lanes_store(&to[161 * PITCH], -U6_13n);
+    lanes_store(&to[162 * PITCH], WP6_3);
+    lanes_store(&to[163 * PITCH], VPu7_2);
+    lanes_store(&to[164 * PITCH], -VPu7_1);
+    lanes_store(&to[165 * PITCH], qdd[5]);
+    lanes_store(&to[166 * PITCH], qd[5]);
+    lanes_store(&to[167 * PITCH], lanes_sign(qd[5]));
+    lanes_store(&to[168 * PITCH], lanes_splat(R(1.0)));
 }
 
 INLINE void lane_of(const lanes from[NQ], size_t l, real to[NQ])
@@ -945,7 +1000,7 @@ static void dynamics_singly(
 
 /* What regressor_lanes computes, by the function for one sample. */
 static void regressor_singly(
-    const kr500_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], real *to, size_t pitch)
+    const kr500_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], real *to)
 {
     for (size_t l = 0; l < LANES; ++l) {
         real one[3][NQ];
@@ -956,14 +1011,14 @@ static void regressor_singly(
         kr500_regressor_packed(prepared, one[0], one[1], one[2], W);
         for (size_t j = 0; j < NQ; ++j) {
             for (size_t e = start[j]; e + 1 < start[j + 1]; ++e) {
-                to[(e * pitch) + l] = W[e - j];
+                to[(e * PITCH) + l] = W[e - j];
             }
         }
     }
 }
 
 /* The entries of the samples at[0] to at[TILE - 1]. */
-static void evaluate(const samples *from, const size_t at[TILE], real *restrict to, size_t pitch)
+static void evaluate(const samples *from, const size_t at[TILE], real *restrict to)
 {
     for (size_t h = 0; h < TILE; h += LANES) {
         lanes q[NQ];
@@ -973,16 +1028,16 @@ static void evaluate(const samples *from, const size_t at[TILE], real *restrict 
         gather(from->qd, &at[h], qd);
         gather(from->qdd, &at[h], qdd);
         if (within_reach(q)) {
-            regressor_lanes(from->prepared, q, qd, qdd, &to[h], pitch);
+            regressor_lanes(from->prepared, q, qd, qdd, &to[h]);
         } else {
-            regressor_singly(from->prepared, q, qd, qdd, &to[h], pitch);
+            regressor_singly(from->prepared, q, qd, qdd, &to[h]);
         }
         lanes tau[NQ] = { ZERO };
         if (from->tau != NULL) {
             gather(from->tau, &at[h], tau);
         }
         for (size_t j = 0; j < NQ; ++j) {
-            lanes_store(&to[((start[j + 1] - 1) * pitch) + h], tau[j]);
+            lanes_store(&to[((start[j + 1] - 1) * PITCH) + h], tau[j]);
         }
     }
 }
@@ -1003,7 +1058,7 @@ static int weights(const kr500_filter *filter, size_t first, size_t count, size_
 }
 
 /* to += the entries of TILE samples, weighted for TILE kept samples. */
-static void accumulate(real *restrict to, size_t pitch, const real *restrict entry, real weight[TILE][TILE])
+static void accumulate(real *restrict to, const real *restrict entry, real weight[TILE][TILE])
 {
     for (size_t h = 0; h < TILE; h += LANES) {
         lanes w[TILE];
@@ -1011,11 +1066,11 @@ static void accumulate(real *restrict to, size_t pitch, const real *restrict ent
             w[s] = lanes_load(&weight[s][h]);
         }
         for (size_t e = 0; e < ENTRIES; ++e) {
-            lanes sum = lanes_load(&to[(e * pitch) + h]);
+            lanes sum = lanes_load(&to[(e * PITCH) + h]);
             for (size_t s = 0; s < TILE; ++s) {
-                sum += w[s] * entry[(e * TILE) + s];
+                sum += w[s] * entry[(e * PITCH) + s];
             }
-            lanes_store(&to[(e * pitch) + h], sum);
+            lanes_store(&to[(e * PITCH) + h], sum);
         }
     }
 }
@@ -1024,7 +1079,7 @@ static void accumulate(real *restrict to, size_t pitch, const real *restrict ent
  * The kept samples first to first + count - 1, count at most TILE; the rest of the tile repeats the last one where
  * samples are kept as they are, and is zero where they are filtered.
  */
-static void tile(const samples *from, size_t first, size_t count, real *restrict to, size_t pitch)
+static void tile(const samples *from, size_t first, size_t count, real *restrict to)
 {
     const kr500_filter *filter = &from->filter;
     size_t at[TILE];
@@ -1032,11 +1087,11 @@ static void tile(const samples *from, size_t first, size_t count, real *restrict
         for (size_t m = 0; m < TILE; ++m) {
             at[m] = (first + least(m, count - 1)) * filter->decimation;
         }
-        evaluate(from, at, to, pitch);
+        evaluate(from, at, to);
         if (filter->taps[0] != R(1.0)) {
             for (size_t e = 0; e < ENTRIES; ++e) {
                 for (size_t m = 0; m < TILE; ++m) {
-                    to[(e * pitch) + m] *= filter->taps[0];
+                    to[(e * PITCH) + m] *= filter->taps[0];
                 }
             }
         }
@@ -1044,10 +1099,10 @@ static void tile(const samples *from, size_t first, size_t count, real *restrict
     }
     const size_t end = ((first + count - 1) * filter->decimation) + filter->count;
     for (size_t e = 0; e < ENTRIES; ++e) {
-        memset(&to[e * pitch], 0, TILE * sizeof(real));
+        memset(&to[e * PITCH], 0, TILE * sizeof(real));
     }
     for (size_t k = first * filter->decimation; k < end; k += TILE) {
-        real entry[ENTRIES * TILE];
+        real entry[ENTRIES * PITCH];
         real weight[TILE][TILE];
         if (!weights(filter, first, count, k, weight)) {
             continue;
@@ -1055,8 +1110,8 @@ static void tile(const samples *from, size_t first, size_t count, real *restrict
         for (size_t s = 0; s < TILE; ++s) {
             at[s] = least(k + s, end - 1);
         }
-        evaluate(from, at, entry, TILE);
-        accumulate(to, pitch, entry, weight);
+        evaluate(from, at, entry);
+        accumulate(to, entry, weight);
     }
 }
 
@@ -1098,27 +1153,27 @@ static void tile(const samples *from, size_t first, size_t count, real *restrict
 #define STREAM_END() ((void)0)
 #endif
 
-/* Kept samples of which the entries of one column are written together. */
-#define RUN (8 * TILE)
-
 static void write(real *restrict to, const real *restrict from, size_t count, int past_caches)
 {
+    size_t i = 0;
 #ifdef STREAM
     if (past_caches) {
-        size_t i = least(((0U - (size_t)(uintptr_t)to) % 64U) / sizeof(real), count);
-        memcpy(to, from, i * sizeof(real));
+        i = least(((0U - (size_t)(uintptr_t)to) % 64U) / sizeof(real), count);
+        if (i > 0) {
+            memcpy(to, from, i * sizeof(real));
+        }
         for (; count - i >= TILE; i += TILE) {
             for (size_t h = 0; h < TILE; h += LANES) {
                 STREAM(&to[i + h], lanes_load(&from[i + h]));
             }
         }
-        memcpy(&to[i], &from[i], (count - i) * sizeof(real));
-        return;
     }
 #else
     (void)past_caches;
 #endif
-    memcpy(to, from, count * sizeof(real));
+    if (i < count) {
+        memcpy(&to[i], &from[i], (count - i) * sizeof(real));
+    }
 }
 
 static samples samples_of(
@@ -1165,8 +1220,14 @@ void kr500_batch_inverse_dynamics(
         } else {
             dynamics_singly(prepared, my_q, my_qd, my_qdd, my_tau);
         }
+        real lane[NQ][LANES];
+        for (size_t j = 0; j < NQ; ++j) {
+            lanes_store(lane[j], my_tau[j]);
+        }
         for (size_t l = 0; l < count; ++l) {
-            lane_of(my_tau, l, &tau[(k + l) * NQ]);
+            for (size_t j = 0; j < NQ; ++j) {
+                tau[((k + l) * NQ) + j] = lane[j][l];
+            }
         }
     }
 }
@@ -1189,6 +1250,57 @@ void kr500_batch_filter(const kr500_filter *filter, size_t n, const kr500_real *
     }
 }
 
+/* Numbers of a kept sample in rows. */
+#define SAMPLE ((size_t)NQ * NBASE)
+
+/* The vectors that together hold all nonzeros of a kept sample: where they begin, and the entry of each number of it. */
+typedef struct {
+    size_t count;
+    size_t begin[SAMPLE];
+    size_t entry[SAMPLE + LANES];
+} windows;
+
+/* As few as cover the nonzeros from the first one on; ENTRIES stands for a structural zero. */
+static void cover(windows *all)
+{
+    for (size_t i = 0; i < SAMPLE + LANES; ++i) {
+        all->entry[i] = ENTRIES;
+    }
+    all->count = 0;
+    size_t covered = 0;
+    for (size_t j = 0; j < NQ; ++j) {
+        for (size_t e = start[j]; e + 1 < start[j + 1]; ++e) {
+            const size_t place = (j * NBASE) + column[e];
+            all->entry[place] = e;
+            if (place >= covered) {
+                const size_t begin = (SAMPLE < LANES) ? 0 : least(place, SAMPLE - LANES);
+                all->begin[all->count++] = begin;
+                covered = begin + LANES;
+            }
+        }
+    }
+}
+
+/* A tile's nonzeros to the rows of its samples. The numbers of entry ENTRIES are zero. */
+static void turn(const windows *all, const real *restrict entry, real *restrict row)
+{
+    for (size_t h = 0; h < TILE; h += LANES) {
+        for (size_t w = 0; w < all->count; ++w) {
+            const size_t begin = all->begin[w];
+            lanes x[LANES];
+            UNROLL
+            for (size_t l = 0; l < LANES; ++l) {
+                x[l] = lanes_load(&entry[(all->entry[begin + l] * PITCH) + h]);
+            }
+            lanes_transpose(x);
+            UNROLL
+            for (size_t m = 0; m < LANES; ++m) {
+                lanes_store(&row[((h + m) * SAMPLE) + begin], x[m]);
+            }
+        }
+    }
+}
+
 void kr500_observation_matrix_rows(
     const kr500_prepared *prepared, const kr500_filter *filter, size_t n, const kr500_real *q,
     const kr500_real *qd, const kr500_real *qdd, kr500_real *W, size_t ld)
@@ -1201,23 +1313,20 @@ void kr500_observation_matrix_rows(
 #endif
     {
         /* The structural zeros are written here once and never again. */
-        real row[TILE * NQ * NBASE] = { R(0.0) };
-        real entry[ENTRIES * TILE];
+        real row[(TILE * SAMPLE) + LANES] = { R(0.0) };
+        real entry[(ENTRIES + 1) * PITCH];
+        windows all;
+        memset(&entry[ENTRIES * PITCH], 0, PITCH * sizeof(real));
+        cover(&all);
 #ifdef _OPENMP
 #pragma omp for schedule(static)
 #endif
         for (size_t first = 0; first < rows; first += TILE) {
             const size_t count = least(TILE, rows - first);
-            tile(&from, first, count, entry, TILE);
-            for (size_t j = 0; j < NQ; ++j) {
-                for (size_t e = start[j]; e + 1 < start[j + 1]; ++e) {
-                    for (size_t m = 0; m < TILE; ++m) {
-                        row[(((m * NQ) + j) * NBASE) + column[e]] = entry[(e * TILE) + m];
-                    }
-                }
-            }
+            tile(&from, first, count, entry);
+            turn(&all, entry, row);
             if (ld == NBASE) {
-                write(&W[first * NQ * NBASE], row, count * NQ * NBASE, stream);
+                write(&W[first * SAMPLE], row, count * SAMPLE, stream);
             } else {
                 for (size_t i = 0; i < count * NQ; ++i) {
                     write(&W[((first * NQ) + i) * ld], &row[i * NBASE], NBASE, stream);
@@ -1236,21 +1345,21 @@ void kr500_observation_matrix_columns(
     const size_t rows = kr500_filtered_count(filter, n);
     const int stream = past_caches(rows * NQ * NBASE);
 #ifdef _OPENMP
-#pragma omp parallel for schedule(static) if (rows > RUN)
+#pragma omp parallel for schedule(static) if (rows > BLOCK)
 #endif
-    for (size_t first = 0; first < rows; first += RUN) {
-        static const real zeros[RUN] = { R(0.0) };
-        const size_t count = least(RUN, rows - first);
-        real entry[ENTRIES * RUN];
+    for (size_t first = 0; first < rows; first += BLOCK) {
+        static const real zeros[BLOCK] = { R(0.0) };
+        const size_t count = least(BLOCK, rows - first);
+        real entry[ENTRIES * PITCH];
         for (size_t t = 0; t < count; t += TILE) {
-            tile(&from, first + t, least(TILE, count - t), &entry[t], RUN);
+            tile(&from, first + t, least(TILE, count - t), &entry[t]);
         }
         for (size_t j = 0; j < NQ; ++j) {
             size_t e = start[j];
             for (size_t c = 0; c < NBASE; ++c) {
                 real *to = &W[(c * stride) + (j * rows) + first];
                 if (column[e] == c) {
-                    write(to, &entry[e * RUN], count, stream);
+                    write(to, &entry[e * PITCH], count, stream);
                     ++e;
                 } else {
                     write(to, zeros, count, stream);
@@ -1260,13 +1369,6 @@ void kr500_observation_matrix_columns(
         STREAM_END();
     }
 }
-
-/*
- * A block in the work area: BLOCK kept samples of every entry, the entries PITCH numbers apart: an odd number of lines,
- * so that they spread over the cache.
- */
-#define BLOCK 128
-#define PITCH (BLOCK + TILE)
 
 /* Each joint has a square matrix over its own entries: their sizes, and where they begin in an array of SQUARES numbers. */
 #define SQUARES 5470
@@ -1278,7 +1380,7 @@ static const size_t square[NQ] = { 0, 1600, 3200, 4289, 4965, 5326 };
  * its own. They are joined in their order.
  */
 #define PARTS 16
-#define PART 29952
+#define PART 19072
 #define NGRAM KR500_NGRAM
 
 static real *aligned(real *work)
@@ -1290,7 +1392,7 @@ static real *aligned(real *work)
 static void block_tile(const samples *from, size_t rows, size_t first, size_t t, real *block)
 {
     const size_t count = least(TILE, rows - first - t);
-    tile(from, first + t, count, &block[t], PITCH);
+    tile(from, first + t, count, &block[t]);
     for (size_t e = 0; (count < TILE) && (e < ENTRIES); ++e) {
         memset(&block[(e * PITCH) + t + count], 0, (TILE - count) * sizeof(real));
     }

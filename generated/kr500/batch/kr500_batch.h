@@ -35,7 +35,7 @@ extern "C" {
 #define KR500_NGRAM (KR500_NBASE + 1)
 
 /** Numbers of the work area of kr500_observation_gram() and kr500_observation_qr(). */
-#define KR500_OBSERVATION_WORK 479248
+#define KR500_OBSERVATION_WORK 305168
 
 /**
  * A filter without phase, and decimation: what an identification engineer applies to each column of W and to each torque

@@ -22,6 +22,7 @@ absent, importing this module raises ImportError.
 from pathlib import Path
 
 import numpy as np
+from _cffi_backend import FFI as Buffers
 from cffi import FFI
 
 #: Names of the parameters, in order; the first 59 are the base parameters.
@@ -242,10 +243,50 @@ def _library():
 
 
 _lib = _library()
-_array, _double, _buffer = np.ndarray, np.dtype(float), _ffi.from_buffer
+_array, _double = np.ndarray, np.dtype(float)
+# The method of cffi's compiled class: that of cffi.FFI is Python around it, as slow as all the rest.
+_buffer = Buffers().from_buffer
+_c_balancer = _lib.kr500_balancer
+_c_base_parameters = _lib.kr500_base_parameters
+_c_bias = _lib.kr500_bias
+_c_direct_dynamics = _lib.kr500_direct_dynamics
+_c_direct_dynamics_loaded = _lib.kr500_direct_dynamics_loaded
+_c_direct_dynamics_sliding = _lib.kr500_direct_dynamics_sliding
+_c_direct_dynamics_smooth = _lib.kr500_direct_dynamics_smooth
+_c_dynamics = _lib.kr500_dynamics
+_c_flexible_direct_dynamics = _lib.kr500_flexible_direct_dynamics
+_c_flexible_direct_dynamics_sliding = _lib.kr500_flexible_direct_dynamics_sliding
+_c_flexible_direct_dynamics_smooth = _lib.kr500_flexible_direct_dynamics_smooth
+_c_flexible_inverse_dynamics = _lib.kr500_flexible_inverse_dynamics
+_c_flexible_regressor = _lib.kr500_flexible_regressor
+_c_gravity = _lib.kr500_gravity
+_c_inertia_matrix = _lib.kr500_inertia_matrix
+_c_inverse_dynamics = _lib.kr500_inverse_dynamics
+_c_inverse_dynamics_loaded = _lib.kr500_inverse_dynamics_loaded
+_c_inverse_dynamics_standard = _lib.kr500_inverse_dynamics_standard
+_c_jacobians = _lib.kr500_jacobians
+_c_joint_position = _lib.kr500_joint_position
+_c_joint_speed = _lib.kr500_joint_speed
+_c_joint_torque = _lib.kr500_joint_torque
+_c_joint_torque_from_current = _lib.kr500_joint_torque_from_current
+_c_kinetic_energy = _lib.kr500_kinetic_energy
+_c_motor_current = _lib.kr500_motor_current
+_c_motor_position = _lib.kr500_motor_position
+_c_motor_speed = _lib.kr500_motor_speed
+_c_motor_torque = _lib.kr500_motor_torque
+_c_payload_regressor = _lib.kr500_payload_regressor
+_c_potential_energy = _lib.kr500_potential_energy
+_c_regressor = _lib.kr500_regressor
+_c_regressor_packed = _lib.kr500_regressor_packed
+_c_regressor_standard = _lib.kr500_regressor_standard
+_c_regressor_standard_packed = _lib.kr500_regressor_standard_packed
+_c_tool_jacobian = _lib.kr500_tool_jacobian
+_c_tool_transform = _lib.kr500_tool_transform
+_c_transforms = _lib.kr500_transforms
+_c_wrench_torque = _lib.kr500_wrench_torque
 
 #: Numbers of the work area of observation_gram and observation_qr.
-_WORK = 479248
+_WORK = 305168
 
 
 def _signal(value, shape, name):
@@ -380,7 +421,7 @@ class Robot:
         length, force, torque = _several(
             out, ((), (), ())
         )
-        _lib.kr500_balancer(
+        _c_balancer(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(length),
@@ -400,7 +441,7 @@ class Robot:
             base_parameters: (59) base parameters, in their order [SI]
         """
         base_parameters = _new(out, (59,))
-        _lib.kr500_base_parameters(
+        _c_base_parameters(
             self._prepared,
             _signal(standard_parameters, (85,), "standard_parameters"),
             _buffer(base_parameters),
@@ -419,7 +460,7 @@ class Robot:
             H: (6) torques without acceleration, on the joint side [N m]
         """
         H = _new(out, (6,))
-        _lib.kr500_bias(
+        _c_bias(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -441,7 +482,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr500_direct_dynamics(
+        _c_direct_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -467,7 +508,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr500_direct_dynamics_loaded(
+        _c_direct_dynamics_loaded(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -492,7 +533,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr500_direct_dynamics_sliding(
+        _c_direct_dynamics_sliding(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -516,7 +557,7 @@ class Robot:
             qdd: (6) joint accelerations [rad/s2]
         """
         qdd = _new(out, (6,))
-        _lib.kr500_direct_dynamics_smooth(
+        _c_direct_dynamics_smooth(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -544,7 +585,7 @@ class Robot:
         tau, M, Q = _several(
             out, ((6,), (6, 6), (6,))
         )
-        _lib.kr500_dynamics(
+        _c_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -568,7 +609,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr500_flexible_direct_dynamics(
+        _c_flexible_direct_dynamics(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -594,7 +635,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr500_flexible_direct_dynamics_sliding(
+        _c_flexible_direct_dynamics_sliding(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -623,7 +664,7 @@ class Robot:
             qdd: (12) accelerations of [q_m; q_e] [rad/s2]
         """
         qdd = _new(out, (12,))
-        _lib.kr500_flexible_direct_dynamics_smooth(
+        _c_flexible_direct_dynamics_smooth(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -651,7 +692,7 @@ class Robot:
         tau_mdi, tau_e = _several(
             out, ((6,), (6,))
         )
-        _lib.kr500_flexible_inverse_dynamics(
+        _c_flexible_inverse_dynamics(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -676,7 +717,7 @@ class Robot:
                 parameters, then motor side [SI]
         """
         W = _new(out, (12, 89))
-        _lib.kr500_flexible_regressor(
+        _c_flexible_regressor(
             self._prepared,
             _signal(q, (12,), "q"),
             _signal(qd, (12,), "qd"),
@@ -696,7 +737,7 @@ class Robot:
             Q: (6) gravity torques, on the joint side [N m]
         """
         Q = _new(out, (6,))
-        _lib.kr500_gravity(
+        _c_gravity(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(Q),
@@ -714,7 +755,7 @@ class Robot:
             M: (6 x 6) inertia matrix, symmetric, rotor inertias included [SI]
         """
         M = _new(out, (6, 6))
-        _lib.kr500_inertia_matrix(
+        _c_inertia_matrix(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(M),
@@ -738,7 +779,7 @@ class Robot:
         if getattr(q, "ndim", 1) == 2:
             return self._many_inverse_dynamics(q, qd, qdd, out)
         tau = _new(out, (6,))
-        _lib.kr500_inverse_dynamics(
+        _c_inverse_dynamics(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -764,7 +805,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr500_inverse_dynamics_loaded(
+        _c_inverse_dynamics_loaded(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -789,7 +830,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr500_inverse_dynamics_standard(
+        _c_inverse_dynamics_standard(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -812,7 +853,7 @@ class Robot:
                 then wx wy wz [SI]
         """
         J = _new(out, (7, 6, 6))
-        _lib.kr500_jacobians(
+        _c_jacobians(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(J),
@@ -830,7 +871,7 @@ class Robot:
             q: (6) joint positions [rad]
         """
         q = _new(out, (6,))
-        _lib.kr500_joint_position(
+        _c_joint_position(
             self._prepared,
             _signal(qr, (6,), "qr"),
             _buffer(q),
@@ -848,7 +889,7 @@ class Robot:
             qd: (6) joint speeds [rad/s]
         """
         qd = _new(out, (6,))
-        _lib.kr500_joint_speed(
+        _c_joint_speed(
             self._prepared,
             _signal(qrd, (6,), "qrd"),
             _buffer(qd),
@@ -866,7 +907,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr500_joint_torque(
+        _c_joint_torque(
             self._prepared,
             _signal(tau_r, (6,), "tau_r"),
             _buffer(tau),
@@ -884,7 +925,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr500_joint_torque_from_current(
+        _c_joint_torque_from_current(
             self._prepared,
             _signal(current, (6,), "current"),
             _buffer(tau),
@@ -903,7 +944,7 @@ class Robot:
             T: (scalar) kinetic energy [J]
         """
         T = _new(out, ())
-        _lib.kr500_kinetic_energy(
+        _c_kinetic_energy(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -922,7 +963,7 @@ class Robot:
             current: (6) motor currents [A]
         """
         current = _new(out, (6,))
-        _lib.kr500_motor_current(
+        _c_motor_current(
             self._prepared,
             _signal(tau, (6,), "tau"),
             _buffer(current),
@@ -940,7 +981,7 @@ class Robot:
             qr: (6) rotor positions [rad]
         """
         qr = _new(out, (6,))
-        _lib.kr500_motor_position(
+        _c_motor_position(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(qr),
@@ -958,7 +999,7 @@ class Robot:
             qrd: (6) rotor speeds [rad/s]
         """
         qrd = _new(out, (6,))
-        _lib.kr500_motor_speed(
+        _c_motor_speed(
             self._prepared,
             _signal(qd, (6,), "qd"),
             _buffer(qrd),
@@ -976,7 +1017,7 @@ class Robot:
             tau_r: (6) electromagnetic torques of the rotors [N m]
         """
         tau_r = _new(out, (6,))
-        _lib.kr500_motor_torque(
+        _c_motor_torque(
             self._prepared,
             _signal(tau, (6,), "tau"),
             _buffer(tau_r),
@@ -996,7 +1037,7 @@ class Robot:
             W: (6 x 10) torque per unit of XX XY XZ YY YZ ZZ MX MY MZ M [SI]
         """
         W = _new(out, (6, 10))
-        _lib.kr500_payload_regressor(
+        _c_payload_regressor(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1016,7 +1057,7 @@ class Robot:
             U: (scalar) potential energy, zero at q = 0 [J]
         """
         U = _new(out, ())
-        _lib.kr500_potential_energy(
+        _c_potential_energy(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(U),
@@ -1036,7 +1077,7 @@ class Robot:
             W: (6 x 59) regressor: torque of each row per unit of each parameter [SI]
         """
         W = _new(out, (6, 59))
-        _lib.kr500_regressor(
+        _c_regressor(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1058,7 +1099,7 @@ class Robot:
             W: (164) structural nonzeros of the regressor, row by row [SI]
         """
         W = _new(out, (164,))
-        _lib.kr500_regressor_packed(
+        _c_regressor_packed(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1080,7 +1121,7 @@ class Robot:
             W: (6 x 85) regressor: torque of each row per unit of each parameter [SI]
         """
         W = _new(out, (6, 85))
-        _lib.kr500_regressor_standard(
+        _c_regressor_standard(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1103,7 +1144,7 @@ class Robot:
             W: (215) structural nonzeros of the regressor, row by row [SI]
         """
         W = _new(out, (215,))
-        _lib.kr500_regressor_standard_packed(
+        _c_regressor_standard_packed(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(qd, (6,), "qd"),
@@ -1124,7 +1165,7 @@ class Robot:
             J: (6 x 6) Jacobian in world axes: rows vx vy vz of the origin, then wx wy wz [SI]
         """
         J = _new(out, (6, 6))
-        _lib.kr500_tool_jacobian(
+        _c_tool_jacobian(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(J),
@@ -1142,7 +1183,7 @@ class Robot:
             T: (4 x 4) pose of the tool frame in the world frame [1, m]
         """
         T = _new(out, (4, 4))
-        _lib.kr500_tool_transform(
+        _c_tool_transform(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(T),
@@ -1161,7 +1202,7 @@ class Robot:
                 frames [1, m]
         """
         T = _new(out, (7, 4, 4))
-        _lib.kr500_transforms(
+        _c_transforms(
             self._prepared,
             _signal(q, (6,), "q"),
             _buffer(T),
@@ -1181,7 +1222,7 @@ class Robot:
             tau: (6) motor torques, on the joint side [N m]
         """
         tau = _new(out, (6,))
-        _lib.kr500_wrench_torque(
+        _c_wrench_torque(
             self._prepared,
             _signal(q, (6,), "q"),
             _signal(wrench, (6,), "wrench"),
