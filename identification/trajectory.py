@@ -23,13 +23,29 @@ _MARGIN = 0.05
 class Setting:
     """A setting of a trajectory: its ``default``, what it means with its unit, and what it may be.
 
-    A number is more than ``above``; a word is one of ``choices``.
+    A number is more than ``above``, less than ``below``, and ``whole`` if it counts; a word is one of ``choices``.
     """
 
     default: Value
     meaning: str
     above: float = 0.0
+    below: float = np.inf
+    whole: bool = False
     choices: tuple[str, ...] = ()
+
+    def allows(self, value: Value) -> bool:
+        """Whether the setting may have a value."""
+        if self.choices or isinstance(value, str):
+            return value in self.choices
+        return self.above < value < self.below and not (self.whole and value % 1)
+
+    @property
+    def range(self) -> str:
+        """What the setting may be, in words."""
+        if self.choices:
+            return f"one of {', '.join(self.choices)}"
+        ends = f"above {self.above:g}" + (f" and below {self.below:g}" if self.below < np.inf else "")
+        return f"a {'whole ' if self.whole else ''}number {ends}, {self.meaning}"
 
 
 @dataclass(frozen=True)

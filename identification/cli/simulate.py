@@ -63,17 +63,17 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
+        from identification.simulation.checks import check
         from identification.simulation.machine import compiled
         from identification.simulation.run_file import save
-        from identification.simulation.settings import check
         from identification.simulation.simulate import simulate
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise simulate"), f"{error.name} is not installed", extra) from None
 
     settings = _settings(arguments)
-    check(settings)
     robot = read(find_robot(arguments.robot))
+    check(settings, robot)
     out = arguments.out or Path("simulated") / robot.name / f"{settings.trajectory}_{settings.seed}.csv"
     if out.suffix != ".csv":
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")

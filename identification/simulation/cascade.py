@@ -44,16 +44,27 @@ def inertias(module: Any, model: Any, robot: Robot, pose: Array, flexible: bool)
     return links, motors
 
 
+def weight(module: Any, model: Any, robot: Robot, pose: Array, flexible: bool) -> tuple[Array, Array]:
+    """Torques at rest (n each) [N m, N] at a pose: of the links, and of the motors that hold them, offsets included."""
+    still = np.zeros(len(pose))
+    links: Array = model.inverse_dynamics(pose, still, still)
+    offsets = [value_of(module, model, f"Offm{joint.number}") if flexible else 0.0 for joint in robot.moving]
+    return links, links + np.array(offsets)
+
+
 def controller(
-    module: Any, model: Any, robot: Robot, inertia: Array, bandwidth: float, period: float, limit: Array
+    module: Any, model: Any, robot: Robot, inertia: Array, load: Array, bandwidth: float, period: float, limit: Array
 ) -> Any:
     """The cascade for motors that each move an ``inertia`` (n) at their joints, with speed loops of ``bandwidth`` [Hz].
 
-    ``limit`` (n) is the rotors' largest torque [N m, N].
+    Its integrals hold a ``load`` (n) [N m, N] at the joints. ``limit`` (n) is the rotors' largest torque [N m, N].
     """
     w = 2 * np.pi * bandwidth
-    kv = w * inertia / np.diag(ratios(robot)) ** 2
-    return module.Controller(model, period, w / 3, kv, w / 3, limit)
+    N = ratios(robot)
+    kv = w * inertia / np.diag(N) ** 2
+    result = module.Controller(model, period, w / 3, kv, w / 3, limit)
+    result.z[:] = np.linalg.solve(N.T, load) / kv
+    return result
 
 
 def steps(module: Any, model: Any, robot: Robot, links: Array, motors: Array, period: float) -> int:

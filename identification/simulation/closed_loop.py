@@ -13,13 +13,14 @@ from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.simulation import cascade
+from identification.simulation.checks import each
 from identification.simulation.contact import Contact
 from identification.simulation.machine import Machine
-from identification.simulation.settings import Settings, each
+from identification.simulation.settings import Settings
 from identification.trajectory import Array, Reference
 
 #: Rest [s] before the log begins, in which controller and springs take up the weight.
-_REST = 3.0
+_REST = 1.0
 #: Time [s] after which drifting parameters are new, and finite numbers and progress are looked at.
 _NEWS = 0.1
 #: Dry friction [N m, N] that holds a locked link.
@@ -56,11 +57,14 @@ class Loop:
         start = reference.q[0]
         links, motors = cascade.inertias(module, model, robot, start, settings.flexible)
         limit = each(settings.largest, self._n, "--largest") * torque_constants(machine, model)
+        load, held = cascade.weight(module, model, robot, start, settings.flexible)
         self._controller = cascade.controller(
-            module, model, robot, links + motors, settings.bandwidth, settings.period, limit
+            module, model, robot, links + motors, held, settings.bandwidth, settings.period, limit
         )
         self._steps = cascade.steps(module, model, robot, links, motors, settings.period)
-        self._plant = self._placed(start, None)
+        numbers = [robot.moving[k].number for k in self._elastic]
+        stiffness = np.array([cascade.value_of(module, model, f"k{number}") for number in numbers])
+        self._plant = self._placed(np.concatenate([start, -load[self._elastic] / stiffness]))
         self._encoders = Encoders(robot, settings, start)
 
     def run(self, progress: Progress) -> Log:
@@ -74,7 +78,7 @@ class Loop:
             tau = self._sample(reference.q[0], still, None)
         if reference.locked:
             self._model.update({f"Fc{joint.number}": _LOCK for joint in self._machine.robot.moving})
-            self._plant = self._placed(self._plant.q.copy(), None)
+            self._plant = self._placed(self._plant.q.copy())
         contact = None if reference.stop is None else Contact(self._model, reference.stop, self._links())
         rows = len(reference.q)
         q, torques, links = (np.empty((rows, self._n)) for _ in range(3))
@@ -97,9 +101,10 @@ class Loop:
         self._check(rows)
         return Log(q, torques, links, wrench)
 
-    def _placed(self, q: Array, qd: Array | None) -> Any:
+    def _placed(self, q: Array) -> Any:
+        """The robot at rest."""
         kind = "flexible" if self._settings.flexible else "rigid"
-        return self._machine.module.Plant(self._model, kind, q, qd, steps=self._steps)
+        return self._machine.module.Plant(self._model, kind, q, steps=self._steps)
 
     def _sample(self, q_ref: Array, qd_ref: Array, contact: Contact | None) -> Array:
         """One sample; returns the torques that act until the next."""

@@ -7,10 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from generator.cli.place import command_line
-from generator.errors import InputError
-from generator.robot.fields import nearest
-from identification.trajectory import Array, Trajectory, Value
+from identification.trajectory import Value
 
 #: Columns that are logged if asked for: the reference, encoders of the links.
 FURTHER = ("qr", "qs")
@@ -74,73 +71,3 @@ class Settings:
     def late(self, delay: float) -> int:
         """A delay in samples of the controller."""
         return round(delay * self.rate)
-
-
-def each(values: Sequence[float], n: int, option: str) -> Array:
-    """One value a motor (n); raises InputError for another count than one or n."""
-    if len(values) not in (1, n):
-        raise InputError(command_line(option), f"{len(values)} numbers", f"one, or one for each of {n} motors")
-    return np.array(np.broadcast_to(np.asarray(values, dtype=float), (n,)))
-
-
-def check(settings: Settings) -> None:
-    """Raises InputError for a number that is out of its range; the place is the option of the command."""
-    for option, value, least in (
-        ("--duration", settings.duration, 0.0),
-        ("--rate", settings.rate, 0.0),
-        ("--bandwidth", settings.bandwidth, 0.0),
-        *(("--largest", one, 0.0) for one in settings.largest if one != np.inf),
-        ("--friction-drift", settings.friction_drift, -1.0),
-        ("--torque-constant-drift", settings.constant_drift, -1.0),
-    ):
-        if not least < value < np.inf:
-            raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
-    for option, values in (
-        ("--resolution", settings.resolution),
-        ("--noise", settings.noise),
-        ("--delay", [settings.delay]),
-        ("--link-delay", [settings.link_delay]),
-    ):
-        for value in values:
-            if not 0 <= value < np.inf:
-                raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
-    for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
-        if seed < 0:
-            raise InputError(command_line(option), f"{seed}", "a whole number that is not negative")
-    if settings.samples < 2:
-        raise InputError(command_line("--duration"), f"{settings.duration:g} s is one sample", "a longer run")
-    if settings.log_rate is not None:
-        ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
-        if ratio < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
-            whole = f"--rate, {settings.rate:g} Hz, divided by a whole number"
-            raise InputError(command_line("--log-rate"), f"{settings.log_rate:g}", whole)
-    if settings.link_delay and "qs" not in settings.further:
-        raise InputError(command_line("--link-delay"), "no encoders of the links are logged", "--also qs")
-
-
-def chosen(kind: Trajectory, given: Mapping[str, Value]) -> dict[str, Value]:
-    """Values of all settings of a trajectory, those ``given`` [SI] before the defaults.
-
-    Raises InputError for a setting that the trajectory has not and for a value out of its range.
-    """
-    place = command_line("--set")
-    values = {name: one.default for name, one in kind.settings.items()}
-    for name, value in given.items():
-        if name not in kind.settings:
-            known = ", ".join(f"{one}={setting.default}" for one, setting in kind.settings.items())
-            raise InputError(place, f"trajectory {kind.name} has no setting {name!r}", known)
-        setting = kind.settings[name]
-        if setting.choices:
-            if value not in setting.choices:
-                raise InputError(place, f"{name} is {value!r}", f"one of {', '.join(setting.choices)}")
-        elif isinstance(value, str) or not setting.above < value < np.inf:
-            raise InputError(place, f"{name} is {value}", f"a number above {setting.above:g}, {setting.meaning}")
-        values[name] = value
-    return values
-
-
-def trajectory_of(name: str, known: Mapping[str, Trajectory]) -> Trajectory:
-    """The trajectory of a name; raises InputError where there is none."""
-    if name not in known:
-        raise InputError(command_line("--trajectory"), f"there is no trajectory {name!r}", nearest(name, known))
-    return known[name]

@@ -10,14 +10,13 @@ import numpy as np
 
 from generator.cli.place import command_line
 from generator.errors import InputError
-from generator.robot.fields import nearest
 from identification.signals import WRENCH
 from identification.simulation import cascade
+from identification.simulation.checks import check, chosen, each, pose, trajectory_of
 from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
 from identification.simulation.machine import Machine
-from identification.simulation.settings import FURTHER, Settings, check, chosen, each, trajectory_of
-from identification.trajectories import trajectories
-from identification.trajectory import Array, Reference, Task, Trajectory, Value, ends_of
+from identification.simulation.settings import FURTHER, Settings
+from identification.trajectory import Array, Reference, Task, Value
 
 
 @dataclass(frozen=True)
@@ -39,15 +38,13 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
 
     Raises InputError for settings that the robot does not allow.
     """
-    check(settings)
-    kind = trajectory_of(settings.trajectory, trajectories())
-    values = chosen(kind, settings.trajectory_settings)
-    model = _model(machine, settings, kind)
-    pose = _pose(machine, settings)
+    check(settings, machine.robot)
+    kind, values, start = trajectory_of(settings.trajectory), chosen(settings), pose(settings, machine.robot)
+    model = machine.module.Robot(settings.set_name)
     parameters = dict(zip(machine.module.PARAMETERS, model.parameters.tolist(), strict=True))
     draw = np.random.default_rng([settings.seed, 0])
     task = Task(
-        machine.robot, model, parameters, settings.flexible, pose, settings.period, settings.samples, draw, values
+        machine.robot, model, parameters, settings.flexible, start, settings.period, settings.samples, draw, values
     )
     try:
         reference = kind.plan(task)
@@ -56,39 +53,7 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
         raise InputError(command_line("--trajectory"), problem, expected or "settings that the robot allows") from None
     log = Loop(machine, model, settings, reference).run(progress)
     columns = _columns(machine, model, settings, reference, log)
-    return Simulated(columns, settings, values, pose, parameters)
-
-
-def _model(machine: Machine, settings: Settings, kind: Trajectory) -> Any:
-    sets, robot = machine.module.PARAMETER_SETS, machine.robot
-    if settings.set_name not in sets:
-        problem = f"{robot.name} has no parameter set {settings.set_name!r}"
-        raise InputError(command_line("--parameters"), problem, nearest(settings.set_name, sets))
-    if settings.flexible and "flexible" not in machine.module.PLANTS:
-        problem = f"{robot.name} has no elastic drive trains"
-        raise InputError(command_line("--flexible"), problem, "a robot file with the key flexible")
-    if kind.flexible and not settings.flexible:
-        raise InputError(command_line("--trajectory"), f"{kind.name} needs elastic drive trains", "--flexible")
-    for name in settings.further:
-        if name not in FURTHER:
-            raise InputError(command_line("--also"), f"columns {name!r}", f"one of {', '.join(FURTHER)}")
-    return machine.module.Robot(settings.set_name)
-
-
-def _pose(machine: Machine, settings: Settings) -> Array:
-    """The pose of the settings, inside of the limits, or the middle of them."""
-    moving = machine.robot.moving
-    ends = [ends_of(machine.robot, k) for k in range(len(moving))]
-    if settings.pose is None:
-        return np.array([(lower + upper) / 2 for lower, upper in ends])
-    if len(settings.pose) != len(moving):
-        problem = f"{len(settings.pose)} numbers"
-        raise InputError(command_line("--pose"), problem, f"one for each of {len(moving)} joints")
-    for joint, value, (lower, upper) in zip(moving, settings.pose, ends, strict=True):
-        if not lower < value < upper:
-            problem = f"joint {joint.number} at {value:g}"
-            raise InputError(command_line("--pose"), problem, f"a position from {lower:.4g} to {upper:.4g}")
-    return np.array(settings.pose, dtype=float)
+    return Simulated(columns, settings, values, start, parameters)
 
 
 def _columns(machine: Machine, model: Any, settings: Settings, reference: Reference, log: Log) -> dict[str, Array]:

@@ -89,7 +89,7 @@ TRAJECTORY = Trajectory(
     settings={
         "axis": Setting("z", "of the tool along which it presses", choices=tuple(_AXES)),
         "force": Setting(2000.0, "largest force [N]"),
-        "steps": Setting(8.0, "steps up, and down again"),
+        "steps": Setting(8.0, "number of steps up, and down again", below=1000, whole=True),
         "stiffness": Setting(1e7, "of the stop [N/m]"),
     },
     plan=_plan,

@@ -8,14 +8,16 @@ from identification.trajectory import Array, Reference, Setting, Task, Trajector
 
 #: Instants of a period at which a series is looked at.
 _LOOKED_AT = 2000
+#: Largest phase of the highest harmonic in a sample [rad].
+_PHASE = 0.5
 
 
 def _plan(task: Task) -> Reference:
     """q = c + sum over l of a_l sin(l w t) + b_l cos(l w t), as large as the tightest of the limits allows."""
     w = 2 * np.pi * task.number("frequency")
     orders = np.arange(1.0, round(task.number("harmonics")) + 1)
-    if len(orders) < 2:
-        raise ValueError("harmonics is less than 2, which leaves no motion from rest to rest")
+    if w * orders[-1] * task.period > _PHASE:
+        raise ValueError("the highest harmonic is too fast for the controller, expected a lower frequency")
     lower, upper = task.room
     n = len(task.pose)
     q, qd = np.empty((task.samples, n)), np.empty((task.samples, n))
@@ -25,6 +27,9 @@ def _plan(task: Task) -> Reference:
         # Speed and acceleration are zero at t = 0: sum a_l l = 0 and sum b_l l^2 = 0.
         a, b = (_without(task.draw.normal(size=len(orders)) / orders, orders**power) for power in (1, 2))
         room = min(upper[k] - task.pose[k], task.pose[k] - lower[k])
+        if room <= 0:
+            number = task.robot.moving[k].number
+            raise ValueError(f"joint {number} is too near to its limit, expected --pose with room on both sides")
         limits = (room, task.number("speed"), task.number("acceleration"))
         peaks = [np.abs(one).max() for one in _motion(a, b, orders, w, looked_at)]
         scale = min(limit / peak for limit, peak in zip(limits, peaks, strict=True))
@@ -55,7 +60,7 @@ TRAJECTORY = Trajectory(
     title="Fourier series about the pose, from rest to rest",
     settings={
         "frequency": Setting(0.1, "lowest frequency [Hz]"),
-        "harmonics": Setting(5, "number of its multiples"),
+        "harmonics": Setting(5.0, "number of its multiples", above=1, below=100, whole=True),
         "speed": Setting(1.0, "largest speed of a joint [rad/s, m/s]"),
         "acceleration": Setting(2.0, "largest acceleration of a joint [rad/s2, m/s2]"),
     },
