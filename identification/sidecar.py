@@ -41,7 +41,10 @@ class Payload:
 
 @dataclass(frozen=True)
 class Sidecar:
-    """All that a sidecar says; ``robot`` and ``notes`` are empty where it does not."""
+    """All that identification takes from a sidecar; ``robot`` and ``notes`` are empty where it does not say.
+
+    What a simulation was made of, under ``simulated``, is for people.
+    """
 
     robot: str = ""
     notes: str = ""
@@ -59,7 +62,7 @@ def read(run: Path) -> Sidecar:
         return Sidecar()
     file = str(path)
     root = yaml.read(text_of(path, file, "the sidecar of a run"), file)
-    keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns"))
+    keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
     return Sidecar(
         robot=fields.prose(keys.get("robot"), "robot"),
         notes=fields.prose(keys.get("notes"), "notes"),

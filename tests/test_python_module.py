@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
-from generator.backends import batch, c, numpy, python
+from generator.backends import batch, c, numpy, python, simulation
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.python_library import build_library
@@ -58,7 +59,7 @@ def load(path: Path) -> Any:
 
 def folder_of(arm: Subject, folder: Path) -> Path:
     write(folder / "c", c.library(arm.model, ()))
-    for backend in (batch, python):
+    for backend in (batch, python, simulation):
         write(folder / backend.NAME, backend.emit(arm.model))
     return folder
 
@@ -173,6 +174,62 @@ def test_many_samples_go_where_they_are_asked_to_go(made: Made, robot: Any) -> N
     robot.observation_matrix(*signals, out=tall[:, :size].T, layout="columns")
     assert (tall[:, size:] == -7.0).all()
     assert (robot.observation_matrix(*signals, layout="columns") == tall[:, :size].T).all()
+
+
+def test_a_plant_moves_as_the_direct_model_says(made: Made, robot: Any) -> None:
+    """Against scipy's integration of the NumPy module."""
+    rng, nq = np.random.default_rng(5), made.module.NQ
+    for kind, size in made.module.PLANTS.items():
+        name = "direct_dynamics_smooth" if kind == "rigid" else "flexible_direct_dynamics_smooth"
+        q, qd = 0.01 * rng.normal(size=(2, size))
+        q[:nq] = made.arm.state(3)[0]
+        given = {"tau": rng.normal(size=nq), "width": np.full(size, 0.5)}
+        load = None if kind == "rigid" else rng.normal(size=nq)
+        if load is not None:
+            given["tau_ext"] = load
+
+        def rate(_: float, x: Array, name: str = name, size: int = size, given: Any = given) -> Array:
+            return np.concatenate([x[size:], made.wanted(name, {"q": x[:size], "qd": x[size:], **given})])
+
+        plant = made.module.Plant(robot, kind, q, qd, method="DP8", steps=20, width=0.5)
+        assert (plant.q == q).all()
+        assert (plant.qd == qd).all()
+        plant.advance(0.02, given["tau"], load)
+        wanted = solve_ivp(rate, (0.0, 0.02), np.concatenate([q, qd]), rtol=1e-10, atol=1e-12).y[:, -1]
+        assert np.concatenate([plant.q, plant.qd]) == pytest.approx(wanted, rel=1e-6, abs=1e-8)
+
+
+def test_a_controller_is_a_cascade(made: Made, robot: Any) -> None:
+    """e = kp (q_ref - q) + qd_ref - qd of the rotors; z grows by ki period e, then the torque is kv (e + z)."""
+    rng, nq = np.random.default_rng(6), made.module.NQ
+    q_ref, qd_ref, q, qd = rng.normal(size=(4, nq))
+    drives = made.arm.robot.drives
+    N = np.eye(nq) if drives is None else np.array([[float(x) for x in row] for row in drives.coupling])
+    controller = made.module.Controller(robot, 0.01, 3.0, 0.2, 5.0)
+    first = controller.control(q_ref, qd_ref, None, q, qd)
+    e = N @ (3.0 * (q_ref - q) + qd_ref - qd)
+    assert first == pytest.approx(N.T @ (0.2 * 1.05 * e))
+    assert controller.z == pytest.approx(0.05 * e)
+    assert controller.control(q_ref, qd_ref, np.ones(nq), q, qd) == pytest.approx(N.T @ (0.2 * 1.1 * e) + 1.0)
+    controller.z[:] = 0.0
+    assert controller.control(q_ref, None, None, q, qd) == pytest.approx(N.T @ (0.21 * (e - N @ qd_ref)))
+    still = made.module.Controller(robot, 0.01, 3.0, 0.2, 5.0, limit=1e-3).control(q_ref, qd_ref, None, q, qd)
+    assert np.linalg.solve(N.T, still) == pytest.approx(1e-3 * np.sign(e))
+
+
+def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> None:
+    n, Plant = made.module.NQ, made.module.Plant
+    one = np.zeros(n)
+    for message, call in (
+        ("^kind is 'soft', expected one of rigid", lambda: Plant(robot, "soft", one)),
+        ("^q has shape", lambda: Plant(robot, "rigid", np.zeros(n + 1))),
+        ("^method is 'Euler', expected", lambda: Plant(robot, "rigid", one, method="Euler")),
+        ("^steps is 0, expected", lambda: Plant(robot, "rigid", one, steps=0)),
+        ("^width is not positive", lambda: Plant(robot, "rigid", one, width=0.0)),
+        ("^tau has shape", lambda: Plant(robot, "rigid", one).advance(1e-3, np.zeros(n + 1))),
+    ):
+        with pytest.raises(ValueError, match=message):
+            call()
 
 
 def test_no_samples(made: Made, robot: Any) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED, Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.observation import layout
+from generator.backends.printing.plants import plants
 from generator.backends.printing.prepared import prepare
 from generator.backends.printing.python_functions import module_constants
 from generator.backends.printing.signals import described, listed, paragraph
@@ -48,6 +49,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "version": VERSION,
         "methods": [_method(function) for function in model.functions.values()],
         "prefix": model.robot.name,
+        "plants": plants(model),
         "width": len(model.base_parameters),
         "work": layout(structure).work,
         "parameter_count": len(model.parameters),

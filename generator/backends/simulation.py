@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from generator.backends.printing.c_functions import c_language
 from generator.backends.printing.language import LINE
+from generator.backends.printing.plants import plants
 from generator.backends.printing.runge_kutta import METHODS, Method, Stage, stages
 from generator.backends.printing.signals import paragraph
 from generator.backends.printing.templates import render
@@ -15,28 +16,8 @@ from generator.version import VERSION
 
 NAME = "simulation"
 
-#: What the direct models read that are simulated.
-_SIGNALS = {"q", "qd", "tau", "tau_ext", "direction", "width"}
 #: The maps between joints and rotors of a robot that has drives.
 _MAPS = ("motor_position", "motor_speed", "motor_torque", "joint_torque")
-
-
-@dataclass(frozen=True)
-class Plant:
-    """What is simulated: its ``name``, its coordinates' number ``size`` and meaning, the functions that it calls.
-
-    ``links`` are the coordinates whose links slide as well, in the order of their elongations. ``load`` tells whether
-    torques of the surroundings are an input of its own.
-    """
-
-    name: str
-    size: int
-    coordinates: str
-    surfaces: str
-    sliding: str
-    smooth: str
-    links: tuple[int, ...]
-    load: bool
 
 
 @dataclass(frozen=True)
@@ -60,8 +41,8 @@ def emit(model: Model) -> dict[str, str | bytes]:
 
 def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
     """Header and source with these methods, at least two."""
-    plants = [plant for plant in _plants(model) if _known(model, plant)]
-    if not plants:
+    found = plants(model)
+    if not found:
         return {}
     prefix = model.robot.name
     language = c_language(prefix)
@@ -72,7 +53,7 @@ def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
         "digest": model.robot.digest,
         "title": paragraph(f"{prefix}: simulation. {model.robot.description}", LINE - 3),
         "nq": model.dof,
-        "plants": plants,
+        "plants": found,
         "methods": [Integrator(m.name, m.title, m.order, tuple(stages(m, language))) for m in methods],
         "drives": all(name in model.functions for name in _MAPS),
     }
@@ -80,37 +61,3 @@ def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
         f"{prefix}_simulation.h": render("simulation/header.h.jinja", **context),
         f"{prefix}_simulation.c": render("simulation/source.c.jinja", **context),
     }
-
-
-def _plants(model: Model) -> list[Plant]:
-    found = [
-        Plant(
-            "rigid",
-            model.dof,
-            "joint positions",
-            "the joints",
-            "direct_dynamics_sliding",
-            "direct_dynamics_smooth",
-            (),
-            False,
-        )
-    ]
-    if model.elastic:
-        found.append(
-            Plant(
-                "flexible",
-                model.flexible_dof,
-                "[q_m; q_e]: motors in joint units, then elongations",
-                "the motors, then the links of the elastic joints",
-                "flexible_direct_dynamics_sliding",
-                "flexible_direct_dynamics_smooth",
-                model.elastic,
-                True,
-            )
-        )
-    return found
-
-
-def _known(model: Model, plant: Plant) -> bool:
-    functions = [model.functions[name] for name in (plant.sliding, plant.smooth)]
-    return all(signal.name in _SIGNALS for function in functions for signal in function.inputs)

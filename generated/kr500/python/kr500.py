@@ -13,6 +13,9 @@ Many samples: ``inverse_dynamics`` with arrays of shape (n, 6), ``observation_ma
 ``observation_qr`` and ``filtered``. Their arrays are never copied: each must be a contiguous array of doubles. They run
 on OMP_NUM_THREADS threads and give the same bits on any number of them.
 
+Simulation: ``Plant`` is the robot in a state of motion, moved on in fixed steps; ``Controller`` is a cascade that drives it.
+Their arrays are like those of one state.
+
 A wrong type or element type raises TypeError, a wrong shape, order or parameter ValueError; both name the argument.
 
 The library libkr500.so stands beside this file; ``counterpoise generate ROBOT --library`` compiles it. Where it is
@@ -173,6 +176,9 @@ SPARSITY = {
 #: Moving joints, base parameters.
 NQ, NBASE = 6, 59
 
+#: The robots that are simulated, each with the number of its coordinates.
+PLANTS = {"rigid": 6, "flexible": 12}
+
 _ffi = FFI()
 # Arrays are void pointers here: their types have been checked, and cffi passes them quickest.
 _ffi.cdef(
@@ -231,6 +237,20 @@ void kr500_observation_gram(
     const prepared *, const filter *, size_t, const void *, const void *, const void *, const void *, void *, void *);
 void kr500_observation_qr(
     const prepared *, const filter *, size_t, const void *, const void *, const void *, const void *, void *, void *);
+typedef struct { int method; size_t steps; const void *width; } integration;
+typedef struct { double period, kp[6], kv[6], ki[6], limit[6]; } controller;
+typedef struct { double z[6]; } controller_state;
+void kr500_control(
+    const prepared *, const controller *, const void *, const void *, const void *, const void *, const void *,
+    controller_state *, void *);
+typedef struct { double q[6], qd[6], direction[6]; int contact[6]; } rigid_state;
+void kr500_rigid_start(const prepared *, const void *, const void *, rigid_state *);
+void kr500_rigid_advance(
+    const prepared *, const integration *, double, const void *, const void *, rigid_state *);
+typedef struct { double q[12], qd[12], direction[12]; int contact[12]; } flexible_state;
+void kr500_flexible_start(const prepared *, const void *, const void *, flexible_state *);
+void kr500_flexible_advance(
+    const prepared *, const integration *, double, const void *, const void *, flexible_state *);
 """
 )
 
@@ -1304,6 +1324,110 @@ class Robot:
             _buffer(np.empty(_WORK)),
         )
         return result
+
+
+class Plant:
+    """A robot in a state of motion, simulated in fixed steps with torques that are held.
+
+    ``kind`` is one of PLANTS; the coordinates of "flexible" are [q_m; q_e]: motors in joint units, then elongations.
+    ``q`` and ``qd`` are where it starts (zero elongations and speeds may be left out); surfaces at rest that have dry
+    friction stick until a torque moves them. ``method`` is "RK4" (order 4) or "DP8" (order 8), with ``steps`` equal steps an
+    advance. ``width`` [rad/s, m/s], one number or one a surface, is that of the smooth friction; without it friction is
+    sign(qd), with its events located. The parameters are those of ``robot`` (a Robot) at the time of each advance.
+    """
+
+    def __init__(self, robot, kind, q, qd=None, method="RK4", steps=1, width=None):
+        if kind not in PLANTS:
+            raise ValueError(f"kind is {kind!r}, expected one of {', '.join(PLANTS)}")
+        if method not in ("RK4", "DP8"):
+            raise ValueError(f"method is {method!r}, expected 'RK4' or 'DP8'")
+        if steps != int(steps) or steps < 1:
+            raise ValueError(f"steps is {steps}, expected a whole number from 1 on")
+        size = PLANTS[kind]
+        self.robot = robot
+        self._state = _ffi.new(f"{kind}_state *")
+        self._advance = getattr(_lib, f"kr500_{kind}_advance")
+        self._width = None if width is None else np.array(np.broadcast_to(np.asarray(width, float), (size,)))
+        if self._width is not None and not (self._width > 0).all():
+            raise ValueError("width is not positive")
+        smooth = _ffi.NULL if width is None else _buffer(self._width)
+        self._integration = _ffi.new("integration *", (int(method == "DP8"), int(steps), smooth))
+        start = [np.zeros(size), np.zeros(size)]
+        for array, value, name in zip(start, (q, qd), ("q", "qd")):
+            if value is not None:
+                given = np.asarray(value, dtype=float)
+                if given.shape not in ((NQ,), (size,)):
+                    raise ValueError(f"{name} has shape {given.shape}, expected ({size},)")
+                array[: given.size] = given
+        getattr(_lib, f"kr500_{kind}_start")(robot._prepared, *map(_buffer, start), self._state)
+        memory = np.frombuffer(_ffi.buffer(self._state), count=2 * size)
+        self._q, self._qd = memory[:size], memory[size:]
+
+    @property
+    def q(self):
+        """The coordinates: an array that changes with every advance."""
+        return self._q
+
+    @property
+    def qd(self):
+        """Their speeds: an array that changes with every advance."""
+        return self._qd
+
+    def advance(self, time, tau, tau_ext=None):
+        """Moves on by a time during which the torques are held.
+
+        Inputs:
+            time: [s]
+            tau: (6) motor torques, on the joint side [N m, N]
+            tau_ext: (6) torques of the surroundings on the links, positive with q [N m, N], or None
+        """
+        others = _ffi.NULL if tau_ext is None else _signal(tau_ext, (NQ,), "tau_ext")
+        self._advance(self.robot._prepared, self._integration, time, _signal(tau, (NQ,), "tau"), others, self._state)
+
+
+class Controller:
+    """Cascade of every motor, sampled: position P, speed PI, both on the motor's own measurements.
+
+    ``period`` [s] is that of a sample. Each a number or one a motor: ``kp`` [1/s], ``kv`` [N m s/rad, N s/m] of the rotor,
+    ``ki`` [1/s] one over the reset time, ``limit`` [N m, N] of the rotor's torque, none if left out.
+    """
+
+    def __init__(self, robot, period, kp, kv, ki, limit=np.inf):
+        gains = [np.broadcast_to(np.asarray(gain, float), (NQ,)).tolist() for gain in (kp, kv, ki, limit)]
+        self.robot = robot
+        self._gains = _ffi.new("controller *", (float(period), *gains))
+        self._memory = _ffi.new("controller_state *")
+        self._z = np.frombuffer(_ffi.buffer(self._memory), count=NQ)
+
+    @property
+    def z(self):
+        """The integrals [rad/s, m/s] of the rotors, zero at first: an array that changes with every sample."""
+        return self._z
+
+    def control(self, q_ref, qd_ref, tau_ref, q, qd, out=None):
+        """Motor torques of one sample.
+
+        Inputs:
+            q_ref: (6) joint positions wanted [rad, m]
+            qd_ref: (6) joint speeds wanted [rad/s, m/s], or None
+            tau_ref: (6) feedforward torques, on the joint side [N m, N], or None
+            q, qd: (6) measured positions and speeds of the motors, in joint units [rad, m; rad/s, m/s]
+
+        Output: (6) motor torques, on the joint side [N m, N]
+        """
+        tau = _new(out, (NQ,))
+        _lib.kr500_control(
+            self.robot._prepared,
+            self._gains,
+            _signal(q_ref, (NQ,), "q_ref"),
+            _ffi.NULL if qd_ref is None else _signal(qd_ref, (NQ,), "qd_ref"),
+            _ffi.NULL if tau_ref is None else _signal(tau_ref, (NQ,), "tau_ref"),
+            _signal(q, (NQ,), "q"),
+            _signal(qd, (NQ,), "qd"),
+            self._memory,
+            _buffer(tau),
+        )
+        return tau
 
 
 def filtered(y, taps, decimation=1, out=None):

@@ -1,0 +1,125 @@
+"""Simulate a robot under its controller and write the run as the controller would record it.
+
+The robot is a parameter set of its file: by default twin, or twin_flexible with --flexible. FILE is a CSV with motor
+positions and currents (joint positions and torques where the robot has no drives), which identify reads back; a
+YAML file of that name tells what was simulated. The same settings give the same bytes on one machine.
+
+Trajectories and what --set may change are in docs/simulate.md; a name that does not exist lists them. Numbers for
+motors are one, or one each in order.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import bar, stage
+from generator.errors import InputError
+from generator.resources import find_robot
+
+if TYPE_CHECKING:
+    from identification.simulation.settings import Settings
+    from identification.trajectory import Value
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, --out, the model, the trajectory, the controller, what is measured."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--out", metavar="FILE", type=Path, help="default: simulated/ROBOT/TRAJECTORY_SEED.csv")
+    parser.add_argument("--flexible", action="store_true", help="with elastic drive trains")
+    parser.add_argument("--parameters", metavar="SET", help="a set of the robot file")
+    motion = parser.add_argument_group("motion")
+    motion.add_argument("--trajectory", metavar="NAME", default="fourier", help="default: fourier")
+    motion.add_argument("--set", metavar="NAME=VALUE", nargs="+", default=[], help="settings of the trajectory")
+    motion.add_argument("--pose", metavar="Q", type=float, nargs="+", help="start or centre; default: amid the limits")
+    motion.add_argument("--duration", metavar="S", type=float, default=20.0, help="default: 20")
+    motion.add_argument("--seed", metavar="N", type=int, default=0, help="of the trajectory and the noise; default: 0")
+    motion.add_argument("--noise-seed", metavar="N", type=int, help="of the noise alone")
+    control = parser.add_argument_group("controller")
+    control.add_argument("--rate", metavar="HZ", type=float, default=1000.0, help="default: 1000")
+    control.add_argument("--bandwidth", metavar="HZ", type=float, default=6.0, help="of the speed loops, default: 6")
+    control.add_argument(
+        "--largest", metavar="A", type=float, nargs="+", default=[float("inf")], help="current that is cut"
+    )
+    log = parser.add_argument_group("what is measured")
+    log.add_argument("--log-rate", metavar="HZ", type=float, help="default: the controller's")
+    log.add_argument("--also", metavar="STEM", nargs="+", default=[], help="qr: reference, qs: encoders of the links")
+    log.add_argument(
+        "--resolution", metavar="RAD", type=float, nargs="+", default=[0.0], help="step of the motors' encoders"
+    )
+    log.add_argument("--noise", metavar="A", type=float, nargs="+", default=[0.0], help="rms of the currents' noise")
+    log.add_argument("--delay", metavar="S", type=float, default=0.0, help="of the motors' positions")
+    log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="of the links' positions")
+    drift = parser.add_argument_group("temperature, changes by the end in parts")
+    drift.add_argument("--friction-drift", metavar="R", type=float, default=0.0, help="of frictions, such as -0.2")
+    drift.add_argument("--torque-constant-drift", metavar="R", type=float, default=0.0, help="such as -0.05")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Simulates, writes the run and its sidecar, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification.simulation.checks import check
+        from identification.simulation.machine import compiled
+        from identification.simulation.run_file import save
+        from identification.simulation.simulate import simulate
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise simulate"), f"{error.name} is not installed", extra) from None
+
+    settings = _settings(arguments)
+    robot = read(find_robot(arguments.robot))
+    check(settings, robot)
+    out = arguments.out or Path("simulated") / robot.name / f"{settings.trajectory}_{settings.seed}.csv"
+    if out.suffix != ".csv":
+        raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
+    with contextlib.ExitStack() as stack:
+        with stage(f"compiling the simulation of {robot.name}"):
+            machine = stack.enter_context(compiled(robot))
+        with bar(f"simulating {settings.duration:g} s") as progress:
+            found = simulate(machine, settings, progress)
+    files = save(found, robot.name, robot.digest, out)
+    rows = len(found.columns["t"])
+    print(f"{robot.name}: {rows} rows of {', '.join(found.columns)}")
+    print(f"files            {', '.join(map(str, files))}")
+
+
+def _settings(arguments: argparse.Namespace) -> Settings:
+    from identification.simulation.settings import Settings
+
+    return Settings(
+        trajectory=arguments.trajectory,
+        trajectory_settings=dict(map(_setting, arguments.set)),
+        flexible=arguments.flexible,
+        parameters=arguments.parameters,
+        pose=arguments.pose,
+        duration=arguments.duration,
+        seed=arguments.seed,
+        noise_seed=arguments.noise_seed,
+        rate=arguments.rate,
+        log_rate=arguments.log_rate,
+        further=arguments.also,
+        bandwidth=arguments.bandwidth,
+        largest=arguments.largest,
+        resolution=arguments.resolution,
+        noise=arguments.noise,
+        delay=arguments.delay,
+        link_delay=arguments.link_delay,
+        friction_drift=arguments.friction_drift,
+        constant_drift=arguments.torque_constant_drift,
+    )
+
+
+def _setting(word: str) -> tuple[str, Value]:
+    """A word such as ``harmonics=5`` or ``profile=smooth``."""
+    name, equals, text = word.partition("=")
+    if not equals:
+        raise InputError(command_line("--set"), f"{word!r}", "NAME=VALUE")
+    try:
+        return name, float(text)
+    except ValueError:
+        return name, text

@@ -1,0 +1,1 @@
+"""Runs of a simulated robot as its controller would record them."""

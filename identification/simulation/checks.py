@@ -1,0 +1,137 @@
+"""Settings of a simulation that are checked before anything is compiled, and what follows from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from generator.cli.place import command_line
+from generator.errors import InputError
+from generator.robot.description import Robot
+from generator.robot.fields import nearest
+from identification.simulation.settings import FURTHER, Settings
+from identification.trajectories import trajectories
+from identification.trajectory import Array, Trajectory, Value, ends_of
+
+#: Samples of the controller that a run may have.
+_MOST = 10**8
+
+
+def each(values: Sequence[float], n: int, option: str) -> Array:
+    """One value a motor (n); raises InputError for another count than one or n."""
+    if len(values) not in (1, n):
+        raise InputError(command_line(option), f"{len(values)} numbers", f"one, or one for each of {n} motors")
+    return np.array(np.broadcast_to(np.asarray(values, dtype=float), (n,)))
+
+
+def check(settings: Settings, robot: Robot) -> None:
+    """Raises InputError for settings that are wrong, or wrong for the robot; the place is the option of the command."""
+    _check_numbers(settings)
+    _check_rates(settings)
+    _check_robot(settings, robot)
+    n = len(robot.moving)
+    for option, values in (
+        ("--largest", settings.largest),
+        ("--resolution", settings.resolution),
+        ("--noise", settings.noise),
+    ):
+        each(values, n, option)
+    for name in settings.further:
+        if name not in FURTHER:
+            raise InputError(command_line("--also"), f"columns {name!r}", f"one of {', '.join(FURTHER)}")
+    if settings.link_delay and "qs" not in settings.further:
+        raise InputError(command_line("--link-delay"), "no encoders of the links are logged", "--also qs")
+    chosen(settings)
+    pose(settings, robot)
+
+
+def _check_numbers(settings: Settings) -> None:
+    for option, value, least in (
+        ("--duration", settings.duration, 0.0),
+        ("--rate", settings.rate, 0.0),
+        ("--bandwidth", settings.bandwidth, 0.0),
+        *(("--largest", one, 0.0) for one in settings.largest if one != np.inf),
+        ("--friction-drift", settings.friction_drift, -1.0),
+        ("--torque-constant-drift", settings.constant_drift, -1.0),
+    ):
+        if not least < value < np.inf:
+            raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
+    for option, values in (
+        ("--resolution", settings.resolution),
+        ("--noise", settings.noise),
+        ("--delay", [settings.delay]),
+        ("--link-delay", [settings.link_delay]),
+    ):
+        for value in values:
+            if not 0 <= value < np.inf:
+                raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
+    for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
+        if seed < 0:
+            raise InputError(command_line(option), f"{seed}", "a whole number that is not negative")
+
+
+def _check_rates(settings: Settings) -> None:
+    if settings.samples < 2:
+        raise InputError(command_line("--duration"), f"{settings.duration:g} s is one sample", "a longer run")
+    if settings.samples > _MOST:
+        raise InputError(command_line("--duration"), f"{settings.samples} samples", f"at most {_MOST}")
+    if settings.log_rate is not None:
+        ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
+        if ratio < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+            whole = f"--rate, {settings.rate:g} Hz, divided by a whole number"
+            raise InputError(command_line("--log-rate"), f"{settings.log_rate:g}", whole)
+
+
+def _check_robot(settings: Settings, robot: Robot) -> None:
+    if settings.flexible and not robot.flexible:
+        problem = f"{robot.name} has no elastic drive trains"
+        raise InputError(command_line("--flexible"), problem, "a robot file with the key flexible")
+    if settings.set_name not in robot.parameter_sets:
+        problem = f"{robot.name} has no parameter set {settings.set_name!r}"
+        raise InputError(command_line("--parameters"), problem, nearest(settings.set_name, robot.parameter_sets))
+    if trajectory_of(settings.trajectory).flexible and not settings.flexible:
+        problem = f"{settings.trajectory} needs elastic drive trains"
+        raise InputError(command_line("--trajectory"), problem, "--flexible")
+
+
+def chosen(settings: Settings) -> dict[str, Value]:
+    """Values of all settings of the trajectory [SI], those that are given before the defaults.
+
+    Raises InputError for a setting that the trajectory has not and for a value out of its range.
+    """
+    place, given = command_line("--set"), settings.trajectory_settings
+    kind = trajectory_of(settings.trajectory)
+    values = {name: one.default for name, one in kind.settings.items()}
+    for name, value in given.items():
+        if name not in kind.settings:
+            known = ", ".join(f"{one}={setting.default}" for one, setting in kind.settings.items())
+            raise InputError(place, f"trajectory {kind.name} has no setting {name!r}", known)
+        if not kind.settings[name].allows(value):
+            raise InputError(place, f"{name} is {value}", kind.settings[name].range)
+        values[name] = value
+    return values
+
+
+def trajectory_of(name: str) -> Trajectory:
+    """The trajectory of a name; raises InputError where there is none."""
+    known = trajectories()
+    if name not in known:
+        raise InputError(command_line("--trajectory"), f"there is no trajectory {name!r}", nearest(name, known))
+    return known[name]
+
+
+def pose(settings: Settings, robot: Robot) -> Array:
+    """The pose of the settings, inside of the limits, or the middle of them."""
+    moving = robot.moving
+    ends = [ends_of(robot, k) for k in range(len(moving))]
+    if settings.pose is None:
+        return np.array([(lower + upper) / 2 for lower, upper in ends])
+    if len(settings.pose) != len(moving):
+        problem = f"{len(settings.pose)} numbers"
+        raise InputError(command_line("--pose"), problem, f"one for each of {len(moving)} joints")
+    for joint, value, (lower, upper) in zip(moving, settings.pose, ends, strict=True):
+        if not lower < value < upper:
+            problem = f"joint {joint.number} at {value:g}"
+            raise InputError(command_line("--pose"), problem, f"a position from {lower:.4g} to {upper:.4g}")
+    return np.array(settings.pose, dtype=float)

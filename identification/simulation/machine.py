@@ -1,0 +1,83 @@
+"""A robot's generated code, compiled for this machine while it is needed."""
+
+from __future__ import annotations
+
+import importlib.util
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from generator.backends import batch, c, python, simulation
+from generator.derivation import derive
+from generator.errors import InputError
+from generator.python_library import build_library
+from generator.robot.description import Robot
+from generator.symbolic.model import Model
+from generator.writing import replace
+
+#: What a simulation calls, and what the Python module cannot be without.
+_QUANTITIES = (
+    "direct_dynamics_sliding",
+    "direct_dynamics_smooth",
+    "flexible_direct_dynamics_sliding",
+    "flexible_direct_dynamics_smooth",
+    "gravity",
+    "inertia_matrix",
+    "inverse_dynamics",
+    "joint_torque",
+    "motor_position",
+    "motor_speed",
+    "motor_torque",
+    "regressor_packed",
+    "tool_jacobian",
+    "tool_transform",
+    "wrench_torque",
+)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The model of a robot and its generated Python ``module`` on the compiled library."""
+
+    model: Model
+    module: Any
+
+    @property
+    def robot(self) -> Robot:
+        return self.model.robot
+
+
+@contextmanager
+def compiled(robot: Robot) -> Iterator[Machine]:
+    """The robot's machine, in a temporary folder that lasts as long as the body.
+
+    Raises InputError where there is no C compiler and for a robot that cannot be simulated.
+    """
+    model = derive(robot, names=_QUANTITIES, check=False)
+    with tempfile.TemporaryDirectory(prefix="counterpoise-") as temporary:
+        folder = Path(temporary) / robot.name
+        files: dict[str, bytes] = {}
+        for name, emitted in (
+            (c.NAME, c.library(model, ())),
+            *((one.NAME, one.emit(model)) for one in (batch, python, simulation)),
+        ):
+            for path, content in emitted.items():
+                files[f"{name}/{path}"] = content.encode() if isinstance(content, str) else content
+        replace(folder, files)
+        build_library(folder, robot.name)
+        module = _loaded(folder / "python" / f"{robot.name}.py")
+        if not hasattr(module, "PLANTS"):
+            raise InputError(robot.place, "an effect of this robot cannot be simulated", "effects of q and qd")
+        yield Machine(model, module)
+
+
+def _loaded(path: Path) -> Any:
+    specification = importlib.util.spec_from_file_location(path.stem, path)
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module

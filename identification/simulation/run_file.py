@@ -1,0 +1,74 @@
+"""A simulated run as a file, with a sidecar that tells what was simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from generator.errors import InputError, Place
+from generator.version import VERSION
+from identification.simulation.simulate import Simulated
+
+#: Digits of a number in the file.
+_DIGITS = 12
+
+
+def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Path]:
+    """Writes the run's columns to ``path`` and the sidecar beside it; returns both paths.
+
+    Raises InputError where they cannot be written.
+    """
+    beside = path.with_suffix(".yaml")
+    values = np.stack(list(run.columns.values()), axis=1)
+    row = ",".join([f"%.{_DIGITS}g"] * values.shape[1])
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("w", encoding="utf-8", newline="\n") as stream:
+            stream.write(",".join(run.columns) + "\n")
+            stream.writelines(row % tuple(one) + "\n" for one in values.tolist())
+        beside.write_text(_sidecar(run, robot, digest), encoding="utf-8")
+    except OSError as error:
+        place = Place(str(path))
+        raise InputError(place, f"it cannot be written ({error.strerror})", "a file that can be written") from None
+    return path, beside
+
+
+def _sidecar(run: Simulated, robot: str, digest: str) -> str:
+    settings = run.settings
+    about = {
+        "generator": f"counterpoise {VERSION}",
+        "description": digest,
+        "model": "flexible" if settings.flexible else "rigid",
+        "parameters": settings.set_name,
+        "trajectory": settings.trajectory,
+        **{f"trajectory_{name}": value for name, value in run.trajectory.items()},
+        "pose": run.pose.tolist(),
+        "duration": settings.duration,
+        "seed": settings.seed,
+        "noise_seed": settings.seed if settings.noise_seed is None else settings.noise_seed,
+        "rate": settings.rate,
+        "log_rate": settings.log_rate or settings.rate,
+        "bandwidth": settings.bandwidth,
+        "largest": [one for one in settings.largest if one != np.inf],
+        "resolution": settings.resolution,
+        "noise": settings.noise,
+        "delay": settings.delay,
+        "link_delay": settings.link_delay,
+        "friction_drift": settings.friction_drift,
+        "torque_constant_drift": settings.constant_drift,
+    }
+    lines = [f"robot: {robot}", "notes: simulated, not measured", "simulated:", *_table(about), "  values:"]
+    lines += [f"    {name}: {value:.9g}" for name, value in run.parameters.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _table(about: Mapping[str, object]) -> list[str]:
+    return [f"  {name}: {_text(value)}" for name, value in about.items()]
+
+
+def _text(value: object) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_text, value))}]"
+    return f"{value:.9g}" if isinstance(value, float) else str(value)

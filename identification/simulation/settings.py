@@ -1,0 +1,73 @@
+"""All that a simulated run depends on beside the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from identification.trajectory import Value
+
+#: Columns that are logged if asked for: the reference, encoders of the links.
+FURTHER = ("qr", "qs")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of one run; sequences have one value, or one a motor in order.
+
+    ``parameters`` names a set of the robot file, else ``twin`` or ``twin_flexible``; ``pose`` [rad, m] is where the
+    trajectory starts or is centred, else the middle of the limits; ``duration`` [s]; ``rate`` [Hz] of the controller,
+    ``log_rate`` of the log (the same if None). ``further`` columns are of FURTHER.
+
+    ``bandwidth`` [Hz] is that of the speed loops, ``largest`` [A, else N m, N of the rotor] cuts the current.
+    ``resolution`` [rad, m] is a step of the motors' encoders (the joints' where there are no drives), ``noise`` the
+    rms of the logged effort in its unit. ``delay`` [s] is how late controller and log see the motors, ``link_delay``
+    how late the log sees the links. By the end of the run frictions have changed by ``friction_drift``, torque
+    constants by ``constant_drift`` (parts of their first values), evenly in time.
+    """
+
+    trajectory: str = "fourier"
+    trajectory_settings: Mapping[str, Value] = field(default_factory=dict)
+    flexible: bool = False
+    parameters: str | None = None
+    pose: Sequence[float] | None = None
+    duration: float = 20.0
+    seed: int = 0
+    noise_seed: int | None = None
+    rate: float = 1000.0
+    log_rate: float | None = None
+    further: Sequence[str] = ()
+    bandwidth: float = 6.0
+    largest: Sequence[float] = (np.inf,)
+    resolution: Sequence[float] = (0.0,)
+    noise: Sequence[float] = (0.0,)
+    delay: float = 0.0
+    link_delay: float = 0.0
+    friction_drift: float = 0.0
+    constant_drift: float = 0.0
+
+    @property
+    def period(self) -> float:
+        """Of a sample of the controller [s]."""
+        return 1 / self.rate
+
+    @property
+    def samples(self) -> int:
+        """Samples of the controller in the run."""
+        return round(self.duration * self.rate)
+
+    @property
+    def every(self) -> int:
+        """Which samples are logged: each one, each second one and so on."""
+        return round(self.rate / (self.log_rate or self.rate))
+
+    @property
+    def set_name(self) -> str:
+        """The parameter set."""
+        return self.parameters or ("twin_flexible" if self.flexible else "twin")
+
+    def late(self, delay: float) -> int:
+        """A delay in samples of the controller."""
+        return round(delay * self.rate)

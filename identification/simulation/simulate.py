@@ -1,0 +1,92 @@
+"""One run: from a robot and settings to the columns that its controller would record."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from generator.cli.place import command_line
+from generator.errors import InputError
+from identification.signals import WRENCH
+from identification.simulation import cascade
+from identification.simulation.checks import check, chosen, each, pose, trajectory_of
+from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
+from identification.simulation.machine import Machine
+from identification.simulation.settings import FURTHER, Settings
+from identification.trajectory import Array, Reference, Task, Value
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A run's ``columns`` by name (N each), as in a run file, and what it was made from.
+
+    ``parameters`` are the values [SI] at the start; ``trajectory`` are its settings.
+    """
+
+    columns: Mapping[str, Array]
+    settings: Settings
+    trajectory: Mapping[str, Value]
+    pose: Array
+    parameters: Mapping[str, float]
+
+
+def simulate(machine: Machine, settings: Settings, progress: Progress = lambda part: None) -> Simulated:
+    """The run that ``settings`` ask for, the same for the same settings.
+
+    Raises InputError for settings that the robot does not allow.
+    """
+    check(settings, machine.robot)
+    kind, values, start = trajectory_of(settings.trajectory), chosen(settings), pose(settings, machine.robot)
+    model = machine.module.Robot(settings.set_name)
+    parameters = dict(zip(machine.module.PARAMETERS, model.parameters.tolist(), strict=True))
+    draw = np.random.default_rng([settings.seed, 0])
+    task = Task(
+        machine.robot, model, parameters, settings.flexible, start, settings.period, settings.samples, draw, values
+    )
+    try:
+        reference = kind.plan(task)
+    except ValueError as error:
+        problem, _, expected = str(error).partition(", expected ")
+        raise InputError(command_line("--trajectory"), problem, expected or "settings that the robot allows") from None
+    log = Loop(machine, model, settings, reference).run(progress)
+    columns = _columns(machine, model, settings, reference, log)
+    return Simulated(columns, settings, values, start, parameters)
+
+
+def _columns(machine: Machine, model: Any, settings: Settings, reference: Reference, log: Log) -> dict[str, Array]:
+    """What is logged, with the noise of the efforts."""
+    robot, kept = machine.robot, slice(None, None, settings.every)
+    rows, n = log.q.shape
+    numbers = [joint.number for joint in robot.moving]
+    N = cascade.ratios(robot)
+    constants = torque_constants(machine, model)
+    t: Array = settings.period * np.arange(rows, dtype=float)
+    drift = 1 + settings.constant_drift * t / (rows * settings.period)
+    effort = log.tau @ np.linalg.inv(N) / constants / drift[:, None]
+    seed = settings.seed if settings.noise_seed is None else settings.noise_seed
+    noise = np.random.default_rng([seed, 1]).normal(size=effort.shape)
+    effort = effort + each(settings.noise, n, "--noise") * noise
+    late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
+    parts = {
+        "qm" if robot.drives else "q": log.q @ N.T,
+        _effort(machine): effort,
+        "qr": reference.q,
+        "qs": log.links[late],
+    }
+    columns: dict[str, Array] = {"t": t[kept]}
+    for stem, values in parts.items():
+        if stem in settings.further or stem not in FURTHER:
+            columns |= {f"{stem}{number}": values[kept, k] for k, number in enumerate(numbers)}
+    if log.wrench is not None:
+        columns |= {name: log.wrench[kept, k] for k, name in enumerate(WRENCH)}
+    return columns
+
+
+def _effort(machine: Machine) -> str:
+    """The stem of the columns of efforts."""
+    if machine.robot.drives is None:
+        return "tau"
+    return "i" if machine.model.torque_constants else "taum"
