@@ -82,16 +82,18 @@ def _json(path: Path) -> Any:
 
 
 def _entry(one: Any, name: str, place: Place) -> Known:
-    value, std = (one.get("value"), one.get("std")) if isinstance(one, dict) else ("", None)
-    if not (value is None or _is_number(value)) or not (std is None or _is_number(std)):
+    entry = one if isinstance(one, dict) else {"value": ""}
+    value, std = (_number(entry.get(key), name, place) for key in ("value", "std"))
+    unit = str(entry.get("unit", ""))
+    return Known(None, None, unit) if value is None or not math.isfinite(value) else Known(value, std, unit)
+
+
+def _number(value: Any, name: str, place: Place) -> float | None:
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(place, f"{name} has no value", "a number, or null where it is not known")
-    if value is None or not math.isfinite(value):
-        return Known(None, None, str(one.get("unit", "")))
-    return Known(float(value), None if std is None else float(std), str(one.get("unit", "")))
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value)
 
 
 def _of_robot(source: str, name: str, wanted: str) -> Parameters:
