@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
-from generator.robot.description import Drives, Robot
+from generator.robot.description import Robot
 from identification import recipe as recipes
 from identification.dataset import Run, load
+from identification.drive_train import coupling, with_unit_constants
 from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -65,7 +65,7 @@ class DriveGains:
     @property
     def coupling(self) -> Array:
         """N (n x n): motor speeds from joint speeds."""
-        return _coupling(self.robot)
+        return coupling(self.robot)
 
     def gain(self, motor: int) -> tuple[float, float]:
         """g_tau = N_jj kt_j of a motor and its standard deviation [N m/A, N/A] (report eq. 16)."""
@@ -92,8 +92,8 @@ def drive_gains(
     payload show in no torque.
     """
     recipe = recipe or recipes.recipe_of(robot.name)
-    N = _coupling(robot)
-    as_current = _with_unit_constants(robot)
+    N = coupling(robot)
+    as_current = with_unit_constants(robot)
     runs = [_run(source, as_current, recipe) for source in (*empty, *loaded)]
     runs = [replace(run, payload=None) for run in runs[: len(empty)]] + [
         _carrying(run, payload) for run in runs[len(empty) :]
@@ -125,20 +125,6 @@ def drive_gains(
 
 
 Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]
-
-
-def _coupling(robot: Robot) -> Array:
-    if robot.drives is None:
-        raise InputError(robot.place, f"{robot.name} has no drives", "gear ratios, to know what currents do")
-    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])
-
-
-def _with_unit_constants(robot: Robot) -> Robot:
-    """The robot for which joint torques are N^T i."""
-    drives = robot.drives
-    assert drives is not None
-    unit = tuple(Fraction(1) for _ in drives.coupling)
-    return replace(robot, drives=Drives(drives.ratios, drives.coupling, {"unit": unit}, "unit"))
 
 
 def _run(source: str, robot: Robot, recipe: Recipe) -> Run:
