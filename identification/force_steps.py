@@ -1,14 +1,14 @@
 """Stiffness and torque constants from a tool pressed on a rigid stop with steps of force (report eq. 73-78).
 
 The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by axis,
-and N^-T J^T dT + Iam qmdd = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is a pose;
+and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is a pose;
 its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 from typing import Any
 
@@ -34,6 +34,8 @@ Array = NDArray[np.float64]
 RECIPE = Recipe(dynamics=4.0, cutoff=10.0, order=5)
 #: Part of a pose's largest change of a joint torque from which another joint's change counts as the force's.
 _LEVER = 0.05
+#: Samples (at the decimated rate) after which the noise of a signal is another, and its steps are still the same.
+_LAG = 4
 #: Relative standard deviation from which a value is refused.
 LIMIT = 0.1
 #: Difference of two poses, in parts and in standard deviations, from which they contradict each other.
@@ -44,8 +46,10 @@ _STILL = 0.05
 
 @dataclass(frozen=True)
 class Pose:
-    """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of the
-    rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
+    """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
+    the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
+
+    ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
     """
 
     run: Run
@@ -54,6 +58,8 @@ class Pose:
     held: Array
     rotors: Array
     i: Array | None
+    at: Array
+    wrench: Array
 
 
 @dataclass(frozen=True)
@@ -82,9 +88,11 @@ def force_steps(
     """
     runs = [_loaded(str(source), robot, recipe) for source in sources]
     components = tuple(name for name in WRENCH if any(name in run.others for run, _ in runs))
-    wrench_torque = _wrench_torque(robot)
+    generated = _wrench_torque(robot)
     Ia = _inertias(robot, inertias or {})
-    poses = tuple(_pose(run, with_current, robot, recipe, Ia, wrench_torque) for run, with_current in runs)
+    poses = tuple(_pose(run, with_current, robot, recipe, Ia, generated) for run, with_current in runs)
+    stiffness, _, _ = _stiffness(robot, poses, components)
+    poses = tuple(_untwisted(pose, stiffness, robot, generated) for pose in poses)
     stiffness, residuals, notes = _stiffness(robot, poses, components)
     if all(value.value is None for value in stiffness.values()):
         first = next(iter(stiffness.values())).refused
@@ -119,9 +127,7 @@ def _inertias(robot: Robot, values: Mapping[str, float]) -> Array:
     return np.array([values.get(f"Iam{j}", values.get(f"Ia{j}", 0.0)) for j in numbers])
 
 
-def _pose(
-    run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array, generated: Any
-) -> Pose:
+def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array, generated: Any) -> Pose:
     filters = recipe.at(run.rate)
     if run.samples < filters.fewest:
         problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
@@ -135,16 +141,39 @@ def _pose(
             raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     qdd = derivative(derivative(q, run.period), run.period)
-    wrench = np.stack([run.others.get(name, np.zeros(run.samples)) for name in WRENCH])
-    held = generated.wrench_torque(q.T, smoothed(wrench, filters.order, filters.cutoff, run.rate).T).T
-    signals = [q, held, Ia[:, None] * qdd]
+    wrench: Array = np.stack([run.others[name] if name in run.others else np.zeros(run.samples) for name in WRENCH])
+    force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
+    signals = [q, force, Ia[:, None] * qdd]
     if with_current:
         i = np.linalg.solve(coupling(robot).T, run.tau)
         signals.append(smoothed(i, filters.order, filters.cutoff, run.rate))
     inner = slice(filters.first, run.samples - filters.last)
     signals = [decimated(one[:, inner], filters.factor) for one in signals]
-    signals = [one - one.mean(axis=1, keepdims=True) for one in signals]
-    return Pose(run, filters, signals[0], signals[1], signals[2], signals[3] if with_current else None)
+    level, wrench, rotors = signals[:3]
+    # Not of the decimated signal: the decimation's ripple shrinks a constant by 1 %.
+    at = q[:, inner].mean(axis=1)
+    i = _about_mean(signals[3]) if with_current else None
+    held = _held(at, wrench, generated)
+    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, at, wrench)
+
+
+def _about_mean(x: Array) -> Array:
+    result: Array = x - x.mean(axis=1, keepdims=True)
+    return result
+
+
+def _held(links: Array, wrench: Array, generated: Any) -> Array:
+    """J^T wrench (n x N) for links that stand at ``links`` (n)."""
+    result: Array = generated.wrench_torque(np.tile(links, (wrench.shape[1], 1)), wrench.T).T
+    return result
+
+
+def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generated: Any) -> Pose:
+    """The pose with its links where the mean wrench leaves them, which is not where the motors are."""
+    k = [stiffness[f"k{joint.number}"].value for joint in robot.moving]
+    held = _held(pose.at, pose.wrench, generated).mean(axis=1)
+    twist = np.array([torque / value if value else 0.0 for torque, value in zip(held, k, strict=True)])
+    return replace(pose, held=_about_mean(_held(pose.at - twist, pose.wrench, generated)))
 
 
 def _stiffness(
@@ -195,16 +224,21 @@ def _changes(held: Array, k: int) -> bool:
 
 
 def _slope(x: Sequence[Array], y: Sequence[Array]) -> tuple[tuple[float, float], Residual]:
-    """y = slope x of several poses, each about its mean: slope with its standard deviation, and what is left."""
-    X, Y = np.concatenate(x), np.concatenate(y)
-    power = float(X @ X)
-    residual = Residual(len(Y), float(np.linalg.norm(Y)), float(np.linalg.norm(Y)), float(np.linalg.norm(Y)))
+    """y = slope x of several poses, each about its mean: slope with its standard deviation, and what is left.
+
+    The instrument is x itself some samples before and after: least squares would come out too small, as x is noisy too.
+    """
+    inner = slice(_LAG, -_LAG)
+    Z = np.concatenate([(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x])
+    X, Y = (np.concatenate([one[inner] for one in some]) for some in (x, y))
+    size, power = float(np.linalg.norm(Y)), float(Z @ X)
     if not power:
-        return (0.0, np.inf), residual
-    slope = float(X @ Y) / power
+        return (0.0, np.inf), Residual(len(Y), size, size, size)
+    slope = float(Z @ Y) / power
     e = Y - slope * X
     variance = float(e @ e) / max(len(Y) - len(x) - 1, 1) * inflation(e)
-    return (slope, float(np.sqrt(variance / power))), Residual(len(Y), float(np.linalg.norm(e)), *[residual.torque] * 2)
+    std = float(np.sqrt(variance) * np.linalg.norm(Z)) / abs(power)
+    return (slope, std), Residual(len(Y), float(np.linalg.norm(e)), size, size)
 
 
 def _value(slope: tuple[float, float], unit: str) -> Value:
@@ -215,9 +249,7 @@ def _value(slope: tuple[float, float], unit: str) -> Value:
     return Value(value, std, unit)
 
 
-def _contradictions(
-    name: str, pooled: tuple[float, float], poses: Sequence[tuple[str, Array, Array]]
-) -> list[str]:
+def _contradictions(name: str, pooled: tuple[float, float], poses: Sequence[tuple[str, Array, Array]]) -> list[str]:
     """Poses whose own value is far from that of all together: their links moved, or a component was not measured."""
     notes = []
     for run, x, y in poses if len(poses) > 1 else ():

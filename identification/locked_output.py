@@ -90,12 +90,14 @@ def locked_output(
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
     if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:
         problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
-        raise InputError(found[0][0].place, problem_text, "a motor that turns slowly to and fro against the blocked output")
+        raise InputError(
+            found[0][0].place, problem_text, "a motor that turns slowly to and fro against the blocked output"
+        )
     notes = [note for run, _ in found for note in run.notes]
     if joint.number not in robot.flexible:
         notes.append(f"the file of {robot.name} does not list joint {number} as flexible")
-    residuals = [_residual(factor, solution), _residual(factor, best)]
-    return LockedOutput(robot, joint, tuple(found), full, kept, *residuals, tuple(removed), tuple(notes))
+    whole, small = _residual(factor, solution), _residual(factor, best)
+    return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, tuple(removed), tuple(notes))
 
 
 def _joint(robot: Robot, number: int, sources: Sequence[str]) -> tuple[int, Joint]:

@@ -88,8 +88,8 @@ def save(
     elastic = {f"k{number}" for number in robot.flexible}
     own = {name: one for name, one in values.items() if name in elastic}
     others = {name: one for name, one in values.items() if name not in elastic}
-    sets = [outcome.values_of_set(some) for some in (own, others)]
-    one = ParameterSet(SET, "stiffness of the drive trains", source, *sets)
+    kept, beside = outcome.values_of_set(own), outcome.values_of_set(others)
+    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, beside)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
     replace(folder, {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode()})
     return sorted([RESULTS, f"{robot.name}.yaml"])

@@ -1,8 +1,8 @@
 """Identify the stiffness of drive trains, with the output blocked or with steps of force on a rigid stop.
 
 --locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one a pose, in which the tool
-presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where they
-hold currents, torque constants are identified too. What the poses cannot show is refused by name. DIR receives
+presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where
+they hold currents, torque constants are identified too. What the poses cannot show is refused by name. DIR receives
 results.json and the robot file with the values in it.
 """
 
