@@ -1,8 +1,8 @@
 """Stiffness and torque constants from a tool pressed on a rigid stop with steps of force (report eq. 73-78).
 
-The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by axis,
-and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is a pose;
-its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
+The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by
+axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is
+a pose; its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
 """
 
 from __future__ import annotations
@@ -145,8 +145,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
     signals = [q, force, Ia[:, None] * qdd]
     if with_current:
-        i = np.linalg.solve(coupling(robot).T, run.tau)
-        signals.append(smoothed(i, filters.order, filters.cutoff, run.rate))
+        current = np.asarray(np.linalg.solve(coupling(robot).T, run.tau), dtype=float)
+        signals.append(smoothed(current, filters.order, filters.cutoff, run.rate))
     inner = slice(filters.first, run.samples - filters.last)
     signals = [decimated(one[:, inner], filters.factor) for one in signals]
     level, wrench, rotors = signals[:3]
