@@ -6,7 +6,7 @@ A run is a file, or a part of it: ``A.csv@2:8`` is the run from 2 s to 8 s by th
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -67,11 +67,13 @@ class Run:
         return 1 / self.period
 
 
-def load(source: str, robot: Robot, columns: Mapping[str, Formula] | None = None) -> Run:
+def load(
+    source: str, robot: Robot, columns: Mapping[str, Formula] | None = None, efforts: Sequence[str] = EFFORTS
+) -> Run:
     """The run that ``source`` names: a path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
 
     ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
-    what they make. A sidecar's come on top.
+    what they make. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
@@ -86,7 +88,7 @@ def load(source: str, robot: Robot, columns: Mapping[str, Formula] | None = None
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
     recording, first = _part(recording, source, start, end)
-    return _run(source, recording, robot, beside.payload, first)
+    return _run(source, recording, robot, beside.payload, first, efforts)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -117,12 +119,14 @@ def _part(recording: Recording, source: str, start: float, end: float) -> tuple[
     return Recording(recording.file, columns, recording.sha256, recording.where, recording.notes), first
 
 
-def _run(source: str, recording: Recording, robot: Robot, payload: Payload | None, first: int) -> Run:
+def _run(
+    source: str, recording: Recording, robot: Robot, payload: Payload | None, first: int, efforts: Sequence[str]
+) -> Run:
     def where(row: int | None, column: str) -> Place:
         return recording.where(None if row is None else row + first, column)
 
     at = measured(recording, POSITIONS, robot, "positions")
-    effort = measured(recording, EFFORTS, robot, "efforts")
+    effort = measured(recording, efforts, robot, "efforts")
     others = {name: values for name, values in recording.columns.items() if _known(name, robot)}
     named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
     times = [("t", recording.columns["t"])] if "t" in recording.columns else []

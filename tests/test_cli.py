@@ -54,7 +54,18 @@ def test_every_command_module_is_an_entry_point() -> None:
 
 def test_commands_are_found_without_an_installation(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("generator.cli.main.metadata.entry_points", lambda group: [])
-    assert list(cli.commands()) == ["check", "evaluate", "generate", "identify", "list", "review", "simulate"]
+    assert list(cli.commands()) == [
+        "check",
+        "compare",
+        "evaluate",
+        "gains",
+        "generate",
+        "identify",
+        "list",
+        "review",
+        "simulate",
+        "stiffness",
+    ]
 
 
 def test_help_names_every_command_and_what_it_does(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,74 @@
+"""Compare two sets of parameter values, one by one: relative differences, and whether they can be noise.
+
+A and B are results (results.json, or a model of it: results.json:essential, results.json:consistent) or parameter sets
+of robots (ROBOT:SET). Differences are in parts of A (report eq. 79). DIR receives comparison.json.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.errors import InputError
+
+if TYPE_CHECKING:
+    from identification.comparison import Comparison, Difference
+    from identification.parameter_source import Known
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """A, B, --out."""
+    parser.add_argument("a", metavar="A", help="the values compared with: RESULTS.json or ROBOT:SET")
+    parser.add_argument("b", metavar="B", help="the other values")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where comparison.json goes; nowhere without")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Compares and prints a row a parameter."""
+    try:
+        from identification.comparison import compare
+        from identification.comparison_results import save
+        from identification.parameter_source import parameters
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise compare"), f"{error.name} is not installed", extra) from None
+
+    found = compare(parameters(arguments.a), parameters(arguments.b))
+    print(_table(found))
+    if arguments.out is not None:
+        print(f"files            {', '.join(save(found, arguments.out))} in {arguments.out}/")
+
+
+def _table(found: Comparison) -> str:
+    width = max(map(len, [*found.differences, "parameter"]))
+    lines = [f"A {found.a.name}, B {found.b.name}"]
+    lines.append(f"{'parameter'.ljust(width)} {'A':>12} {'B':>12} {'e %':>9} {'std of A %':>10}  unit")
+    lines += [_row(one, width) for one in found.differences.values()]
+    common = list(found.common)
+    told = [one for one in common if one.agrees is not None]
+    agreeing = sum(1 for one in told if one.agrees)
+    lines.append(f"{len(common)} parameters in common; {agreeing} of {len(told)} with a std agree within 2 std")
+    return "\n".join(lines)
+
+
+def _row(one: Difference, width: int) -> str:
+    percent = "" if one.percent is None else f"{one.percent:.1f}"
+    apart = "" if one.agrees is not False else f"  {one.deviations:.1f} std apart"
+    return (
+        f"{one.name.ljust(width)} {_value(one.a):>12} {_value(one.b):>12} {percent:>9} {_relative(one.a):>10}"
+        f"  {one.unit}{apart}"
+    )
+
+
+def _value(one: Known | None) -> str:
+    if one is None:
+        return "-"
+    return "unknown" if one.value is None else f"{one.value:.6g}"
+
+
+def _relative(one: Known | None) -> str:
+    if one is None or one.std is None or not one.value:
+        return ""
+    return f"{100 * one.std / abs(one.value):.3g}"

@@ -1,0 +1,80 @@
+"""Identify the drive gains of all motors by total least squares, from runs without and with a known payload.
+
+Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. What is known of the payload, its
+mass at least, stands in the sidecars of the loaded runs or in --payload. A gain that the runs cannot show is refused by
+name.
+DIR receives results.json and the robot file with the gains and the parameters in it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import stage
+from generator.errors import InputError
+from generator.resources import find_robot
+
+if TYPE_CHECKING:
+    from identification.drive_gains import DriveGains
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, --empty, --loaded, --payload, --out, the filters."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--empty", metavar="RUN", nargs="+", required=True, help="runs without the payload")
+    parser.add_argument("--loaded", metavar="RUN", nargs="+", required=True, help="runs with it")
+    parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", help="what is known of it [SI], such as M=175")
+    parser.add_argument(
+        "--payload-std", metavar="NAME=VALUE", nargs="+", default=[], help="standard deviations of known values"
+    )
+    parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_gains")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Identifies, writes the results, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification import recipe as recipes
+        from identification.drive_gains import drive_gains
+        from identification.gains_results import save
+        from identification.observation import Regressors
+        from identification.sidecar import given
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise gains"), f"{error.name} is not installed", extra) from None
+
+    path = find_robot(arguments.robot)
+    payload = None if arguments.payload is None else given(arguments.payload, command_line("--payload"))
+    stds = given(arguments.payload_std, command_line("--payload-std")).known
+    for stem, std in stds.items():
+        if std < 0:
+            raise InputError(command_line("--payload-std"), f"{stem}={std:g}", "a number that is not negative")
+    recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)
+    with stage(f"deriving the model of {path.stem}"):
+        robot = read(path)
+        regressors = Regressors(robot)
+    with stage(f"identifying the drive gains from {len(arguments.empty) + len(arguments.loaded)} runs"):
+        found = drive_gains(robot, arguments.empty, arguments.loaded, payload, stds, recipe, regressors)
+    folder = arguments.out or Path("identified") / f"{robot.name}_gains"
+    files = save(found, path, folder)
+    print(_summary(found))
+    print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _summary(found: DriveGains) -> str:
+    from identification import outcome
+    from identification.gains_results import gains, parameters, refusals
+
+    lines = [f"{found.robot.name}: {len(found.constants)} of {len(found.robot.moving)} drive gains"]
+    lines += [f"note: {note}" for note in (*found.notes, *refusals(found))]
+    lines += outcome.table({**gains(found), **parameters(found)})
+    lines.append(f"second smallest singular value over the smallest: {found.separation:.4g}")
+    each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.residuals.per_joint.items()))
+    total = found.residuals.total
+    lines.append(f"||e||/||Y|| {total.relative:.4f} %, ||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})")
+    return "\n".join(lines)

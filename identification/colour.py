@@ -1,0 +1,32 @@
+"""By how much a coloured residual makes estimates less certain than a white one of the same size."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Lags looked at, as a part of the samples, and their largest number.
+_PART, _MOST = 0.1, 200
+
+
+def inflation(e: Array) -> float:
+    """Variance of the mean of ``e`` (N, in time order) over that of white noise, 1 + 2 sum of its correlations.
+
+    The sum ends before the first pair of lags whose sum is not positive (initial positive sequence, Geyer 1992).
+    Never below 1.
+    """
+    e = e - e.mean() if e.size else e
+    power = float(e @ e)
+    if power == 0.0:
+        return 1.0
+    last = min(int(_PART * len(e)), _MOST)
+    correlation = [float(e[k:] @ e[:-k]) / power for k in range(1, last + 1)]
+    total = 1.0
+    for k in range(0, len(correlation) - 1, 2):
+        pair = correlation[k] + correlation[k + 1]
+        if pair <= 0:
+            break
+        total += 2 * pair
+    return max(total, 1.0)

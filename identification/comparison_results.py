@@ -1,0 +1,54 @@
+"""What a comparison leaves behind: comparison.json."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from generator.version import VERSION
+from generator.writing import replace
+from identification.comparison import AGREE, Comparison, Difference
+from identification.parameter_source import Known, Parameters
+from identification.results import written
+
+COMPARISON = "comparison.json"
+
+
+def document(found: Comparison) -> dict[str, Any]:
+    """The content of comparison.json, see docs/identification.md."""
+    return {
+        "version": VERSION,
+        "method": {
+            "name": "relative difference",
+            "difference": "100 |b - a| / |a| (report eq. 79)",
+            "agreement": f"within {AGREE:g} standard deviations of the difference, as of independent estimates",
+        },
+        "data": {"a": _source(found.a), "b": _source(found.b)},
+        "parameters": {name: _difference(one) for name, one in found.differences.items()},
+    }
+
+
+def save(found: Comparison, folder: Path) -> list[str]:
+    """Writes comparison.json into ``folder``; raises InputError where that cannot be written."""
+    replace(folder, {COMPARISON: written(document(found)).encode()})
+    return [COMPARISON]
+
+
+def _source(one: Parameters) -> dict[str, Any]:
+    return {"name": one.name, "file": one.file, "sha256": one.sha256}
+
+
+def _difference(one: Difference) -> dict[str, Any]:
+    return {
+        "a": _known(one.a),
+        "b": _known(one.b),
+        "difference_percent": one.percent,
+        "deviations": one.deviations,
+        "agrees": one.agrees,
+        "unit": one.unit,
+    }
+
+
+def _known(one: Known | None) -> dict[str, Any] | None:
+    """None where a side does not have the parameter; a value of None where it has it and does not know it."""
+    return None if one is None else {"value": one.value, "std": one.std}

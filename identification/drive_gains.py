@@ -1,0 +1,268 @@
+"""Drive gains of all motors at once, from runs without and with a payload of known mass (report section 3.2).
+
+Where a gain cannot be told from the parameters of the model its motor is left out, and named: the others do not suffer
+from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification import recipe as recipes
+from identification.dataset import Run, load
+from identification.drive_train import coupling, with_unit_constants
+from identification.motor_rows import MotorRows, motor_rows
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from identification.residuals import Residual, Residuals
+from identification.sampling import Sampled, sampled
+from identification.sidecar import Payload
+from identification.total_least_squares import Fit, Part, solve
+
+Array = NDArray[np.float64]
+
+#: Relative standard deviation from which a gain counts as not observable.
+LIMIT = 0.1
+#: Step of a payload's known value for its derivative, in standard deviations.
+_STEP = 0.5
+#: Unexplained part of a motor's torque [%] that is told.
+_DOUBTFUL = 50.0
+
+
+@dataclass(frozen=True)
+class DriveGains:
+    """Torque constants and parameters with their standard deviations, by motor (from 0) and by name.
+
+    ``constants`` [N m/A] lack the ``refused`` motors, for each of which the reason is told. ``payload_share`` is the
+    part of each relative standard deviation that comes from the payload's. Parameters that nothing shows have an
+    infinite standard deviation. ``residuals`` are on the motor side [N m], by motor.
+    """
+
+    regressors: Regressors
+    recipe: Recipe
+    empty: tuple[Sampled, ...]
+    loaded: tuple[Sampled, ...]
+    constants: Mapping[int, tuple[float, float]]
+    refused: Mapping[int, str]
+    payload_share: Mapping[int, float]
+    payload_std: Mapping[str, float]
+    parameters: Mapping[str, tuple[float, float]]
+    residuals: Residuals
+    separation: float
+    notes: tuple[str, ...]
+
+    @property
+    def robot(self) -> Robot:
+        """The robot as its file says."""
+        return self.regressors.model.robot
+
+    @property
+    def coupling(self) -> Array:
+        """N (n x n): motor speeds from joint speeds."""
+        return coupling(self.robot)
+
+    def gain(self, motor: int) -> tuple[float, float]:
+        """g_tau = N_jj kt_j of a motor and its standard deviation [N m/A, N/A] (report eq. 16)."""
+        value, std = self.constants[motor]
+        ratio = float(self.coupling[motor, motor])
+        return ratio * value, abs(ratio) * std
+
+
+def drive_gains(
+    robot: Robot,
+    empty: Sequence[str],
+    loaded: Sequence[str],
+    payload: Payload | None = None,
+    payload_std: Mapping[str, float] | None = None,
+    recipe: Recipe | None = None,
+    regressors: Regressors | None = None,
+) -> DriveGains:
+    """Gains from runs ``empty`` and ``loaded``, whose efforts are currents.
+
+    ``payload`` is that of loaded runs whose sidecar tells none; at least one of its values must be known.
+    ``payload_std`` are standard deviations of known values by stem [SI].
+
+    Raises InputError for runs without currents, loaded ones without a payload, and where the known values of the
+    payload show in no torque.
+    """
+    recipe = recipe or recipes.recipe_of(robot.name)
+    N = coupling(robot)
+    as_current = with_unit_constants(robot)
+    runs = [_run(source, as_current, recipe) for source in (*empty, *loaded)]
+    runs = [replace(run, payload=None) for run in runs[: len(empty)]] + [
+        _carrying(run, payload) for run in runs[len(empty) :]
+    ]
+    stds = dict(payload_std or {})
+    _check_known(runs[len(empty) :], stds)
+    regressors = regressors or Regressors(robot)
+    seen = [sampled(run, recipe, regressors) for run in runs]
+    names = _names(regressors, runs)
+    rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
+    fit, refused, parts = _observable(rows, names, len(N), robot, runs[len(empty)])
+    from_payload = _of_payload(rows, names, fit, refused, stds)
+    variance = np.diag(fit.covariance) + from_payload**2
+    n = len(N)
+    constants = {m: (float(fit.k[m]), float(np.sqrt(variance[m]))) for m in range(n) if m not in refused}
+    sought = _sought(names, runs)
+    parameters = {}
+    for k, name in enumerate(names):
+        if name in sought:
+            std = np.inf if fit.hidden[k] else float(np.sqrt(variance[n + k]))
+            parameters[name] = (float(fit.chi[k]), std)
+    share = {m: abs(from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
+    residuals = _residuals(fit, parts)
+    notes = [note for run in runs for note in run.notes] + _doubts(residuals, constants, robot)
+    ends = tuple(seen[: len(empty)]), tuple(seen[len(empty) :])
+    return DriveGains(
+        regressors, recipe, *ends, constants, refused, share, stds, parameters, residuals, fit.separation, tuple(notes)
+    )
+
+
+Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]
+
+
+def _run(source: str, robot: Robot, recipe: Recipe) -> Run:
+    run = load(str(source), robot, recipe.columns, ("i",))
+    fewest = recipe.at(run.rate).fewest
+    if run.samples < fewest:
+        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        raise InputError(run.place, problem, f"at least {fewest} for the filters")
+    return run
+
+
+def _carrying(run: Run, payload: Payload | None) -> Run:
+    carried = run.payload or payload
+    if carried is None:
+        raise InputError(run.place, "nothing tells the payload of this run", "payload: {M: ... kg} in its sidecar")
+    if not any(carried.known.values()):
+        raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass at least")
+    return replace(run, payload=carried)
+
+
+def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
+    if not loaded:
+        raise ValueError("no loaded run")
+    values: dict[str, Mapping[str, float]] = {}
+    for run in loaded:
+        assert run.payload is not None
+        if values.setdefault(run.payload.name, run.payload.known) != run.payload.known:
+            raise InputError(run.place, f"payload {run.payload.name} has other values here", "one payload of a name")
+        for stem in stds:
+            if stem not in run.payload.known:
+                raise InputError(run.place, f"{stem} of payload {run.payload.name} is not known", "a value for its std")
+
+
+def _names(regressors: Regressors, runs: Sequence[Run]) -> tuple[str, ...]:
+    """Base parameters, then all ten of each payload."""
+    names = dict.fromkeys(regressors.names)
+    for run in runs:
+        if run.payload is not None:
+            names |= dict.fromkeys(run.payload.names().values())
+    return tuple(names)
+
+
+def _known(runs: Sequence[Run]) -> dict[str, float]:
+    return {
+        run.payload.names()[stem]: value
+        for run in runs
+        if run.payload is not None
+        for stem, value in run.payload.known.items()
+    }
+
+
+def _sought(names: Sequence[str], runs: Sequence[Run]) -> list[str]:
+    known = _known(runs)
+    return [name for name in names if name not in known]
+
+
+def _parts(
+    rows: Observations, names: Sequence[str], left_out: Mapping[int, str], more: Mapping[str, float]
+) -> list[Part]:
+    """The rows with the payloads' known values, plus ``more`` by stem, in w."""
+    result = []
+    every = _known([one.run for one, _ in rows])
+    free = np.array([name not in every for name in names])
+    for one, each in rows:
+        known = np.zeros(len(names))
+        payload = one.run.payload
+        if payload is not None:
+            for stem, value in payload.known.items():
+                known[names.index(payload.names()[stem])] = value + more.get(stem, 0.0)
+        for motor in each:
+            if motor.motor not in left_out:
+                result.append(Part(motor.motor, motor.B * free, motor.B @ known, motor.i))
+    return result
+
+
+def _observable(
+    rows: Observations, names: Sequence[str], n: int, robot: Robot, first: Run
+) -> tuple[Fit, dict[int, str], list[Part]]:
+    """The fit of all motors whose gain can be told, and why that of the others cannot."""
+    refused: dict[int, str] = {}
+    for m in range(n):
+        if not any(len(each[m].i) for _, each in rows):
+            refused[m] = "it has no rows: its joint is never faster than the standstill threshold"
+    while len(refused) < n:
+        parts = _parts(rows, names, refused, {})
+        fit = solve(parts, n)
+        if fit.scale == 0.0:
+            break
+        relative = _relative(fit)
+        live = [m for m in range(n) if m not in refused]
+        worst = max(live, key=lambda m: relative[m])
+        if relative[worst] <= LIMIT:
+            return fit, refused, parts
+        size = f"{100 * relative[worst]:.3g} %" if np.isfinite(relative[worst]) else "infinite"
+        refused[worst] = f"what is known of the payload does not show in its torque (relative std {size})"
+    problem = f"no drive gain of {robot.name} can be told: what is known of the payload shows in no torque"
+    raise InputError(first.place, problem, "a payload that moves against gravity, and its mass or first moments")
+
+
+def _relative(fit: Fit) -> Array:
+    std = np.sqrt(np.diag(fit.covariance)[: len(fit.k)])
+    result: Array = np.where(fit.k != 0, std / np.maximum(np.abs(fit.k), 1e-300), np.inf)
+    return result
+
+
+def _of_payload(
+    rows: Observations, names: Sequence[str], fit: Fit, refused: Mapping[int, str], stds: Mapping[str, float]
+) -> Array:
+    """Standard deviations of [k, chi] that come from those of the payload's known values."""
+    square = np.zeros(len(fit.k) + len(fit.chi))
+    for stem, std in stds.items():
+        if std:
+            ends = [solve(_parts(rows, names, refused, {stem: sign * _STEP * std}), len(fit.k)) for sign in (1, -1)]
+            change = np.concatenate([ends[0].k, ends[0].chi]) - np.concatenate([ends[1].k, ends[1].chi])
+            square += (change / (2 * _STEP)) ** 2
+    result: Array = np.sqrt(square)
+    return result
+
+
+def _residuals(fit: Fit, parts: Sequence[Part]) -> Residuals:
+    found: dict[int, Residual] = {}
+    for m in sorted({one.gain for one in parts}):
+        mine = [one for one in parts if one.gain == m]
+        error = np.concatenate([fit.errors(one) for one in mine])
+        tau = fit.k[m] * np.concatenate([one.i for one in mine])
+        norms = (float(np.linalg.norm(x)) for x in (error, tau, tau - tau.mean()))
+        found[m] = Residual(len(tau), *norms)
+    return Residuals(found)
+
+
+def _doubts(residuals: Residuals, constants: Mapping[int, tuple[float, float]], robot: Robot) -> list[str]:
+    notes = []
+    for m, one in residuals.per_joint.items():
+        number = robot.moving[m].number
+        if one.relative_to_mean > _DOUBTFUL:
+            notes.append(f"motor {number}: {one.relative_to_mean:.0f} % of its torque's spread is unexplained")
+        if m in constants and constants[m][0] < 0:
+            notes.append(
+                f"motor {number}: its torque constant comes out negative; is the sign of its gear ratio right?"
+            )
+    return notes

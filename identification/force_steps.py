@@ -1,0 +1,260 @@
+"""Stiffness and torque constants from a tool pressed on a rigid stop with steps of force (report eq. 73-78).
+
+The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by
+axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is
+a pose; its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.backends import numpy as numpy_backend
+from generator.derivation import derive
+from generator.errors import InputError
+from generator.robot.description import PRISMATIC, Robot
+from identification.colour import inflation
+from identification.dataset import Run, load
+from identification.drive_train import coupling, with_unit_constants
+from identification.filtering import decimated, derivative, smoothed
+from identification.outcome import Value
+from identification.recipe import Filters, Recipe
+from identification.residuals import Residual
+from identification.signals import EFFORTS, WRENCH
+
+Array = NDArray[np.float64]
+
+#: The report: Butterworth of order 5 at 10 Hz, forward and backward.
+RECIPE = Recipe(dynamics=4.0, cutoff=10.0, order=5)
+#: Part of a pose's largest change of a joint torque from which another joint's change counts as the force's.
+_LEVER = 0.05
+#: Samples (at the decimated rate) after which the noise of a signal is another, and its steps are still the same.
+_LAG = 4
+#: Relative standard deviation from which a value is refused.
+LIMIT = 0.1
+#: Difference of two poses, in parts and in standard deviations, from which they contradict each other.
+_APART, _DEVIATIONS = 0.2, 4.0
+#: Motion [rad, m] beyond which a joint does more than yield.
+_STILL = 0.05
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
+    the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
+
+    ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
+    """
+
+    run: Run
+    filters: Filters
+    q: Array
+    held: Array
+    rotors: Array
+    i: Array | None
+    at: Array
+    wrench: Array
+
+
+@dataclass(frozen=True)
+class ForceSteps:
+    """Stiffness k and torque constants kt by name, with residuals by joint and by motor (from 0)."""
+
+    robot: Robot
+    poses: tuple[Pose, ...]
+    components: tuple[str, ...]
+    stiffness: Mapping[str, Value]
+    constants: Mapping[str, Value]
+    residuals: Mapping[int, Residual]
+    motor_residuals: Mapping[int, Residual]
+    notes: tuple[str, ...]
+
+
+def force_steps(
+    robot: Robot, sources: Sequence[str], inertias: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
+) -> ForceSteps:
+    """Values from the runs ``sources``, one a pose, each with columns of the wrench in the tool frame.
+
+    ``inertias`` hold Iam or Ia of the joints by name, for the rotors' acceleration, which is left out without.
+    Torque constants need currents in every run.
+
+    Raises InputError for runs without a wrench, joints that move freely, and where no joint's stiffness shows.
+    """
+    runs = [_loaded(str(source), robot, recipe) for source in sources]
+    components = tuple(name for name in WRENCH if any(name in run.others for run, _ in runs))
+    generated = _wrench_torque(robot)
+    Ia = _inertias(robot, inertias or {})
+    poses = tuple(_pose(run, with_current, robot, recipe, Ia, generated) for run, with_current in runs)
+    stiffness, _, _ = _stiffness(robot, poses, components)
+    poses = tuple(_untwisted(pose, stiffness, robot, generated) for pose in poses)
+    stiffness, residuals, notes = _stiffness(robot, poses, components)
+    if all(value.value is None for value in stiffness.values()):
+        first = next(iter(stiffness.values())).refused
+        raise InputError(runs[0][0].place, f"no joint's stiffness can be told: {first}", "steps of a measured force")
+    constants, motor_residuals = _constants(robot, poses)
+    if constants and not np.any(Ia):
+        notes.append("torque constants without the rotors' acceleration: no inertia Iam or Ia was given")
+    notes = [note for run, _ in runs for note in run.notes] + notes
+    return ForceSteps(robot, poses, components, stiffness, constants, residuals, motor_residuals, tuple(notes))
+
+
+def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
+    """A run, and whether its efforts are N^T i of currents."""
+    try:
+        return load(source, with_unit_constants(robot), recipe.columns, ("i",)), True
+    except InputError as error:
+        if "there are no columns of efforts" not in str(error):
+            raise
+    return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i")), False
+
+
+def _wrench_torque(robot: Robot) -> Any:
+    """The generated module with the function wrench_torque(q, wrench)."""
+    (text,) = numpy_backend.emit(derive(robot, names=("wrench_torque",))).values()
+    module = ModuleType(robot.name)
+    exec(compile(text, f"<{robot.name}>", "exec"), module.__dict__)
+    return module
+
+
+def _inertias(robot: Robot, values: Mapping[str, float]) -> Array:
+    numbers = [joint.number for joint in robot.moving]
+    return np.array([values.get(f"Iam{j}", values.get(f"Ia{j}", 0.0)) for j in numbers])
+
+
+def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array, generated: Any) -> Pose:
+    filters = recipe.at(run.rate)
+    if run.samples < filters.fewest:
+        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
+    if not any(name in run.others for name in WRENCH):
+        raise InputError(run.place, "there are no columns of the wrench", f"one at least of {' '.join(WRENCH)}")
+    for joint, positions in zip(robot.moving, run.q, strict=True):
+        if np.ptp(positions) > _STILL:
+            unit = "m" if joint.sigma == PRISMATIC else "rad"
+            problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
+            raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
+    q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    qdd = derivative(derivative(q, run.period), run.period)
+    wrench: Array = np.stack([run.others[name] if name in run.others else np.zeros(run.samples) for name in WRENCH])
+    force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
+    signals = [q, force, Ia[:, None] * qdd]
+    if with_current:
+        current = np.asarray(np.linalg.solve(coupling(robot).T, run.tau), dtype=float)
+        signals.append(smoothed(current, filters.order, filters.cutoff, run.rate))
+    inner = slice(filters.first, run.samples - filters.last)
+    signals = [decimated(one[:, inner], filters.factor) for one in signals]
+    level, wrench, rotors = signals[:3]
+    # Not of the decimated signal: the decimation's ripple shrinks a constant by 1 %.
+    at = q[:, inner].mean(axis=1)
+    i = _about_mean(signals[3]) if with_current else None
+    held = _held(at, wrench, generated)
+    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, at, wrench)
+
+
+def _about_mean(x: Array) -> Array:
+    result: Array = x - x.mean(axis=1, keepdims=True)
+    return result
+
+
+def _held(links: Array, wrench: Array, generated: Any) -> Array:
+    """J^T wrench (n x N) for links that stand at ``links`` (n)."""
+    result: Array = generated.wrench_torque(np.tile(links, (wrench.shape[1], 1)), wrench.T).T
+    return result
+
+
+def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generated: Any) -> Pose:
+    """The pose with its links where the mean wrench leaves them, which is not where the motors are."""
+    k = [stiffness[f"k{joint.number}"].value for joint in robot.moving]
+    held = _held(pose.at, pose.wrench, generated).mean(axis=1)
+    twist = np.array([torque / value if value else 0.0 for torque, value in zip(held, k, strict=True)])
+    return replace(pose, held=_about_mean(_held(pose.at - twist, pose.wrench, generated)))
+
+
+def _stiffness(
+    robot: Robot, poses: Sequence[Pose], components: Sequence[str]
+) -> tuple[dict[str, Value], dict[int, Residual], list[str]]:
+    values: dict[str, Value] = {}
+    residuals: dict[int, Residual] = {}
+    notes: list[str] = []
+    for k, joint in enumerate(robot.moving):
+        name, unit = f"k{joint.number}", "N/m" if joint.sigma == PRISMATIC else "N m/rad"
+        shown = [one for one in poses if _changes(one.held, k)]
+        if not shown:
+            why = f"{' '.join(components)} has no lever arm about joint {joint.number} in any pose"
+            values[name] = Value(None, np.inf, unit, refused=why)
+            continue
+        slope, residuals[k] = _slope([one.q[k] for one in shown], [one.held[k] for one in shown])
+        values[name] = _value(slope, unit)
+        notes += _contradictions(name, slope, [(one.run.name, one.q[k], one.held[k]) for one in shown])
+    return values, residuals, notes
+
+
+def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], dict[int, Residual]]:
+    values: dict[str, Value] = {}
+    residuals: dict[int, Residual] = {}
+    if any(one.i is None for one in poses):
+        return values, residuals
+    to_motors = np.linalg.inv(coupling(robot)).T
+    for m, joint in enumerate(robot.moving):
+        name = f"kt{joint.number}"
+        pairs = [
+            (one.i[m], (to_motors @ (one.held + one.rotors))[m])
+            for one in poses
+            if one.i is not None and _changes(one.held, m)
+        ]
+        if not pairs:
+            why = f"the measured force asks nothing of motor {joint.number} in any pose"
+            values[name] = Value(None, np.inf, "N m/A", refused=why)
+            continue
+        slope, residuals[m] = _slope([x for x, _ in pairs], [y for _, y in pairs])
+        values[name] = _value(slope, "N m/A")
+    return values, residuals
+
+
+def _changes(held: Array, k: int) -> bool:
+    """Whether the wrench changes torque ``k`` of a pose by enough."""
+    size = held.std(axis=1)
+    return bool(size[k] > _LEVER * size.max(initial=0.0) > 0)
+
+
+def _slope(x: Sequence[Array], y: Sequence[Array]) -> tuple[tuple[float, float], Residual]:
+    """y = slope x of several poses, each about its mean: slope with its standard deviation, and what is left.
+
+    The instrument is x itself some samples before and after: least squares would come out too small, as x is noisy too.
+    """
+    inner = slice(_LAG, -_LAG)
+    Z = np.concatenate([(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x])
+    X, Y = (np.concatenate([one[inner] for one in some]) for some in (x, y))
+    size, power = float(np.linalg.norm(Y)), float(Z @ X)
+    if not power:
+        return (0.0, np.inf), Residual(len(Y), size, size, size)
+    slope = float(Z @ Y) / power
+    e = Y - slope * X
+    variance = float(e @ e) / max(len(Y) - len(x) - 1, 1) * inflation(e)
+    std = float(np.sqrt(variance) * np.linalg.norm(Z)) / abs(power)
+    return (slope, std), Residual(len(Y), float(np.linalg.norm(e)), size, size)
+
+
+def _value(slope: tuple[float, float], unit: str) -> Value:
+    value, std = slope
+    relative = std / abs(value) if value else np.inf
+    if relative > LIMIT:
+        return Value(None, np.inf, unit, refused=f"relative std {100 * relative:.3g} %")
+    return Value(value, std, unit)
+
+
+def _contradictions(name: str, pooled: tuple[float, float], poses: Sequence[tuple[str, Array, Array]]) -> list[str]:
+    """Poses whose own value is far from that of all together: their links moved, or a component was not measured."""
+    notes = []
+    for run, x, y in poses if len(poses) > 1 else ():
+        (value, std), _ = _slope([x], [y])
+        distance = abs(value - pooled[0])
+        if distance > _APART * abs(pooled[0]) and distance > _DEVIATIONS * std:
+            notes.append(f"{run}: {name} is {value:.4g} in this pose alone, far from {pooled[0]:.4g} of all")
+    return notes

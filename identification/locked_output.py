@@ -1,0 +1,161 @@
+"""Stiffness of a drive train whose output is blocked: the motor turns against the spring alone (report eq. 70-72).
+
+tau_j - tau_sb = Iam qdd + Fvm qd + Fcm sign(qd) + k q + Offk, by least squares on filtered and decimated runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.effects.library import effects_of
+from generator.errors import InputError
+from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.colour import inflation
+from identification.dataset import Run, load
+from identification.essential import RATIO, essential
+from identification.factors import Factor, triangular
+from identification.filtering import decimated, derivative, smoothed
+from identification.least_squares import Problem, Solution
+from identification.outcome import Value
+from identification.recipe import Filters, Recipe
+from identification.residuals import Residual
+
+Array = NDArray[np.float64]
+
+#: The report decimates to 1 Hz.
+RECIPE = Recipe(dynamics=0.2)
+#: Motion [rad, m] beyond which an output is not blocked: no drive train yields so far.
+_BLOCKED = 0.05
+#: Relative standard deviation from which a stiffness is refused.
+LIMIT = 0.1
+_STEMS = (
+    ("Iam", ("kg m2", "kg")),
+    ("Fvm", ("N m s/rad", "N s/m")),
+    ("Fcm", ("N m", "N")),
+    ("k", ("N m/rad", "N/m")),
+    ("Offk", ("N m", "N")),
+)
+
+
+@dataclass(frozen=True)
+class LockedOutput:
+    """Parameters of eq. 70 by name, all and ``essential`` ones, of the joint's runs; ``removed`` is tau_sb [N m]."""
+
+    robot: Robot
+    joint: Joint
+    runs: tuple[tuple[Run, Filters], ...]
+    values: Mapping[str, Value]
+    essential: Mapping[str, Value]
+    residual: Residual
+    essential_residual: Residual
+    removed: tuple[float, ...]
+    notes: tuple[str, ...]
+
+
+def locked_output(
+    robot: Robot,
+    number: int,
+    sources: Sequence[str],
+    balancer: Mapping[str, float] | None = None,
+    recipe: Recipe = RECIPE,
+    ratio: float = RATIO,
+) -> LockedOutput:
+    """Stiffness of joint ``number`` from runs in which its output is blocked.
+
+    ``balancer`` holds the parameters of the effects to be subtracted on this axis, by name [SI]. They act on the link,
+    which does not move: their torque is that at the run's mean position.
+
+    Raises InputError where the joint moves as if it was free and where the runs do not show its stiffness.
+    """
+    k, joint = _joint(robot, number, sources)
+    names = tuple(f"{stem}{number}" for stem, _ in _STEMS)
+    found, stacked, removed = [], [], []
+    for source in sources:
+        run = load(str(source), robot, recipe.columns)
+        filters = recipe.at(run.rate)
+        _check(run, filters, k, joint)
+        removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))
+        stacked.append(_rows(run, filters, k, removed[-1]))
+        found.append((run, filters))
+    rows = np.concatenate(stacked)
+    factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
+    problem = Problem((factor,), names, {}, weighted=False)
+    solution = problem.solve()
+    reduced, best = essential(problem, ratio)
+    name = f"k{number}"
+    full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
+    if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:
+        problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
+        raise InputError(
+            found[0][0].place, problem_text, "a motor that turns slowly to and fro against the blocked output"
+        )
+    notes = [note for run, _ in found for note in run.notes]
+    if joint.number not in robot.flexible:
+        notes.append(f"the file of {robot.name} does not list joint {number} as flexible")
+    whole, small = _residual(factor, solution), _residual(factor, best)
+    return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, tuple(removed), tuple(notes))
+
+
+def _joint(robot: Robot, number: int, sources: Sequence[str]) -> tuple[int, Joint]:
+    for k, joint in enumerate(robot.moving):
+        if joint.number == number:
+            return k, joint
+    known = ", ".join(str(joint.number) for joint in robot.moving)
+    raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
+
+
+def _check(run: Run, filters: Filters, k: int, joint: Joint) -> None:
+    if run.samples < filters.fewest:
+        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
+    motion = float(np.ptp(run.q[k]))
+    if motion > _BLOCKED:
+        unit = "m" if joint.sigma == PRISMATIC else "rad"
+        problem = f"joint {joint.number} moves by {motion:.3g} {unit}"
+        raise InputError(run.place, problem, f"a blocked output, at most {_BLOCKED:g} {unit}")
+
+
+def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) -> float:
+    """Torque [N m] of effects that depend on the joint's position alone, for those of ``values`` that are theirs."""
+    total = 0.0
+    for instance in effects_of(robot):
+        if instance.effect.needs != ("q",):
+            continue
+        for name, column in zip(instance.names, instance.columns(), strict=True):
+            if number in column and name in values:
+                total += values[name] * float(column[number].subs(instance.site.q, q))
+    return total
+
+
+def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
+    """[qdd qd sign(qd) q 1 Y], filtered and decimated alike (report eq. 71)."""
+    q = smoothed(run.q[k], filters.order, filters.cutoff, run.rate)
+    qd = derivative(q, run.period)
+    qdd = derivative(qd, run.period)
+    columns = np.stack([qdd, qd, np.sign(qd), q, np.ones_like(q), run.tau[k] - removed])
+    inner = columns[:, filters.first : run.samples - filters.last]
+    result: Array = decimated(inner, filters.factor).T
+    return result
+
+
+def _values(
+    solution: Solution, rows: Array, names: Sequence[str], joint: Joint, kept: Sequence[str]
+) -> dict[str, Value]:
+    """With standard deviations for residuals coloured as found."""
+    chi = np.array([solution.values[name] for name in names])
+    colour = np.sqrt(inflation(rows[:, -1] - rows[:, :-1] @ chi))
+    units = {f"{stem}{joint.number}": pair[joint.sigma == PRISMATIC] for stem, pair in _STEMS}
+    return {
+        name: Value(None, np.inf, units[name])
+        if name in solution.hidden
+        else Value(solution.values[name], solution.std(name) * float(colour), units[name])
+        for name in kept
+    }
+
+
+def _residual(factor: Factor, solution: Solution) -> Residual:
+    return Residual(factor.rows, factor.residual(solution.values), factor.norm, factor.spread)

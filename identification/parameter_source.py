@@ -1,0 +1,112 @@
+"""Parameter values to compare: of a results file, or of a parameter set of a robot file."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from generator.errors import InputError, Place
+from generator.resources import find_robot
+from generator.robot.description import ParameterValue
+from generator.robot.fields import nearest
+from generator.robot.readers import read
+from identification.recording import digest
+
+_JSON = ".json"
+#: Names of a result's models, by how they are asked for; their place in the file.
+_MODELS = {"full": (), "essential": ("essential",), "consistent": ("consistent",)}
+_EXPECTED = "RESULTS.json, RESULTS.json:essential, RESULTS.json:consistent, or ROBOT:SET"
+
+
+@dataclass(frozen=True)
+class Known:
+    """A value [``unit``] with its standard deviation; both None where they are not known."""
+
+    value: float | None
+    std: float | None
+    unit: str
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """Values by name, and where they come from: ``name`` as asked for, ``file`` with its ``sha256``."""
+
+    name: str
+    file: str
+    sha256: str
+    values: Mapping[str, Known]
+
+
+def parameters(source: str) -> Parameters:
+    """What ``source`` names: ``results.json``, a model of it (``results.json:essential``), or ``ROBOT:SET``.
+
+    ROBOT is a name in robots/ or the path of a robot file. Raises InputError for anything else.
+    """
+    if source.endswith(_JSON):
+        return _of_results(source, Path(source), "full")
+    left, colon, right = source.rpartition(":")
+    if not colon:
+        raise InputError(Place(source), "this names no parameter values", _EXPECTED)
+    if left.endswith(_JSON):
+        return _of_results(source, Path(left), right)
+    return _of_robot(source, left, right)
+
+
+def _of_results(source: str, path: Path, model: str) -> Parameters:
+    place = Place(str(path))
+    if model not in _MODELS:
+        raise InputError(place, f"results have no model {model!r}", ", ".join(_MODELS))
+    found: Any = _json(path)
+    for key in (*_MODELS[model], "parameters"):
+        found = found.get(key) if isinstance(found, dict) else None
+    if not isinstance(found, dict):
+        raise InputError(place, f"there are no parameters of the {model} model", "results.json of an identification")
+    values = {str(name): _entry(one, str(name), place) for name, one in found.items()}
+    return Parameters(source, str(path), digest(path), values)
+
+
+def _json(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(Place(str(path)), f"cannot be read: {error.strerror}", "a results file") from None
+    except UnicodeDecodeError:
+        raise InputError(Place(str(path)), "not UTF-8", "a results file") from None
+    except json.JSONDecodeError as error:
+        place = Place(str(path), error.lineno, error.colno)
+        raise InputError(place, f"not JSON: {error.msg}", "a results file") from None
+
+
+def _entry(one: Any, name: str, place: Place) -> Known:
+    entry = one if isinstance(one, dict) else {"value": ""}
+    value, std = (_number(entry.get(key), name, place) for key in ("value", "std"))
+    unit = str(entry.get("unit", ""))
+    return Known(None, None, unit) if value is None or not math.isfinite(value) else Known(value, std, unit)
+
+
+def _number(value: Any, name: str, place: Place) -> float | None:
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(place, f"{name} has no value", "a number, or null where it is not known")
+    return float(value)
+
+
+def _of_robot(source: str, name: str, wanted: str) -> Parameters:
+    robot = read(find_robot(name))
+    if wanted not in robot.parameter_sets:
+        problem = f"{robot.name} has no parameter set {wanted!r}"
+        raise InputError(robot.place, problem, nearest(wanted, robot.parameter_sets))
+    one = robot.parameter_sets[wanted]
+    values = {key: _known(value) for key, value in {**one.values, **one.other_values}.items()}
+    path = Path(find_robot(name))
+    return Parameters(source, str(path), digest(path), values)
+
+
+def _known(one: ParameterValue) -> Known:
+    std = None if one.relative_std is None else abs(one.value) * one.relative_std / 100
+    return Known(one.value, std, one.unit)

@@ -1,0 +1,99 @@
+"""What an identification of stiffness leaves behind: results.json and a robot file with the values in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from generator.robot.description import ParameterSet, Robot
+from generator.version import VERSION
+from generator.writing import replace
+from identification import force_steps, locked_output, outcome
+from identification.force_steps import ForceSteps
+from identification.locked_output import LockedOutput
+from identification.outcome import Value
+from identification.residuals import Residuals
+from identification.results import RESULTS, written
+from identification.robot_file import with_parameter_set
+
+#: Name of the parameter set in the robot file.
+SET = "identified_stiffness"
+_STD = "of coloured residuals, their correlation as found"
+
+
+def of_locked(found: LockedOutput) -> dict[str, Any]:
+    """The content of results.json, see docs/identification.md."""
+    number = found.joint.number
+    values = {
+        name: Value(one.value, one.std, one.unit, essential=name in found.essential)
+        for name, one in found.values.items()
+    }
+    norms = {
+        "train": outcome.norms({number: found.residual}, Residuals({0: found.residual}).total),
+        "test": None,
+    }
+    kept = {"train": outcome.norms({number: found.essential_residual}, found.essential_residual), "test": None}
+    return {
+        **_head(found.robot),
+        "method": {
+            "name": "stiffness by locked output",
+            "std": _STD,
+            "balancer_torque": list(found.removed),
+            "refused_above_relative_std_percent": 100 * locked_output.LIMIT,
+        },
+        "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
+        "parameters": outcome.parameters(values),
+        "residual": norms,
+        "essential": {"parameters": outcome.parameters(found.essential), "residual": kept},
+        "notes": list(found.notes),
+    }
+
+
+def of_steps(found: ForceSteps) -> dict[str, Any]:
+    """The content of results.json, see docs/identification.md."""
+    numbers = [joint.number for joint in found.robot.moving]
+    values = {**found.stiffness, **found.constants}
+    each = [{numbers[k]: one for k, one in some.items()} for some in (found.residuals, found.motor_residuals)]
+    joints, motors = (outcome.norms(one, Residuals(one).total) if one else None for one in each)
+    return {
+        **_head(found.robot),
+        "method": {
+            "name": "stiffness by force steps",
+            "wrench": list(found.components),
+            "std": _STD,
+            "refused_above_relative_std_percent": 100 * force_steps.LIMIT,
+        },
+        "data": {"train": [outcome.run(one.run, one.filters) for one in found.poses]},
+        "parameters": outcome.parameters(values),
+        "residual": {"train": joints, "test": None, "motors": motors},
+        "notes": [*found.notes, *refusals(values)],
+    }
+
+
+def refusals(values: Mapping[str, Value]) -> list[str]:
+    """One line for each value that cannot be told."""
+    return [f"{name} cannot be told: {one.refused}" for name, one in values.items() if one.refused]
+
+
+def save(
+    document: Mapping[str, Any], values: Mapping[str, Value], robot: Robot, robot_file: Path, folder: Path
+) -> list[str]:
+    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+
+    Raises InputError where the folder cannot be written.
+    """
+    runs = ", ".join(Path(one["file"]).name for one in document["data"]["train"])
+    source = f"{document['method']['name']} from {runs}"
+    elastic = {f"k{number}" for number in robot.flexible}
+    own = {name: one for name, one in values.items() if name in elastic}
+    others = {name: one for name, one in values.items() if name not in elastic}
+    kept, beside = outcome.values_of_set(own), outcome.values_of_set(others)
+    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, beside)
+    text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
+    replace(folder, {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode()})
+    return sorted([RESULTS, f"{robot.name}.yaml"])
+
+
+def _head(robot: Robot) -> dict[str, Any]:
+    return {"robot": robot.name, "robot_sha256": robot.digest, "version": VERSION}

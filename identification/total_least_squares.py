@@ -1,0 +1,173 @@
+"""Total least squares of currents against a model: k_m i_m = B_m chi + w_m, noise in the currents alone (eq. 51-57).
+
+With rows [V -B -w] (report eq. 53) the solution is the right singular vector of the smallest singular value, divided by
+its last component. Columns are scaled before: those of the model, which are free of noise, to unit length, the currents
+by their noise; and the noise-free columns are taken out by projection (mixed total least squares, Van Huffel and
+Vandewalle 1991). Without that the noise is laid to the model as well and the gains come out too small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.colour import inflation
+from identification.factors import triangular
+
+Array = NDArray[np.float64]
+
+#: Singular values of columns of unit length below this part of the largest are zero.
+_RANK = 1e-8
+#: Part of a parameter in a direction that no row shows, from which it is not identifiable.
+_INVOLVED = 1e-4
+#: Eigenvalues of the scaled information below this part of the largest are zero.
+_SEEN = 1e-13
+_ITERATIONS, _SETTLED = 20, 1e-6
+_TINY = 1e-300
+
+
+@dataclass(frozen=True)
+class Part:
+    """Rows of one unknown gain, number ``gain``: ``B`` (rows x p), known part ``w`` (rows), currents ``i`` (rows)."""
+
+    gain: int
+    B: Array
+    w: Array
+    i: Array
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Gains ``k`` (n), parameters ``chi`` (p), covariance of [k, chi], which of chi are ``hidden`` (p).
+
+    ``scale`` is the part of the known column that no parameter can stand for; 0 where the scale of all is open.
+    ``sigma`` is the noise of each current, ``separation`` the second smallest singular value over the smallest.
+    """
+
+    k: Array
+    chi: Array
+    covariance: Array
+    hidden: NDArray[np.bool_]
+    scale: float
+    sigma: Array
+    separation: float
+
+    def errors(self, part: Part) -> Array:
+        """k i - B chi - w of a part (rows)."""
+        error: Array = self.k[part.gain] * part.i - part.B @ self.chi - part.w
+        return error
+
+
+def solve(parts: Sequence[Part], gains: int) -> Fit:
+    """Gains and parameters of all ``parts``; gains without rows are zero, with an infinite variance.
+
+    Standard deviations are those of a first-order perturbation; residuals may be coloured, by motor (``inflation``).
+    """
+    p = parts[0].B.shape[1]
+    rows = np.array([sum(len(one.i) for one in parts if one.gain == m) for m in range(gains)])
+    live = np.flatnonzero(rows)
+    reduced = [_Reduced.of([one for one in parts if one.gain == m]) for m in live]
+    sigma = np.ones(gains)
+    sigma[live] = [one.noise() for one in reduced]
+    k, chi, scale, separation = np.ones(gains), np.zeros(p), 0.0, 0.0
+    hidden = np.zeros(p, dtype=bool)
+    for _ in range(_ITERATIONS):
+        previous = k
+        k, chi, hidden, scale, separation = _once(reduced, live, np.maximum(np.abs(k), _TINY)[live], sigma[live], gains)
+        if scale == 0.0 or np.all(np.abs(k - previous)[live] <= _SETTLED * np.abs(k)[live]):
+            break
+    fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation)
+    covariance = _covariance(fit, parts, live) if scale else np.full((gains + p, gains + p), np.inf)
+    return Fit(k, chi, covariance, hidden, scale, sigma, separation)
+
+
+@dataclass(frozen=True)
+class _Reduced:
+    """The triangular factor ``T`` of [B w i] of one gain's ``rows`` rows."""
+
+    T: Array
+    rows: int
+
+    @classmethod
+    def of(cls, parts: Sequence[Part]) -> _Reduced:
+        stacked = np.concatenate([np.column_stack([one.B, one.w, one.i]) for one in parts])
+        return cls(triangular(stacked), len(stacked))
+
+    def noise(self) -> float:
+        """Standard deviation of the current's noise, from a fit of these rows with parameters of their own."""
+        A, i = self.T[:, :-1], self.T[:, -1]
+        U, s, _ = np.linalg.svd(A / (np.linalg.norm(A, axis=0) + _TINY), full_matrices=False)
+        U = U[:, s > _RANK * s[0]]
+        error = np.linalg.norm(i - U @ (U.T @ i))
+        floor = 1e-9 * float(np.linalg.norm(i)) / np.sqrt(self.rows) + _TINY
+        return max(float(error / np.sqrt(max(self.rows - U.shape[1], 1))), float(floor))
+
+
+def _once(
+    reduced: Sequence[_Reduced], live: NDArray[np.int64], k: Array, sigma: Array, count: int
+) -> tuple[Array, Array, NDArray[np.bool_], float, float]:
+    """The solution with rows in units of their noise for gains near ``k``; ``count`` gains, the ``live`` with rows."""
+    p = reduced[0].T.shape[1] - 2
+    stacked = []
+    for number, one in enumerate(reduced):
+        V = np.zeros((len(one.T), len(live)))
+        V[:, number] = one.T[:, -1]
+        stacked.append(np.column_stack([one.T[:, :-1], V]) / (k[number] * sigma[number]))
+    T = triangular(np.concatenate(stacked))
+    size = np.linalg.norm(T[:, : p + 1], axis=0) + _TINY
+    A, noise = T[:, : p + 1] / size, np.sqrt([one.rows for one in reduced]) / k
+    U, s, Vt = np.linalg.svd(A[:, :p], full_matrices=True)
+    rank = int((s > _RANK * s[0]).sum())
+    hidden = np.abs(Vt[rank:]).max(axis=0, initial=0.0) > _INVOLVED
+    own = A[:, p] - U[:, :rank] @ (U[:, :rank].T @ A[:, p])
+    scale = float(np.linalg.norm(own))
+    gains = np.zeros(count)
+    if scale <= 1e-6:
+        return gains, np.zeros(p), hidden, 0.0, 0.0
+    basis = np.column_stack([U[:, :rank], own / scale])
+    V = T[:, p + 1 :] / noise
+    left = V - basis @ (basis.T @ V)
+    values, right = np.linalg.svd(left)[1:]
+    y = right[-1]
+    last = float(own @ (V @ y)) / scale**2 / size[p]
+    y = y / (last if last else _TINY)
+    gains[live] = y / noise
+    target = V @ y - A[:, p] * size[p]
+    chi = (Vt[:rank].T @ ((U[:, :rank].T @ target) / s[:rank])) / size[:p]
+    separation = float(values[-2] / max(values[-1], _TINY)) if len(values) > 1 else np.inf
+    return gains, chi, hidden, scale, separation
+
+
+def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> Array:
+    """Of [k, chi], by the derivatives of the rows at the solution, with the currents that the model gives."""
+    n, p = len(fit.k), len(fit.chi)
+    gram, coloured = np.zeros((n + p, n + p)), np.zeros((n + p, n + p))
+    for m in live:
+        mine = [one for one in parts if one.gain == m]
+        J = np.concatenate([_derivative(fit, one, n) for one in mine])
+        errors = [fit.errors(one) for one in mine]
+        own = J.T @ J
+        weight = 1 / (abs(fit.k[m]) * fit.sigma[m] + _TINY) ** 2
+        gram += weight * own
+        total = sum(len(e) for e in errors)
+        coloured += weight * own * (sum(len(e) * inflation(e) for e in errors) / total)
+    size = np.sqrt(np.diag(gram))
+    silent = size <= _RANK * size.max(initial=0.0)
+    size[silent] = 1.0
+    values, vectors = np.linalg.eigh(gram / np.outer(size, size))
+    seen = values > _SEEN * values[-1]
+    inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T / np.outer(size, size)
+    result: Array = inverse @ coloured @ inverse
+    unseen = silent | (np.abs(vectors[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
+    result[unseen, unseen] = np.inf
+    return result
+
+
+def _derivative(fit: Fit, part: Part, gains: int) -> Array:
+    V = np.zeros((len(part.i), gains))
+    k = fit.k[part.gain]
+    V[:, part.gain] = (part.B @ fit.chi + part.w) / (k if k else _TINY)
+    return np.column_stack([V, -part.B])

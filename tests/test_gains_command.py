@@ -1,0 +1,195 @@
+"""``counterpoise gains``: drive gains of a simulated arm within their stated uncertainty, and gains refused by name."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.robot.readers import read
+from identification.drive_gains import DriveGains, drive_gains
+from identification.motor_rows import motor_rows
+from identification.observation import Motion, Regressors
+from identification.recipe import read as recipe_of
+from identification.sidecar import Payload
+from tests.commands import command
+from tests.recorded import Recorded, fourier
+
+Array = NDArray[np.float64]
+
+#: A vertical axis, two horizontal ones, the third motor coupled to the second joint.
+ARM = """\
+name: lifter
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0, limits: [-170 deg, 170 deg]}
+  - {j: 2, sigma: 0, alpha: pi/2, d: 0.2 m, theta: q2, r: 0, limits: [-160 deg, 160 deg]}
+  - {j: 3, sigma: 0, alpha: 0, d: 0.7 m, theta: q3, r: 0, limits: [-160 deg, 160 deg]}
+  - {j: 4, sigma: 2, alpha: 0, d: 0.5 m, theta: 0, r: 0, tool: true}
+drives:
+  gear_ratios: [-120, 100, -80]
+  coupling: {convention: direct, N32: 20}
+  torque_constants: {unit: N m/A, use: warm, warm: [0.6, 0.6, 0.5]}
+effects:
+  - {effect: rotor_inertia, joints: all}
+  - {effect: viscous_friction, joints: all}
+  - {effect: coulomb_friction, joints: all}
+  - {effect: offset, joints: all}
+"""
+#: N of the file above, row by motor, and the true torque constants [N m/A].
+N = np.array([[-120.0, 0, 0], [0, 100, 0], [0, 20, -80]])
+KT = np.array([0.53, 0.65, 0.44])
+#: A payload of 20 kg in the tool frame: XX XY XZ YY YZ ZZ MX MY MZ M.
+PAYLOAD = np.array([0.3, 0, 0, 0.5, 0, 0.6, 1.5, -0.8, 0.4, 20.0])
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
+    path = tmp_path_factory.mktemp("arm") / "lifter.yaml"
+    path.write_text(ARM)
+    return Regressors(read(path))
+
+
+def truth(arm: Regressors) -> dict[str, float]:
+    """Base parameters of an arm of bars; 5 to 20 times what friction and rotors are."""
+    values = dict.fromkeys(arm.names, 0.0)
+    standard = {"ZZ1": 2.0, "XX2": 0.3, "YY2": 2.6, "ZZ2": 2.7, "MX2": 7.0, "MY2": 0.3, "M2": 22.0, "MZ2": 0.5}
+    standard |= {"XX3": 0.1, "YY3": 0.9, "ZZ3": 0.9, "MX3": 2.4, "MY3": -0.2, "M3": 10.0, "MZ3": 0.2, "XY3": 0.05}
+    standard |= {
+        f"{stem}{j}": size / j for j in (1, 2, 3) for stem, size in (("Ia", 6), ("Fv", 20), ("Fc", 9), ("Off", 2))
+    }
+    for name, terms in arm.model.grouping.numeric().items():
+        values[name] = sum(coefficient * standard.get(one, 0.0) for one, coefficient in terms.items())
+    return values
+
+
+def currents(arm: Regressors, seed: int, loaded: bool, slow: float = 1.0) -> tuple[Array, Motion, Array]:
+    """Times, motion and the currents that it takes; ``slow`` stretches time."""
+    t, motion = fourier(arm.model.robot, 20.0, 200.0, seed, slowest=0.15)
+    motion = Motion(motion.q, motion.qd / slow, motion.qdd / slow**2)
+    tau = arm.torques(truth(arm), motion)
+    if loaded:
+        tau = tau + np.array([PAYLOAD @ W for W in arm.payload(motion)])
+    return t * slow, motion, np.linalg.solve(N.T, tau) / KT[:, None]
+
+
+def saved(path: Path, t: Array, motion: Motion, i: Array, noise: float, seed: int) -> str:
+    i = i + noise * i.std(axis=1)[:, None] * np.random.default_rng(seed).normal(size=i.shape)
+    columns = {"t": t} | {f"q{j}": motion.q[j - 1] for j in (1, 2, 3)} | {f"i{j}": i[j - 1] for j in (1, 2, 3)}
+    return str(Recorded(columns).save(path))
+
+
+def found(arm: Regressors, folder: Path, noise: float = 0.02, seed: int = 0, slow: float = 1.0) -> DriveGains:
+    a, b = (currents(arm, number, loaded, slow) for number, loaded in ((1, False), (2, True)))
+    empty = saved(folder / "a.csv", *a, noise, 2 * seed)
+    loaded = saved(folder / "b.csv", *b, noise, 2 * seed + 1)
+    return drive_gains(arm.model.robot, [empty], [loaded], Payload("L", {"M": 20.0}), {"M": 0.02}, regressors=arm)
+
+
+def test_motor_rows_turn_the_coupling_to_the_models_side(arm: Regressors, tmp_path: Path) -> None:
+    one = found(arm, tmp_path, noise=0.0).empty[0]
+    names = arm.names
+    chi = np.array([truth(arm)[name] for name in names])
+    for rows in motor_rows(one, arm, N, names):
+        assert len(rows.i) > 50
+        assert KT[rows.motor] * rows.i == pytest.approx(rows.B @ chi, abs=2e-3 * float(np.abs(rows.i).max()))
+
+
+def test_without_noise_the_gains_are_the_true_ones(arm: Regressors, tmp_path: Path) -> None:
+    result = found(arm, tmp_path, noise=0.0)
+    assert not result.refused
+    for m, value in enumerate(KT):
+        assert result.constants[m][0] == pytest.approx(value, rel=5e-3)
+        assert result.gain(m)[0] == pytest.approx(N[m, m] * value, rel=5e-3)
+        assert result.payload_share[m] == pytest.approx(0.001, rel=0.01)
+
+
+def test_true_values_lie_within_the_stated_uncertainty(arm: Regressors, tmp_path: Path) -> None:
+    """Sixteen seeds, three gains and two of the payload's first moments: about 95 % within two standard deviations."""
+    deviations = []
+    for seed in range(16):
+        result = found(arm, tmp_path, noise=0.05, seed=seed)
+        deviations += [(result.constants[m][0] - KT[m]) / result.constants[m][1] for m in range(3)]
+        deviations += [
+            (result.parameters[n][0] - v) / result.parameters[n][1] for n, v in (("MXL", 1.5), ("MYL", -0.8))
+        ]
+    inside = np.mean(np.abs(deviations) < 2)
+    assert 0.86 <= inside <= 0.999
+    assert np.std(deviations) == pytest.approx(1.0, abs=0.25)
+
+
+def test_a_vertical_axis_that_moves_slowly_is_refused_by_name(arm: Regressors, tmp_path: Path) -> None:
+    """Its torque is friction alone then: no known mass shows in it. The others do not suffer."""
+    folder = tmp_path
+    recipe = folder / "slow.yaml"
+    recipe.write_text("dynamics: 0.3\nstandstill: 0.002\n")
+    a, b = (currents(arm, number, loaded, slow=12.0) for number, loaded in ((1, False), (2, True)))
+    empty, loaded = saved(folder / "a.csv", *a, 0.02, 1), saved(folder / "b.csv", *b, 0.02, 2)
+    result = drive_gains(
+        arm.model.robot, [empty], [loaded], Payload("L", {"M": 20.0}), {}, recipe_of(recipe), regressors=arm
+    )
+    assert list(result.refused) == [0]
+    assert "does not show in its torque" in result.refused[0]
+    for m in (1, 2):
+        value, std = result.constants[m]
+        assert value == pytest.approx(KT[m], abs=4 * std)
+        assert std < 0.05 * value
+
+
+def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found(arm, tmp_path)
+    robot = Path(arm.model.robot.place.file)
+    words = [
+        "--empty",
+        tmp_path / "a.csv",
+        "--loaded",
+        tmp_path / "b.csv",
+        "--payload",
+        "M=20",
+        "--payload-std",
+        "M=0.02",
+    ]
+    done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
+    assert done.status == 0, done.err
+    assert done.out.startswith("lifter: 3 of 3 drive gains\n")
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    one = results["parameters"]["g_tau1"]
+    assert one["value"] == pytest.approx(-120 * KT[0], abs=4 * one["std"])
+    assert (one["unit"], one["identifiable"]) == ("N m/A", True)
+    assert one["relative_std_percent"] == pytest.approx(100 * one["std"] / abs(one["value"]))
+    assert results["gains_by_payload_percent"]["kt2"] == pytest.approx(0.1, rel=0.01)
+    assert len(results["data"]["loaded"][0]["sha256"]) == 64
+    again = read(tmp_path / "out" / "lifter.yaml").parameter_sets["identified_with_gains"]
+    assert again.other_values["g_tau2"].value == pytest.approx(results["parameters"]["g_tau2"]["value"], rel=1e-5)
+    done = command(
+        "compare", f"{tmp_path}/out/results.json", f"{tmp_path}/out/lifter.yaml:identified_with_gains", capsys=capsys
+    )
+    assert done.status == 0, done.err
+
+
+def test_refusals(arm: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found(arm, tmp_path)
+    torques = Recorded(
+        {"t": np.arange(9.0)} | {f"{stem}{j}": np.arange(9.0) for stem in ("q", "tau") for j in (1, 2, 3)}
+    )
+    torques.save(tmp_path / "torques.csv")
+    a, b, robot = tmp_path / "a.csv", tmp_path / "b.csv", Path(arm.model.robot.place.file)
+    cases = [
+        ((a, tmp_path / "torques.csv", "M=20"), "torques.csv:1:1: there are no columns of efforts, expected i1 to i3"),
+        ((a, b), "b.csv:1:1: nothing tells the payload of this run, expected payload: {M: ... kg} in its sidecar"),
+        ((a, b, "M=0"), "b.csv:1:1: nothing is known of payload L, expected its mass at least"),
+        ((f"{a}@0:1", b, "M=20"), "expected at least"),
+        ((a, b, "K=20"), "error: --payload:1:1: payload value 'K=20'"),
+        ((a, b, "XZ=0.001"), "no drive gain of lifter can be told: what is known of the payload shows in no torque"),
+    ]
+    for (empty, loaded, *payload), error in cases:
+        words = ["--empty", empty, "--loaded", loaded, *(["--payload", *payload] if payload else [])]
+        done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
+        assert (done.status, error in done.err) == (2, True), done.err
+    done = command(
+        "gains", robot, "--empty", a, "--loaded", b, "--payload", "M=20", "--payload-std", "MX=1", capsys=capsys
+    )
+    assert "MX of payload L is not known, expected a value for its std" in done.err

@@ -1,0 +1,214 @@
+"""``counterpoise stiffness``: blocked outputs and steps of force, simulated apart from the code under test."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.resources import find_robot
+from generator.robot.readers import read
+from identification.force_steps import ForceSteps, force_steps
+from identification.locked_output import LockedOutput, locked_output
+from tests.commands import command
+from tests.newton_euler import Arm
+from tests.recorded import Recorded
+
+Array = NDArray[np.float64]
+
+RATE = 100.0
+ROBOT = read(find_robot("kr500"))
+N = np.array([[float(x) for x in row] for row in ROBOT.drives.coupling]) if ROBOT.drives else np.eye(6)
+K = np.array([6.2e6, 6.7e6, 3.9e6, 1.1e6, 0.9e6, 0.5e6])
+KT = np.array([1.6, 1.5, 1.4, 1.2, 1.1, 1.05])
+IA = np.array([4000.0, 4000.0, 3500.0, 300.0, 500.0, 200.0])
+
+
+# -- blocked output -----------------------------------------------------------------------------------------------
+
+#: tau = Iam qdd + Fvm qd + Fcm sign(qd) + k q + Offk + balancer, about q2 = -1.5 rad.
+LOCKED = {"Iam2": 900.0, "Fvm2": 8.0e3, "Fcm2": 60.0, "k2": 1.9e6, "Offk2": 2.85e6 + 300.0}
+
+
+def blocked(path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0) -> str:
+    """A motor that goes slowly to and fro by a few mrad, up to some kN m; the other joints stand and hum."""
+    draw = np.random.default_rng(seed)
+    t = np.arange(round(60 * RATE)) / RATE
+    w = 2 * np.pi * 0.15
+    x = 1.5e-3 * np.sin(w * t) + 0.8e-3 * np.sin(0.4 * w * t)
+    v = 1.5e-3 * w * np.cos(w * t) + 0.32e-3 * w * np.cos(0.4 * w * t)
+    a = -1.5e-3 * w * w * np.sin(w * t) - 0.128e-3 * w * w * np.sin(0.4 * w * t)
+    q, tau = np.zeros((6, len(t))), draw.normal(scale=5.0, size=(6, len(t)))
+    q[1] = -1.5 + x
+    tau[1] = 900 * a + 8e3 * v + 60 * np.sign(v) + 1.9e6 * q[1] + LOCKED["Offk2"] + balancer
+    tau[1] += draw.normal(scale=noise, size=len(t))
+    columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"tau{j + 1}": tau[j] for j in range(6)}
+    return str(Recorded(columns).save(path))
+
+
+def test_blocked_output_without_noise(tmp_path: Path) -> None:
+    found = locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", noise=0.0)])
+    for name in ("k2", "Offk2"):
+        assert found.values[name].value == pytest.approx(LOCKED[name], rel=2e-3)
+    assert found.values["Fvm2"].value == pytest.approx(LOCKED["Fvm2"], rel=0.1)
+    assert set(found.essential) >= {"k2", "Offk2"}
+
+
+def test_blocked_output_lies_within_its_stated_uncertainty(tmp_path: Path) -> None:
+    def deviation(found: LockedOutput, name: str) -> float:
+        one = found.values[name]
+        assert one.value is not None
+        return (one.value - LOCKED[name]) / one.std
+
+    path = tmp_path / "a.csv"
+    all_of = [locked_output(ROBOT, 2, [blocked(path, seed)]) for seed in range(20)]
+    deviations = [deviation(one, name) for one in all_of for name in ("k2", "Fvm2")]
+    assert 0.8 <= np.mean(np.abs(deviations) < 2) <= 1
+    assert np.std(deviations) == pytest.approx(1.0, abs=0.35)
+
+
+def test_the_balancer_is_subtracted_where_the_link_stands(tmp_path: Path) -> None:
+    """Its closed form there: F0 l0 / L times the lever arm (report eq. 28, 35, 36)."""
+    d21, d22, phi, l0 = 0.9669, 0.2062, -1.6293, 0.5
+    q = float(locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", noise=0.0)]).runs[0][0].q[1].mean())
+
+    def length(at: float) -> float:
+        return float(np.sqrt(d21**2 + d22**2 + 2 * d21 * d22 * np.cos(phi + at)))
+
+    arm = -d21 * d22 * np.sin(phi + q) / length(q)
+    torque = 2.45e4 * l0 / (l0 - length(q) + length(0.0)) * arm
+    path = blocked(tmp_path / "a.csv", noise=0.0, balancer=torque)
+    found = locked_output(ROBOT, 2, [path], {"F02": 2.45e4})
+    assert found.removed[0] == pytest.approx(torque, rel=1e-6)
+    assert found.values["Offk2"].value == pytest.approx(LOCKED["Offk2"], rel=2e-3)
+
+
+# -- steps of force -----------------------------------------------------------------------------------------------
+
+#: Poses in which a force along the tool's z turns axes 2 and 3 alone, or 1 to 3. It goes through the wrist's centre.
+STRAIGHT = (0.2, -1.2, 0.9, 0.0, 0.0, 0.0)
+TURNED = (0.1, -1.3, 1.1, 0.9, 1.1, 0.3)
+
+
+def torques_of_force(q: tuple[float, ...]) -> Array:
+    """Joint torques (6 x 3) [N m/N] that press with 1 N along the tool's x, y, z, by the tests' Newton-Euler."""
+    still, arm = np.zeros(6), Arm(ROBOT, {})
+    unit = np.eye(6)[:3]
+    return np.stack([arm.torques(q, still, still, weight=False, wrench=tuple(one)) for one in unit], axis=1)
+
+
+def pressed(
+    path: Path, q0: tuple[float, ...], seed: int = 0, noise: float = 1.0, axes: str = "z", orient: bool = False
+) -> str:
+    """Steps of force with finite slopes: motors twist by tau / k; where ``orient``, q5 is moved by q2 + q3 besides."""
+    draw = np.random.default_rng(seed)
+    t = np.arange(round(40 * RATE)) / RATE
+    slope = np.hanning(41) / np.hanning(41).sum()
+    force = np.zeros((3, len(t)))
+    for axis in axes:
+        level = 1500 + 1200 * np.sign(np.sin(2 * np.pi * {"x": 0.1, "y": 0.075, "z": 0.125}[axis] * t))
+        force["xyz".index(axis)] = np.convolve(np.pad(level, 20, mode="edge"), slope, mode="valid")
+    held = torques_of_force(q0) @ force
+    twist = held / K[:, None]
+    if orient:
+        twist[4] += twist[1] + twist[2]
+    qdd = np.gradient(np.gradient(twist, t, axis=1), t, axis=1)
+    gravity = np.array([50.0, -900.0, 700.0, 30.0, -40.0, 10.0])
+    i = np.linalg.solve(N.T, held + gravity[:, None] + IA[:, None] * qdd) / KT[:, None]
+    q = np.array(q0)[:, None] + twist + noise * 2e-6 * draw.normal(size=twist.shape)
+    i = i + noise * 0.02 * draw.normal(size=i.shape)
+    columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"i{j + 1}": i[j] for j in range(6)}
+    force = force + noise * 5 * draw.normal(size=force.shape)
+    return str(Recorded(columns | {f"f{axis}": force["xyz".index(axis)] for axis in axes}).save(path))
+
+
+def steps(folder: Path, seed: int = 0, noise: float = 1.0) -> ForceSteps:
+    runs = [
+        pressed(folder / "straight.csv", STRAIGHT, 2 * seed, noise, orient=True),
+        pressed(folder / "turned.csv", TURNED, 2 * seed + 1, noise, "xyz"),
+    ]
+    inertias = {f"Ia{j}": value for j, value in enumerate(IA, 1)}
+    return force_steps(ROBOT, runs, inertias)
+
+
+def test_force_steps_without_noise(tmp_path: Path) -> None:
+    """All but axis 6, though in the first pose the control moves axis 5 without any torque on it."""
+    found = steps(tmp_path, noise=1e-3)
+    assert found.components == ("fx", "fy", "fz")
+    for j in range(1, 6):
+        assert found.stiffness[f"k{j}"].value == pytest.approx(K[j - 1], rel=2e-3), j
+        assert found.constants[f"kt{j}"].value == pytest.approx(KT[j - 1], rel=5e-3), j
+    assert found.stiffness["k6"].value is None
+    assert found.stiffness["k6"].refused == "fx fy fz has no lever arm about joint 6 in any pose"
+
+
+def test_one_component_through_the_wrists_centre_shows_the_arm_alone(tmp_path: Path) -> None:
+    runs = [
+        pressed(tmp_path / "a.csv", STRAIGHT, orient=True),
+        pressed(tmp_path / "b.csv", TURNED),
+    ]
+    found = force_steps(ROBOT, runs, {})
+    assert [name for name, one in found.stiffness.items() if one.value is None] == ["k4", "k5", "k6"]
+    assert any("without the rotors' acceleration" in note for note in found.notes)
+    for j in (1, 2, 3):
+        assert found.stiffness[f"k{j}"].value == pytest.approx(K[j - 1], rel=5e-3), j
+
+
+def test_force_steps_lie_within_their_stated_uncertainty(tmp_path: Path) -> None:
+    deviations = []
+    for seed in range(6):
+        found = steps(tmp_path, seed)
+        for truth, values in ((K, found.stiffness), (KT, found.constants)):
+            named = zip(truth, values.values(), strict=True)
+            deviations += [(one.value - true) / one.std for true, one in named if one.value is not None]
+    assert len(deviations) >= 54
+    assert 0.86 <= np.mean(np.abs(deviations) < 2) <= 1
+
+
+def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    steps(tmp_path)
+    runs = [tmp_path / "straight.csv", tmp_path / "turned.csv"]
+    words = ["--pressed", "--data", *runs, "--prior", "twin", "--out", tmp_path / "steps"]
+    done = command("stiffness", "kr500", *words, capsys=capsys)
+    assert done.status == 0, done.err
+    assert "note: k6 cannot be told: fx fy fz has no lever arm about joint 6 in any pose" in done.out
+    results = json.loads((tmp_path / "steps" / "results.json").read_text())
+    assert results["parameters"]["k6"]["identifiable"] is False
+    assert results["parameters"]["k2"]["value"] == pytest.approx(K[1], rel=0.02)
+    again = read(tmp_path / "steps" / "kr500.yaml").parameter_sets["identified_stiffness"]
+    assert again.values["k2"].value == pytest.approx(results["parameters"]["k2"]["value"], rel=1e-5)
+    assert again.other_values["kt3"].unit == "N m/A"
+    path = blocked(tmp_path / "a.csv")
+    done = command("stiffness", "kr500", "--locked", "2", "--data", path, "--out", tmp_path / "locked", capsys=capsys)
+    assert done.status == 0, done.err
+    results = json.loads((tmp_path / "locked" / "results.json").read_text())
+    assert results["parameters"]["k2"]["value"] == pytest.approx(LOCKED["k2"], rel=0.05)
+    assert results["essential"]["parameters"]["k2"]["essential"] is True
+
+
+def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, here = blocked(tmp_path / "a.csv"), tmp_path
+    pressed(here / "straight.csv", STRAIGHT)
+    t = np.arange(3000) / RATE
+    free = {f"q{j}": 0.2 * np.sin(t + j) for j in range(1, 7)} | {f"tau{j}": np.cos(t + j) for j in range(1, 7)}
+    Recorded({"t": t} | free).save(here / "free.csv")
+    Recorded({"t": t} | free | {"fz": t}).save(here / "fz.csv")
+    cases = [
+        (("--locked", "7", "--data", path), "kr500 has no moving joint 7, expected 1, 2, 3, 4, 5, 6"),
+        (("--locked", "1", "--data", here / "free.csv"), "joint 1 moves by 0.4 rad, expected a blocked output"),
+        (("--locked", "3", "--data", path), "k3 cannot be told: relative std"),
+        (("--locked", "2", "--data", f"{path}@0:5"), "expected at least"),
+        (("--pressed", "--data", path), "there are no columns of the wrench, expected one at least of fx fy fz"),
+        (("--pressed", "--data", here / "fz.csv"), "joint 1 moves by 0.4 rad, expected a robot pressed on a stop"),
+        (
+            ("--pressed", "--data", path, "--prior", "twim"),
+            "kr500 has no parameter set 'twim', expected perhaps 'twin'",
+        ),
+        (("--data", path), "one of the arguments --locked --pressed is required"),
+    ]
+    for words, error in cases:
+        done = command("stiffness", "kr500", *words, "--out", here / "out", capsys=capsys)
+        assert (done.status, error in done.err) == (2, True), done.err
