@@ -50,8 +50,10 @@ def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
         raise InputError(where(row, name), f"{name} is {value:g}", "a finite number")
 
 
-def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where) -> None:
+def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:
     """Joint positions (n x N): inside the limits, without jumps, not in degrees, not held at an end while moving.
+
+    A robot that is ``resting`` may stop anywhere.
 
     Raises InputError with the row.
     """
@@ -64,7 +66,8 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
             problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
             raise InputError(where(row + 1, name), problem, "positions without jumps")
         _speed(q[k], name, period, where)
-        _held(q[k], steps, name, where)
+        if not resting:
+            _held(q[k], steps, name, where)
 
 
 def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
@@ -120,8 +123,10 @@ def _flat(x: Array) -> list[Stretch]:
     return result
 
 
-def torques(found: Measured, q: Array, where: Where) -> list[Stretch]:
+def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> list[Stretch]:
     """Where an effort stays at its largest or smallest value while the joints move: it is cut off there.
+
+    Nothing is taken as cut off where the robot is ``resting``.
 
     Raises InputError for an effort that is the same in all rows, and for one that is cut off in more than a fifth.
     """
@@ -131,6 +136,8 @@ def torques(found: Measured, q: Array, where: Where) -> list[Stretch]:
         x = found.values[k]
         if np.ptp(x) == 0:
             raise InputError(where(0, name), f"{name} is {x[0]:.6g} in all rows", "a measured signal")
+        if resting:
+            continue
         stretches = [one for one in _flat(x) if moves[one.start : one.end].mean() > 0.5]
         if sum(one.end - one.start for one in stretches) > _MOST * len(x):
             first = stretches[0]

@@ -68,12 +68,17 @@ class Run:
 
 
 def load(
-    source: str, robot: Robot, columns: Mapping[str, Formula] | None = None, efforts: Sequence[str] = EFFORTS
+    source: str,
+    robot: Robot,
+    columns: Mapping[str, Formula] | None = None,
+    efforts: Sequence[str] = EFFORTS,
+    resting: bool = False,
 ) -> Run:
     """The run that ``source`` names: a path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
 
     ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
     what they make. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
+    ``resting`` says that the robot stands on purpose.
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
@@ -88,7 +93,7 @@ def load(
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
     recording, first = _part(recording, source, start, end)
-    return _run(source, recording, robot, beside.payload, first, efforts)
+    return _run(source, recording, robot, beside.payload, first, efforts, resting)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -120,7 +125,13 @@ def _part(recording: Recording, source: str, start: float, end: float) -> tuple[
 
 
 def _run(
-    source: str, recording: Recording, robot: Robot, payload: Payload | None, first: int, efforts: Sequence[str]
+    source: str,
+    recording: Recording,
+    robot: Robot,
+    payload: Payload | None,
+    first: int,
+    efforts: Sequence[str],
+    resting: bool,
 ) -> Run:
     def where(row: int | None, column: str) -> Place:
         return recording.where(None if row is None else row + first, column)
@@ -133,11 +144,11 @@ def _run(
     checks.finite([*times, *named, *others.items()], where)
     ticks = clock(recording, first)
     q = joint_positions(at, robot, recording)
-    checks.positions(q, at, robot, ticks.period, where)
+    checks.positions(q, at, robot, ticks.period, where, resting)
     for stem in ("qs", "qr"):
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
-    stretches = checks.torques(effort, q, where)
+    stretches = checks.torques(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
     notes = [*recording.notes]
     for one in stretches:

@@ -107,11 +107,11 @@ def force_steps(
 def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
     """A run, and whether its efforts are N^T i of currents."""
     try:
-        return load(source, with_unit_constants(robot), recipe.columns, ("i",)), True
+        return load(source, with_unit_constants(robot), recipe.columns, ("i",), resting=True), True
     except InputError as error:
         if "there are no columns of efforts" not in str(error):
             raise
-    return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i")), False
+    return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i"), resting=True), False
 
 
 def _wrench_torque(robot: Robot) -> Any:

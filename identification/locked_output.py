@@ -75,7 +75,7 @@ def locked_output(
     names = tuple(f"{stem}{number}" for stem, _ in _STEMS)
     found, stacked, removed = [], [], []
     for source in sources:
-        run = load(str(source), robot, recipe.columns)
+        run = load(str(source), robot, recipe.columns, resting=True)
         filters = recipe.at(run.rate)
         _check(run, filters, k, joint)
         removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))

@@ -101,7 +101,13 @@ def torques_of_force(q: tuple[float, ...]) -> Array:
 
 
 def pressed(
-    path: Path, q0: tuple[float, ...], seed: int = 0, noise: float = 1.0, axes: str = "z", orient: bool = False
+    path: Path,
+    q0: tuple[float, ...],
+    seed: int = 0,
+    noise: float = 1.0,
+    axes: str = "z",
+    orient: bool = False,
+    resolution: float = 0.0,
 ) -> str:
     """Steps of force with finite slopes: motors twist by tau / k; where ``orient``, q5 is moved by q2 + q3 besides."""
     draw = np.random.default_rng(seed)
@@ -119,6 +125,8 @@ def pressed(
     gravity = np.array([50.0, -900.0, 700.0, 30.0, -40.0, 10.0])
     i = np.linalg.solve(N.T, held + gravity[:, None] + IA[:, None] * qdd) / KT[:, None]
     q = np.array(q0)[:, None] + twist + noise * 2e-6 * draw.normal(size=twist.shape)
+    if resolution:
+        q = np.round(q / resolution) * resolution
     i = i + noise * 0.02 * draw.normal(size=i.shape)
     columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"i{j + 1}": i[j] for j in range(6)}
     force = force + noise * 5 * draw.normal(size=force.shape)
@@ -155,6 +163,13 @@ def test_one_component_through_the_wrists_centre_shows_the_arm_alone(tmp_path: P
     assert any("without the rotors' acceleration" in note for note in found.notes)
     for j in (1, 2, 3):
         assert found.stiffness[f"k{j}"].value == pytest.approx(K[j - 1], rel=5e-3), j
+
+
+@pytest.mark.parametrize("resolution", [1e-6, 5e-6])
+def test_encoders_that_rest_at_a_step_are_no_cut_off_signals(tmp_path: Path, resolution: float) -> None:
+    found = force_steps(ROBOT, [pressed(tmp_path / "a.csv", STRAIGHT, noise=0.3, resolution=resolution)])
+    for j in (2, 3):
+        assert found.stiffness[f"k{j}"].value == pytest.approx(K[j - 1], rel=0.02)
 
 
 def test_force_steps_lie_within_their_stated_uncertainty(tmp_path: Path) -> None:
