@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from benchmarks.compiling import compiled, compilers, run
+from benchmarks.compiling import C, compiled, compilers, run
 from benchmarks.peers.library import SOURCES
 from benchmarks.peers.pinocchio import libraries
 from benchmarks.peers.subject import write
@@ -43,7 +43,7 @@ def memory_and_loop(build: Path) -> tuple[Any, Any]:
     """The functions of stream_write.c and sample_loop.c, compiled for this machine."""
     sources = [SOURCES / "stream_write.c", SOURCES / "sample_loop.c"]
     options = ["-shared", "-fPIC", "-fopenmp", "-Wno-psabi"]
-    path = compiled(compilers()[0], "-std=gnu99", build / "loops.so", sources, options)
+    path = compiled(compilers()[0], C, build / "loops.so", sources, options)
     library = ctypes.CDLL(str(path))
     stream, loop = library.stream_write, library.sample_loop
     stream.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_int)
@@ -81,5 +81,6 @@ def figaroh(model: pin.Model, signals: Sequence[Array], build: Path) -> dict[str
     saved, samples, results = (build / name for name in ("model.bin", "samples.npz", "figaroh.npz"))
     model.saveToBinary(str(saved))
     np.savez(samples, **dict(zip(("q", "qd", "qdd"), signals, strict=True)))
-    run([python, Path(__file__).parent / "figaroh_regressor.py", saved, samples, results])
+    # -P: a file beside the script has the name of the package that it imports
+    run([python, "-P", SOURCES / "figaroh_regressor.py", saved, samples, results])
     return dict(np.load(results))

@@ -48,7 +48,7 @@ class Layout:
 
     @property
     def stack(self) -> int:
-        """KiB of a thread's stack, in double precision: two blocks of all entries, a tile of rows, what is small."""
+        """KiB of a thread's stack, in double precision: two blocks of all entries, a tile of rows, and the rest."""
         pitch = 8 * self.block + _LINE_BYTES
         size = 2 * (self.start[-1] + 1) * pitch + (_LINE_BYTES + 16) * self.joints * self.width + 8192
         return 64 * ceil(size / 2**16)
