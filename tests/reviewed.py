@@ -93,7 +93,7 @@ def value(of: Formula, at: Mapping[str, float]) -> float:
 
 def parsed(line: str) -> tuple[str, list[tuple[str, float]]]:
     left, right = line.split(" = ")
-    terms = re.findall(r"(?:^|([+-]) )(?:([\d.]+) )?([A-Z]\w*)", right)
+    terms = re.findall(r"(?:^|([+-]) )(?:([\d.]+) )?([A-Za-z]\w*)", right)
     return left, [(name, (-1.0 if sign == "-" else 1.0) * float(size or 1)) for sign, size, name in terms]
 
 
