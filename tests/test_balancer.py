@@ -199,7 +199,7 @@ def test_isotherm_is_the_limit_of_polytropes() -> None:
             assert np.abs(coarse).max() < 1e-3 * np.abs(limit).max()
             # The distance shrinks with exponent - 1, by a hundred here. The energy is a difference of terms of
             # F0 l0 / (exponent - 1), whose rounding the hundred takes along.
-            rounding = 100 * 4 * np.finfo(float).eps * isotherm.values["F02"] * 0.5 / 1e-6
+            rounding = 100 * np.finfo(float).eps * isotherm.values["F02"] * 0.5 / 1e-6
             np.testing.assert_allclose(fine * 100, coarse, rtol=1e-3, atol=rounding)
 
 
