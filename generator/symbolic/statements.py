@@ -317,8 +317,13 @@ class Program:
     # -- making ---------------------------------------------------------------------------------------------------
 
     def _gathered_product(self, a: Node, b: Node) -> Node | None:
-        """a (p x) as (a p) x where a and p are parameter-only."""
-        if not a.parameter_only or b.parameter_only or b.operation != "mul":
+        """a (p x) as (a p) x where a and p are parameter-only, also above a quotient."""
+        if not a.parameter_only or b.parameter_only:
+            return None
+        if b.operation == "div":
+            above = self._gathered_product(a, b.arguments[0])
+            return None if above is None else self.divide(above, b.arguments[1])
+        if b.operation != "mul":
             return None
         first, second = b.arguments
         if first.parameter_only:
