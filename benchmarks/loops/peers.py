@@ -82,5 +82,5 @@ def figaroh(model: pin.Model, signals: Sequence[Array], build: Path) -> dict[str
     model.saveToBinary(str(saved))
     np.savez(samples, **dict(zip(("q", "qd", "qdd"), signals, strict=True)))
     # -P: a file beside the script has the name of the package that it imports
-    run([python, "-P", SOURCES / "figaroh_regressor.py", saved, samples, results])
+    run([python, "-P", Path(__file__).parent / "figaroh_regressor.py", saved, samples, results])
     return dict(np.load(results))
