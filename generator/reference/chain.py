@@ -89,9 +89,11 @@ def _numbers(rows: list[list[sympy.Expr]], lengths: Mapping[sympy.Symbol, Decima
 
 def _number(expression: sympy.Expr, lengths: Mapping[sympy.Symbol, Decimal]) -> Decimal:
     """The value of an expression in the lengths; raises TypeError where a joint variable is left in it."""
-    needed = expression.free_symbols & lengths.keys()
     if expression in lengths:
         return lengths[expression]
+    needed = expression.free_symbols & lengths.keys()
+    if not needed:
+        return exact(expression)
     return exact(expression.subs({symbol: sympy.Rational(*lengths[symbol].as_integer_ratio()) for symbol in needed}))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import prod
 
 from generator.symbolic.statements import Count, Node, Program
@@ -58,12 +59,12 @@ class Function:
     program: Program
     sparsity: Sparsity | None = None
 
-    @property
+    @cached_property
     def roots(self) -> tuple[Node, ...]:
         """Every output node, in output order."""
         return tuple(node for output in self.outputs for node in output.nodes)
 
-    @property
+    @cached_property
     def nodes(self) -> list[Node]:
         """All nodes that the outputs need, parameter-only ones included, arguments before users."""
         return self.program.reachable(self.roots)
