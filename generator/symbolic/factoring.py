@@ -18,21 +18,7 @@ Term = tuple[bool, Node]
 
 
 def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
-    """The same values as ``roots``, with common factors taken out until that saves no operation more."""
-    best, least = list(roots), _operations(program, roots)
-    while True:
-        shorter = _once(program, best)
-        count = _operations(program, shorter)
-        if count >= least:
-            return best
-        best, least = shorter, count
-
-
-def _operations(program: Program, roots: Sequence[Node]) -> int:
-    return program.count(node for node in program.reachable(roots) if not node.parameter_only).total
-
-
-def _once(program: Program, roots: Sequence[Node]) -> list[Node]:
+    """The same values as ``roots``, with common factors taken out."""
     nodes = program.reachable(roots)
     uses: Counter[Node] = Counter(roots)
     for node in nodes:
