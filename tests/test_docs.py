@@ -219,7 +219,7 @@ def test_report_md_has_a_test_and_a_place_in_the_code_for_each_row() -> None:
 @pytest.mark.parametrize(
     ("numbers", "count"),
     [
-        (r"^\| ([\d, -]+) \|.*`test_|^Not of the generator.*?: eq\. ([\d, -]+)\.$", 79),
+        (r"^\| ([\d, -]+) \|.*`test_|^Not there yet.*?: eq\. ([\d, -]+)\.$", 79),
         (r"^\| ([\d, -]+) \|.*`robots/|^\| (6) \|.*crank:SHAPES|^Tables ([\d, ]+) compare", 16),
     ],
     ids=["equations", "tables"],
