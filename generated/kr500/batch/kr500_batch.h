@@ -95,7 +95,7 @@ void kr500_observation_matrix_rows(
  * Observation matrix, columns contiguous, joint 1's samples first: with N kept samples, entry (joint j of kept sample m,
  * base parameter c) is W[c*stride + j*N + m]. Structural zeros are written, what lies between the columns is not.
  *
- * A stride of a multiple of 4096 bytes lets every column fall into the same few lines of the cache, which is slower;
+ * A stride of a multiple of 4096 bytes lets every column fall into the same few lines of the cache, which may be slower;
  * kr500_observation_stride(N*KR500_NQ) is one that does not.
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  filter    see kr500_filter
