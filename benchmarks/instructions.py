@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+from benchmarks.compiling import run
 from generator.backends import c
 from generator.derivation import derive
 from generator.reference.sample import physical_parameters
@@ -46,7 +46,7 @@ def instructions(
     for name, text in c.library(model, ()).items():
         (build / name).write_text(text if isinstance(text, str) else text.decode())
     library = build / "library.o"
-    _run([compiler, *flags, "-c", str(build / f"{robot.name}.c"), "-o", str(library)])
+    run([compiler, *flags, "-c", str(build / f"{robot.name}.c"), "-o", str(library)])
     return {name: _count(model, model.functions[name], library, compiler, flags) for name in functions}
 
 
@@ -56,15 +56,16 @@ def _count(model: Model, function: Function, library: Path, compiler: str, flags
     source.write_text(_driver(model, function))
     macros = [flag for flag in flags if flag.startswith("-D")]
     bind_at_start = "-Wl,-z,now"
-    _run([compiler, *macros, str(source), str(library), bind_at_start, "-o", str(program), "-lm"])
-    told = _run(
+    run([compiler, *macros, str(source), str(library), bind_at_start, "-o", str(program), "-lm"])
+    told = run(
         [
             "valgrind",
             "--tool=callgrind",
             f"--toggle-collect={prefix}_{function.name}",
             "--callgrind-out-file=/dev/null",
             str(program),
-        ]
+        ],
+        errors_too=True,
     )
     collected = re.search(r"Collected : (\d+)", told)
     assert collected, told
@@ -84,10 +85,3 @@ def _driver(model: Model, function: Function) -> str:
         arguments=", ".join(f"my_{name}" for name, _ in arrays),
         calls=_CALLS,
     )
-
-
-def _run(command: Sequence[str]) -> str:
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}")
-    return done.stdout

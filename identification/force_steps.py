@@ -9,13 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.backends import numpy as numpy_backend
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Robot
@@ -23,10 +21,11 @@ from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.drive_train import coupling, with_unit_constants
 from identification.filtering import decimated, derivative, smoothed
+from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
-from identification.signals import EFFORTS, WRENCH
+from identification.signals import EFFORTS, WRENCH, NoColumns
 
 Array = NDArray[np.float64]
 
@@ -108,18 +107,13 @@ def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
     """A run, and whether its efforts are N^T i of currents."""
     try:
         return load(source, with_unit_constants(robot), recipe.columns, ("i",), resting=True), True
-    except InputError as error:
-        if "there are no columns of efforts" not in str(error):
-            raise
-    return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i"), resting=True), False
+    except NoColumns:
+        return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i"), resting=True), False
 
 
 def _wrench_torque(robot: Robot) -> Any:
     """The generated module with the function wrench_torque(q, wrench)."""
-    (text,) = numpy_backend.emit(derive(robot, names=("wrench_torque",))).values()
-    module = ModuleType(robot.name)
-    exec(compile(text, f"<{robot.name}>", "exec"), module.__dict__)
-    return module
+    return generated_module(derive(robot, names=("wrench_torque",)))
 
 
 def _inertias(robot: Robot, values: Mapping[str, float]) -> Array:

@@ -118,11 +118,15 @@ class Regressors:
 
     @cached_property
     def _generated(self) -> Any:
-        """The module that the NumPy backend writes, imported."""
-        (text,) = numpy_backend.emit(self.model).values()
-        module = ModuleType(self.model.robot.name)
-        exec(compile(text, f"<{self.model.robot.name}>", "exec"), module.__dict__)
-        return module
+        return generated_module(self.model)
+
+
+def generated_module(model: Model) -> Any:
+    """The module that the NumPy backend writes for the model's functions, imported."""
+    (text,) = numpy_backend.emit(model).values()
+    module = ModuleType(model.robot.name)
+    exec(compile(text, f"<{model.robot.name}>", "exec"), module.__dict__)
+    return module
 
 
 def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[int, float], ...]:

@@ -12,11 +12,11 @@ from typing import Any
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.version import VERSION
 from generator.writing import replace
+from identification import outcome
 from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Estimate, Identification
-from identification.residuals import Residual, Residuals
+from identification.residuals import Residuals
 from identification.robot_file import with_parameter_set
-from identification.sampling import Sampled
 from identification.sensitivity import Variation
 from identification.sidecar import UNITS
 
@@ -43,7 +43,8 @@ def document(
         "version": VERSION,
         "method": _method(found),
         "data": {
-            kind: [_run(one.sampled) for one in runs] for kind, runs in (("train", found.train), ("test", found.test))
+            kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs]
+            for kind, runs in (("train", found.train), ("test", found.test))
         },
         "condition": solution.condition,
         "condition_scaled": solution.scaled_condition,
@@ -141,21 +142,6 @@ def _std_of(draws: int) -> str:
     return "of independent residuals (report eq. 42-45); optimistic where residuals are coloured"
 
 
-def _run(one: Sampled) -> dict[str, Any]:
-    filters, run = one.filters, one.run
-    return {
-        "file": run.name,
-        "sha256": run.sha256,
-        "samples": run.samples,
-        "rate": run.rate,
-        "cutoff": filters.cutoff,
-        "order": filters.order,
-        "factor": filters.factor,
-        "dropped": [filters.first, filters.last],
-        "payload": None if run.payload is None else run.payload.name,
-    }
-
-
 def _parameters(found: Identification, estimate: Estimate) -> dict[str, Any]:
     solution = estimate.solution
     units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
@@ -219,17 +205,7 @@ def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
 
 
 def _norms(of: Residuals, numbers: list[int]) -> dict[str, Any]:
-    per_joint = [{"joint": numbers[k], **_norm(one)} for k, one in sorted(of.per_joint.items())]
-    return {"per_joint": per_joint, "total": _norm(of.total)}
-
-
-def _norm(one: Residual) -> dict[str, Any]:
-    return {
-        "rows": one.rows,
-        "norm": one.norm,
-        "relative_percent": one.relative,
-        "relative_to_mean_percent": one.relative_to_mean,
-    }
+    return outcome.norms({numbers[k]: one for k, one in of.per_joint.items()}, of.total)
 
 
 def _marked(value: Any) -> Any:

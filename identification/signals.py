@@ -23,6 +23,10 @@ WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 _NUMBERED = re.compile(r"([A-Za-z]+)(\d+)\Z")
 
 
+class NoColumns(InputError):
+    """A recording has no column of any kind that would do."""
+
+
 @dataclass(frozen=True)
 class Measured:
     """Raw columns of one kind (n x N) and their names, in the joints' order."""
@@ -35,7 +39,8 @@ class Measured:
 def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str) -> Measured:
     """The columns of the first stem that the recording has.
 
-    Raises InputError where a joint's column is missing and where there are columns for more joints than there are.
+    Raises NoColumns where the recording has none of the stems, InputError where a joint's column is missing and where
+    there are columns for more joints than there are.
     """
     numbers = [joint.number for joint in robot.moving]
     for stem in stems:
@@ -55,7 +60,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
                 raise InputError(recording.where(None, name), problem, f"{what} of this robot alone")
         return Measured(stem, tuple(wanted), np.stack([recording.columns[name] for name in wanted]))
     choices = " or ".join(f"{stem}{numbers[0]} to {stem}{numbers[-1]}" for stem in stems)
-    raise InputError(recording.where(None, ""), f"there are no columns of {what}", choices)
+    raise NoColumns(recording.where(None, ""), f"there are no columns of {what}", choices)
 
 
 def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Array:

@@ -4,19 +4,9 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
-from generator.effects.laws import ripple
+from generator.effects.effect import Effect, LinearParameter, Shape
+from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
-
-
-def _phase(at: Site) -> sympy.Expr:
-    return at.values["order"] * at.motor
-
-
-def _columns(at: Site) -> tuple[Column, ...]:
-    cosine, sine = ripple.torque_columns(_phase(at))
-    return at.on_motor(cosine), at.on_motor(sine)
-
 
 EFFECT = Effect(
     id="wave_generator_ripple",
@@ -25,8 +15,8 @@ EFFECT = Effect(
         LinearParameter("Rwc", ("N m", "N"), "cosine part of the wave generator's ripple, on the joint side"),
         LinearParameter("Rws", ("N m", "N"), "sine part of the wave generator's ripple, on the joint side"),
     ),
-    columns=_columns,
-    potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"] * at.ratios[at.joint.number]),
+    columns=ripple_columns,
+    potential_energy=ripple_energy,
     shapes=(Shape("order", "1", "periods per turn of the wave generator", lower=0.0, default=sympy.Integer(2)),),
     kinds=(REVOLUTE,),
     needs=("motor",),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from generator.review import tex as latex
 from generator.review.counts import Stage, ladder
@@ -66,22 +66,19 @@ def _built_in(model: Model) -> list[Parameter]:
 def tex(model: Model, texts: Document) -> Document:
     """The same as ``texts`` with its formulas in LaTeX's mathematics, long ones broken between terms."""
     grouped = equations(model.grouping)
-    return Document(
-        texts.robot,
-        tuple(f"{latex.tex(Name(length.name))} = {_value(length_value(length))}" for length in model.robot.lengths),
-        texts.stages,
-        tuple(_aligned(symbolic) for _, symbolic, _ in grouped),
-        tuple(_aligned(numeric) for _, _, numeric in grouped),
-        tuple(latex.tex(Name(name)) for name in alone(model.grouping)),
-        tuple(latex.tex(Name(name)) for name in without_effect(model.grouping)),
-        texts.eliminated,
-        tuple(
+    return replace(
+        texts,
+        lengths=tuple(
+            f"{latex.tex(Name(length.name))} = {_value(length_value(length))}" for length in model.robot.lengths
+        ),
+        symbolic=tuple(_aligned(symbolic) for _, symbolic, _ in grouped),
+        numeric=tuple(_aligned(numeric) for _, _, numeric in grouped),
+        alone=tuple(latex.tex(Name(name)) for name in alone(model.grouping)),
+        without_effect=tuple(latex.tex(Name(name)) for name in without_effect(model.grouping)),
+        geometry=tuple(
             (row.label, str(row.joint.antecedent), str(row.joint.sigma), *(latex.tex(cell) for _, cell in row.cells))
             for row in rows(model.robot)
         ),
-        texts.parameters,
-        texts.base_count,
-        texts.built_in,
     )
 
 
