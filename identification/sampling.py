@@ -66,7 +66,7 @@ def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
     )
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
-    motion = Motion(q[:, inner], qd[:, inner], qdd[:, inner])
+    motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
     left_out = standing(regressors.signs, motion.qd, recipe.standstill)
     left_out[list(still)] = False
     if run.unusable is not None:

@@ -22,7 +22,7 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
 
     Raises InputError for another number of values, another unit, a delay that is negative or over 0.1 s, a gain that
-    is not between 1/2 and 2, a limit that is not positive.
+    is not between 1/2 and 2, a limit, time or rise that is not positive.
     """
     if entry is None:
         return Signals()
@@ -33,7 +33,9 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
         "torque_gain": (["1"] * len(moving), _gain),
         "torque_delay": (["s"] * len(moving), _delay),
         "link_delay": (["s"] * len(moving), _delay),
-        "current_limit": (["A"] * len(moving), _limit),
+        "current_limit": (["A"] * len(moving), _positive("A", "current")),
+        "warm_up_time": (["s"] * len(moving), _positive("s", "time")),
+        "warm_rise": (["K"] * len(moving), _positive("K", "rise of temperature")),
     }
     keys = fields.table(entry.value, "signals", (), tuple(kinds))
     found = {key: _values(one.value, key, moving, *kinds[key]) for key, one in keys.items()}
@@ -67,6 +69,9 @@ def _delay(place: Place, what: str, value: sympy.Expr) -> None:
         raise InputError(place, f"{what} is {float(value):g} s", "a time from 0 to 0.1 s")
 
 
-def _limit(place: Place, what: str, value: sympy.Expr) -> None:
-    if value <= 0:
-        raise InputError(place, f"{what} is {float(value):g} A", "a positive current")
+def _positive(unit: str, expected: str) -> Check:
+    def check(place: Place, what: str, value: sympy.Expr) -> None:
+        if value <= 0:
+            raise InputError(place, f"{what} is {float(value):g} {unit}", f"a positive {expected}")
+
+    return check
