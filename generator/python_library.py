@@ -15,12 +15,12 @@ _ATTEMPTS = (("-march=native", "-fopenmp"), ("-march=native",), ("-fopenmp",), (
 def build_library(folder: Path, name: str) -> Path:
     """Compiles ``python/lib<name>.so`` from the generated C in ``folder``; returns its path.
 
-    The simulation is part of it where its folder is there.
+    What is of many samples and the simulation are part of it where their folders are there.
     With OpenMP and for the processor of this machine where the compiler can. Raises InputError where there is no
     compiler or where it compiles nothing.
     """
     library = folder / "python" / f"lib{name}.so"
-    sources = [folder / "c" / f"{name}.c", folder / "batch" / f"{name}_batch.c"]
+    sources = [folder / "c" / f"{name}.c", *sorted((folder / "batch").glob("*.c"))]
     sources += sorted((folder / "simulation").glob("*.c"))
     words = [*_FLAGS, f"-I{folder / 'c'}", *map(str, sources), "-o", str(library), "-lm"]
     done = Done(1, "")
