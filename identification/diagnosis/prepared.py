@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import signal
 from scipy.ndimage import maximum_filter1d
 
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
-from identification.filtering import decimated, kept_indices
 from identification.observation import Regressors
 from identification.recipe import Recipe, possible_factor
-from identification.sampling import Sampled, kept_rows, sampled
+from identification.sampling import Sampled, sampled
 
 Array = NDArray[np.float64]
 
@@ -43,8 +43,19 @@ class Prepared:
     slow: Array
 
     def decimated(self, x: Array) -> Array:
-        """Signals at the recorded rate (... x M) as rows (... x N)."""
-        return decimated(x, self.sampled.filters.factor)
+        """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
+
+        The window ends: what happens while a joint stands does not ring into the rows that are kept.
+        """
+        return windowed(x, self.sampled.filters.factor)
+
+
+def windowed(x: Array, factor: int) -> Array:
+    """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
+    window = signal.windows.hann(2 * factor + 3)[1:-1]
+    count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
+    result = signal.upfirdn(window / window.sum(), x, 1, factor, axis=-1)
+    return np.asarray(result[..., 2 : 2 + count])
 
 
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
@@ -65,7 +76,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
     reach = round(_SETTLING * run.rate)
     standing = np.stack([maximum_filter1d(row, 2 * reach + 1) for row in standing])
-    kept = np.stack([kept_rows(row, factor) for row in standing])
-    t = one.times[kept_indices(one.motion.samples, factor)]
+    tau = windowed(one.tau, factor)
+    kept = windowed(standing.astype(float), factor) == 0
+    t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(one, t, decimated(one.tau, factor), kept, rows, slow)
+    return Prepared(one, t, tau, kept, rows, slow)
