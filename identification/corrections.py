@@ -50,8 +50,8 @@ def needs_warmth(robot: Robot) -> bool:
 def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
     """Joint torques (n x N) [N m, N] of motors as strong as their gain, drift and warmth make them, at their own time.
 
-    A recorded torque counts as a current times the torque constant: it drifts as the constant does. Torques beyond the
-    end of the recording are those of its end.
+    A recorded torque counts as a current times the torque constant: it drifts as the constant does. Torques beyond an
+    end of the recording are those of the end.
     """
     signals, drives = robot.signals, robot.drives
     drift = drives.torque_drift if drives is not None else ()
@@ -93,7 +93,8 @@ def moved(unusable: NDArray[np.bool_], robot: Robot, period: float) -> NDArray[n
     for delay in set(delays):
         first = int(np.floor(float(delay) / period))
         for steps in (first, first + 1):
-            result[:, : result.shape[1] - steps] |= unusable[:, steps:]
+            late = unusable[:, max(steps, 0) : result.shape[1] + min(steps, 0)]
+            result[:, max(-steps, 0) :][:, : late.shape[1]] |= late
     return result
 
 
@@ -106,17 +107,18 @@ def true_links(columns: Mapping[str, Array], robot: Robot, period: float) -> dic
     return result
 
 
-def lost(robot: Robot, period: float) -> int:
-    """Samples at the end for which what is recorded late was not recorded any more."""
-    delays = (*robot.signals.torque_delay, *robot.signals.link_delay)
-    return int(np.ceil(max(map(float, delays), default=0.0) / period - 1e-9))
+def whole(samples: int, robot: Robot, period: float) -> slice:
+    """The samples for which what is recorded late or early was recorded."""
+    delays = [float(delay) / period for delay in (*robot.signals.torque_delay, *robot.signals.link_delay)]
+    first, last = (int(np.ceil(max([0.0, *(sign * one for one in delays)]) - 1e-9)) for sign in (-1, 1))
+    return slice(first, samples - last)
 
 
 def _earlier(x: Array, delays: Sequence[sympy.Expr], period: float) -> Array:
-    """Signals (n x N) that were recorded ``delays`` [s] late, each at its own time, by a cubic spline."""
+    """Signals (n x N) that were recorded ``delays`` [s] late, at their own time, by a cubic spline; ends are held."""
     t = period * np.arange(x.shape[-1])
     rows = [
-        make_interp_spline(t, row)(np.minimum(t + float(delay), t[-1])) if delay else row
+        make_interp_spline(t, row)(np.clip(t + float(delay), t[0], t[-1])) if delay else row
         for row, delay in zip(x, delays, strict=True)
     ]
     return np.stack(rows)

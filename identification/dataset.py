@@ -187,9 +187,10 @@ def _corrected(run: Run, robot: Robot, began: Mapping[str, float]) -> Run:
     unusable = corrections.moved(np.logical_or.reduce(marks), robot, run.period) if marks else None
     tau = corrections.true_torques(run.tau, robot, run.period, warmth)
     others = corrections.true_links(run.others, robot, run.period)
-    kept = slice(0, run.samples - corrections.lost(robot, run.period))
+    kept = corrections.whole(run.samples, robot, run.period)
     return replace(
         run,
+        start=run.start + run.period * kept.start,
         q=run.q[:, kept],
         tau=tau[:, kept],
         unusable=None if unusable is None else unusable[:, kept],

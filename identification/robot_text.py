@@ -30,6 +30,20 @@ def robot_of(text: str, file: str) -> Robot:
     return robot_from(yaml.read(text, file))
 
 
+def value_of(text: str, path: Path) -> str:
+    """What stands at ``path``, as it is written; raises KeyError where nothing does."""
+    node = _find(text, path)
+    if node is None:
+        raise KeyError("/".join(map(str, path)))
+    return text[node.start_mark.index : _end(text, node)]
+
+
+def keys_of(text: str, path: Path) -> tuple[str, ...]:
+    """The keys of the table at ``path``; none where there is none."""
+    node = _find(text, path)
+    return () if node is None else tuple(key.value for key, _ in node.value)
+
+
 def with_value(text: str, path: Path, value: str) -> str:
     """``text`` with ``value``, written in YAML on one line, at ``path``; a key that is missing is the last one after.
 

@@ -7,13 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 from generator.derivation import derive
 from generator.effects.library import effects_of
 from generator.resources import find_robot
 from generator.robot.description import Robot
+from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
-from identification.diagnosis.repair import Addition, Repaired, repaired
+from identification.diagnosis.repair import Repaired, repaired
 from identification.robot_text import robot_of, with_item, with_value
 
 ROBOTS = ("kr500", "lbr_iiwa14", "scara", "stanford", "emps", "kr300")
@@ -40,7 +42,9 @@ def uses(robot: Robot) -> set[tuple[str, int]]:
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_an_effect_is_one_line_with_its_evidence(name: str) -> None:
-    found = repair(name, Addition(EFFECT, "stribeck_friction", (1,), {"vs": 0.0123456789, "exponent": 2}, {}, "bic 99"))
+    found = repair(
+        name, Addition(EFFECT, "stribeck_friction", (1,), {"vs": 0.0123456789, "exponent": 2}, evidence="bic 99")
+    )
     comment, line = added(text_of(name), found.text)
     assert comment == "  # bic 99"
     assert line.startswith("  - {effect: stribeck_friction, joint: 1, values: {vs: 0.0123457 ")
@@ -87,7 +91,7 @@ def test_signals_add_up_and_a_gain_multiplies() -> None:
         "stanford",
         Addition(SIGNAL, "position_offset", (3,), values={"position_offset": 2e-3}),
         Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 1.05}),
-        Addition(SIGNAL, "torque_delay", (1, 2, 3, 4, 5, 6), shape={"torque_delay": 8e-4}),
+        Addition(SIGNAL, "torque_delay", (1, 2, 3, 4, 5, 6), values={"torque_delay": 8e-4}),
     )
     assert added(text_of("stanford"), first.text) == [
         "",
@@ -109,36 +113,44 @@ def test_signals_add_up_and_a_gain_multiplies() -> None:
     assert float(signals.position_offset[2]) == pytest.approx(3e-3)
     assert float(signals.torque_gain[1]) == pytest.approx(0.945)
     assert float(signals.current_limit[0]) == 12
-    assert all(float(one) > 1e6 for one in signals.current_limit[1:])
+    assert all(float(one) > 1e5 for one in signals.current_limit[1:])
 
 
-def test_drives() -> None:
+def coupling(robot: Robot) -> np.ndarray:
+    assert robot.drives is not None
+    return np.array([[float(one) for one in row] for row in robot.drives.coupling])
+
+
+@pytest.mark.parametrize("convention", ["row", "as_printed", "direct"])
+def test_a_gears_ratio_scales_its_column_of_the_coupling(convention: str) -> None:
+    text = text_of("kr500").replace("convention: row", f"convention: {convention}")
+    new = repaired(text, "x", [Addition(DRIVE, "gear_ratio", (5,), {"gear_ratio": 1.01})])
+    expected = coupling(robot_of(text, "x")) * [1, 1, 1, 1, 1.01, 1]
+    np.testing.assert_allclose(coupling(new.robot), expected, rtol=1e-12)
+
+
+def test_the_torque_constant_drifts_from_where_it_starts() -> None:
     found = repair(
         "kr500",
-        Addition(DRIVE, "gear_ratios", (4,), values={"gear_ratios": 1.01}),
-        Addition(DRIVE, "torque_drift", (2,), values={"torque_drift": -0.06}),
+        Addition(DRIVE, "torque_drift", (2,), {"torque_drift": -0.06, "torque_gain": 1.02, "warm_up_time": 30.0}),
     )
     assert found.robot.drives is not None
-    old = robot_of(text_of("kr500"), "x").drives
-    assert old is not None
-    assert float(found.robot.drives.ratios[3] / old.ratios[3]) == pytest.approx(1.01, rel=1e-8)
-    assert found.robot.drives.ratios[:3] == old.ratios[:3]
     assert [float(part) for part in found.robot.drives.torque_drift] == [0, -0.06, 0, 0, 0, 0]
-    assert found.robot.signals.warm_up_time
-    refused = repair("scara", Addition(DRIVE, "torque_drift", (2,), values={"torque_drift": -0.06}))
-    assert "cannot be written" in refused.notes[0] or refused.robot.drives is not None
+    assert [float(one) for one in found.robot.signals.torque_gain] == [1, 1.02, 1, 1, 1, 1]
+    assert [float(one) for one in found.robot.signals.warm_up_time] == [60, 30, 60, 60, 60, 60]
+    refused = repair("emps", Addition(DRIVE, "torque_drift", (1,), {"torque_drift": -0.06}))
+    assert refused.text == text_of("emps")
+    assert "cannot be written: emps has no drives" in refused.notes[0]
 
 
 @pytest.mark.parametrize("name", ["kr500", "tilted_two_link"])
 def test_the_base_turns_about_the_worlds_axes(name: str) -> None:
-    found = repair(name, Addition(BASE, "base_tilt", (), values={"roll": 0.02, "pitch": -0.03}))
+    found = repair(name, Addition(BASE, "base_tilt", (), values={"tilt_x": 0.02, "tilt_y": -0.03}))
     before = np.array(robot_of(text_of(name), "x").base.evalf(), dtype=float)
     after = np.array(found.robot.base.evalf(), dtype=float)
     turn = after[:3, :3] @ before[:3, :3].T
-    # Rx(0.02), then Ry(-0.03)
-    x = np.array([[1, 0, 0], [0, np.cos(0.02), -np.sin(0.02)], [0, np.sin(0.02), np.cos(0.02)]])
-    y = np.array([[np.cos(-0.03), 0, np.sin(-0.03)], [0, 1, 0], [-np.sin(-0.03), 0, np.cos(-0.03)]])
-    np.testing.assert_allclose(turn, y @ x, atol=3e-6)
+    spin = np.array([[0, 0, -0.03], [0, 0, -0.02], [0.03, 0.02, 0]])
+    np.testing.assert_allclose(turn, scipy.linalg.expm(spin), atol=1e-8)
     np.testing.assert_array_equal(after[:3, 3], before[:3, 3])
 
 

@@ -86,6 +86,17 @@ def test_offset_gain_and_delay_are_taken_back(recorded: Recorded) -> None:
     np.testing.assert_allclose(run.tau, expected, atol=2e-6 * np.abs(expected).max())
 
 
+def test_a_negative_delay_is_one_of_positions(recorded: Recorded) -> None:
+    of = robot(recorded.folder, "torque_delay: [-3 ms, 0 s, 2 ms]")
+    logged = np.stack([currents(T + 3e-3)[0], currents(T)[1], currents(T - 2e-3)[2]])
+    run = recorded.run(of, positions(T), logged)
+    kept = T[2:-1]
+    assert run.start == pytest.approx(T[2])
+    np.testing.assert_allclose(run.q, positions(kept), atol=1e-12)
+    expected = N.T @ (KT * currents(kept))
+    np.testing.assert_allclose(run.tau, expected, atol=2e-6 * np.abs(expected).max())
+
+
 def test_without_the_section_nothing_changes(recorded: Recorded) -> None:
     run = recorded.run(robot(recorded.folder, ""), positions(T), currents(T))
     assert run.samples == len(T)

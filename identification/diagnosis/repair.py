@@ -2,53 +2,42 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
+import sympy
+from scipy.spatial.transform import Rotation
 
 from generator.effects.effect import Effect
 from generator.effects.library import library
-from generator.robot.description import PRISMATIC, Drives, Joint, Robot
+from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
-from identification.robot_text import robot_of, with_item, with_value
+from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-Array = NDArray[np.float64]
-
-#: Corrections that replace what the file says; the others are added to it, a gain and a ratio multiply it.
-_REPLACING = ("current_limit", "warm_up_time", "warm_rise")
-#: What a correction is where the file says nothing; one that is replaced has no such value.
-_NEUTRAL = {"position_offset": 0.0, "torque_gain": 1.0, "torque_delay": 0.0, "link_delay": 0.0}
-_UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
-#: What a joint has that nothing limits or warms.
-_NEVER = 1e9
 #: Time constant of the warmth [s] that effects of the library are tried with, written where the file says none.
 WARM_UP_TIME = 60.0
+#: What joints have that no motion limits or warms [A, K].
+_NEVER = 1e6
+#: What a correction is where the file says nothing, and its unit where it is not that of a position.
+_NEUTRAL = {
+    "position_offset": 0.0,
+    "torque_gain": 1.0,
+    "torque_delay": 0.0,
+    "link_delay": 0.0,
+    "current_limit": _NEVER,
+    "warm_up_time": WARM_UP_TIME,
+    "warm_rise": _NEVER,
+}
+_UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
+#: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
+_REPLACING = ("current_limit", "warm_up_time", "warm_rise")
 
-
-@dataclass(frozen=True)
-class Addition:
-    """A finding as it goes into the robot file; ``kind`` as in ``hypothesis``, ``evidence`` a line for people.
-
-    ``shape`` holds values of the effect in the file [SI]. ``values`` of what is no effect are, by ``kind``:
-
-    - SIGNAL: ``effect`` is the key of section ``signals``, with its value for the joints: an offset or a delay is added
-      to the file's, a gain multiplies it, a limit, time or rise replaces it.
-    - DRIVE: ``gear_ratios``, a factor of the joints' ratios; ``torque_drift``, added to the motors'.
-    - BASE: ``roll``, ``pitch``, ``yaw`` [rad] about the world's fixed axes, after the file's rotation.
-
-    ELASTIC makes the joints' drive trains elastic, with ``gap`` in ``shape`` where there is backlash. BODY is a payload
-    that base parameters hold: the file's text does not change.
-    """
-
-    kind: str
-    effect: str
-    joints: tuple[int, ...]
-    shape: Mapping[str, float] = field(default_factory=dict)
-    values: Mapping[str, float] = field(default_factory=dict)
-    evidence: str = ""
+_ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
+_PRODUCT = re.compile(r"-?[\w./*]+\Z", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -80,7 +69,7 @@ def _grouped(additions: Sequence[Addition]) -> list[Addition]:
     def key(one: Addition) -> tuple[object, ...]:
         if one.kind != EFFECT:
             return one.kind, one.effect, one.joints
-        return one.kind, one.effect, *sorted((name, _number(value)) for name, value in one.shape.items())
+        return one.kind, one.effect, *sorted((name, _number(value)) for name, value in one.values.items())
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
@@ -89,7 +78,7 @@ def _grouped(additions: Sequence[Addition]) -> list[Addition]:
         joints = tuple(sorted({joint for one in each for joint in one.joints}))
         evidence = "; ".join(dict.fromkeys(one.evidence for one in each if one.evidence))
         same = each[0]
-        result.append(Addition(same.kind, same.effect, joints, same.shape, same.values, evidence))
+        result.append(Addition(same.kind, same.effect, joints, same.values, same.parameters, evidence))
     return result
 
 
@@ -103,7 +92,7 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     if "warmth" in effect.needs:
         text = _with_warmth(text, robot)
     where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
-    values = _values(effect, robot.joints[new[0] - 1], one.shape)
+    values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
     return with_item(text, "effects", entry, _plain(one.evidence)), notes
 
@@ -117,15 +106,21 @@ def _values(effect: Effect, joint: Joint, shape: Mapping[str, float]) -> str:
 
 
 def _add_signal(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
-    value = next(iter({**one.values, **one.shape}.values()))
-    old: Sequence[object] = getattr(robot.signals, one.effect)
-    now = [float(x) for x in old] or [_NEUTRAL.get(one.effect, _NEVER)] * len(robot.moving)  # type: ignore[arg-type]
+    for key, value in one.values.items():
+        text = _with_signal(text, robot, key, value, one.joints)
+    return text, []
+
+
+def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequence[int]) -> str:
+    """The value of a key of ``signals`` changed for some joints."""
+    old: Sequence[sympy.Expr] = getattr(robot.signals, key)
+    now = [float(x) for x in old] or [_NEUTRAL[key]] * len(robot.moving)
     for k, joint in enumerate(robot.moving):
-        if joint.number in one.joints:
-            now[k] = value if one.effect in _REPLACING else now[k] * value if "gain" in one.effect else now[k] + value
-    units = [_signal_unit(one.effect, joint) for joint in robot.moving]
+        if joint.number in joints:
+            now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
+    units = [_signal_unit(key, joint) for joint in robot.moving]
     written = [f"{_number(x)}{f' {unit}' if unit else ''}" for x, unit in zip(now, units, strict=True)]
-    return with_value(text, ("signals", one.effect), f"[{', '.join(written)}]"), []
+    return with_value(text, ("signals", key), f"[{', '.join(written)}]")
 
 
 def _signal_unit(key: str, joint: Joint) -> str:
@@ -135,9 +130,10 @@ def _signal_unit(key: str, joint: Joint) -> str:
 
 
 def _with_warmth(text: str, robot: Robot) -> str:
+    """Something that says how warm the drives are."""
     if robot.signals.warm_up_time or robot.signals.warm_rise:
         return text
-    return with_value(text, ("signals", "warm_up_time"), f"{_number(WARM_UP_TIME)} s")
+    return _with_signal(text, robot, "warm_up_time", WARM_UP_TIME, ())
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -145,60 +141,58 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     if drives is None or (one.effect == "torque_drift" and not drives.torque_constants):
         lack = "drives" if drives is None else "torque constants"
         return text, [f"{one.effect} cannot be written: {robot.name} has no {lack}"]
-    value = next(iter({**one.values, **one.shape}.values()))
-    motors = [k for k, joint in enumerate(robot.moving) if joint.number in one.joints]
-    if one.effect == "torque_drift":
-        drift = [float(part) for part in drives.torque_drift] or [0.0] * len(robot.moving)
-        for k in motors:
-            drift[k] += value
-        text = _with_warmth(text, robot)
-        return with_value(text, ("drives", "torque_drift"), f"[{', '.join(map(_number, drift))}]"), []
-    for k in motors:
-        text = with_value(text, ("drives", "gear_ratios", k), f"{float(drives.ratios[k]) * value:.9g}")
-    return text, _coupled(drives, robot, motors)
+    if one.effect == "gear_ratio":
+        for number in one.joints:
+            text = _with_ratio(text, robot, number, one.values["gear_ratio"])
+        return text, []
+    drift = [float(part) for part in drives.torque_drift] or [0.0] * len(robot.moving)
+    for k, joint in enumerate(robot.moving):
+        drift[k] += one.values["torque_drift"] if joint.number in one.joints else 0.0
+    text = with_value(text, ("drives", "torque_drift"), f"[{', '.join(map(_number, drift))}]")
+    for key, value in one.values.items():
+        if key != "torque_drift":
+            text = _with_signal(text, robot, key, value, one.joints)
+    return text, []
 
 
-def _coupled(drives: Drives, robot: Robot, motors: Sequence[int]) -> list[str]:
-    numbers = [robot.moving[m].number for m in motors if any(n for k, n in enumerate(drives.coupling[m]) if k != m)]
-    return [f"the coupling coefficients of motor {number} stay what they were" for number in numbers]
+def _with_ratio(text: str, robot: Robot, joint: int, factor: float) -> str:
+    """Column ``joint`` of N times ``factor``, by its ratio and what the file's convention makes of the coupling."""
+    k = [one.number for one in robot.moving].index(joint)
+    text = _times(text, ("drives", "gear_ratios", k), f"*{factor:.9g}")
+    entries = keys_of(text, ("drives", "coupling"))
+    convention = "row"
+    if "convention" in entries:
+        convention = value_of(text, ("drives", "coupling", "convention"))
+    for key in entries:
+        if (match := _ELEMENT.match(key)) is None or convention == "as_printed":
+            continue
+        row, column = (int(one or other) for one, other in ((match[1], match[3]), (match[2], match[4])))
+        if column == joint:
+            text = _times(text, ("drives", "coupling", key), f"*{factor:.9g}")
+        elif row == joint and convention == "row":
+            text = _times(text, ("drives", "coupling", key), f"/{factor:.9g}")
+    return text
+
+
+def _times(text: str, path: Sequence[str | int], factor: str) -> str:
+    old = value_of(text, path)
+    return with_value(text, path, f"{old if _PRODUCT.match(old) else f'({old})'}{factor}")
 
 
 def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
-    found = {**one.values, **one.shape}
-    turn = _rotation(*(found.get(name, 0.0) for name in ("roll", "pitch", "yaw")))
-    pose = np.array(robot.base[:3, :3].evalf(), dtype=float)
-    angles = ", ".join(f"{_number(angle)} rad" for angle in _angles(turn @ pose))
+    turn = Rotation.from_rotvec([one.values.get(f"tilt_{axis}", 0.0) for axis in "xyz"])
+    pose = Rotation.from_matrix(np.array(robot.base[:3, :3].evalf(), dtype=float))
+    angles = ", ".join(f"{angle:.9g} rad" for angle in (turn * pose).as_euler("xyz").tolist())
     return with_value(text, ("base", "rotation"), f"[{angles}]"), []
-
-
-def _rotation(roll: float, pitch: float, yaw: float) -> Array:
-    """Rz(yaw) Ry(pitch) Rx(roll)."""
-    (a, b, c), (x, y, z) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
-    return np.array(
-        [
-            [c * b, c * y * x - z * a, c * y * a + z * x],
-            [z * b, z * y * x + c * a, z * y * a - c * x],
-            [-y, b * x, b * a],
-        ]
-    )
-
-
-def _angles(R: Array) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of a rotation matrix."""
-    pitch = float(np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0])))
-    if np.hypot(R[0, 0], R[1, 0]) < 1e-9:
-        return float(np.arctan2(-R[1, 2], R[1, 1])), pitch, 0.0
-    return float(np.arctan2(R[2, 1], R[2, 2])), pitch, float(np.arctan2(R[1, 0], R[0, 0]))
 
 
 def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     joints = sorted({*robot.flexible, *one.joints})
     if joints != sorted(robot.flexible):
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
-    if not one.shape.get("gap"):
+    if not one.values.get("gap"):
         return text, []
-    gap = Addition(EFFECT, "joint_elasticity", one.joints, {"gap": one.shape["gap"]}, evidence=one.evidence)
-    return _add_effect(text, robot, gap)
+    return _add_effect(text, robot, Addition(EFFECT, "joint_elasticity", one.joints, one.values, evidence=one.evidence))
 
 
 def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

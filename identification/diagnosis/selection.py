@@ -233,7 +233,9 @@ class Selection:
         best: tuple[float, list[Variant]] = (0.0, [])
         for one, other in combinations([each.variant for each in single], 2):
             at = np.array([*one.columns, *other.columns]) - self.normal.base
-            bounds = [np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)]
+            bounds = [
+                np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)
+            ]
             size = np.diag(self.normal.gram)[[*one.columns, *other.columns]]
             _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
             if drop > best[0]:
@@ -248,7 +250,9 @@ class Selection:
         near = [
             other
             for other in self.evidence(others)
-            if _key(other.variant) != _key(one) and other.passes and other.score > mine.score - max(_EQUAL * mine.drop, 2.0)
+            if _key(other.variant) != _key(one)
+            and other.passes
+            and other.score > mine.score - max(_EQUAL * mine.drop, 2.0)
         ]
         return Choice(mine, tuple(near))
 
