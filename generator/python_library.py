@@ -1,8 +1,10 @@
-"""Compiling the library that the generated Python module loads, for the machine that it is compiled on."""
+"""The library of the generated Python module: compiled for the machine that it is compiled on, and loaded."""
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
+from typing import Any
 
 from generator.compiler import Done, compiler, run
 from generator.errors import InputError, Place
@@ -33,3 +35,14 @@ def build_library(folder: Path, name: str) -> Path:
     raise InputError(
         Place(str(library)), f"it cannot be compiled ({reason})", "a C99 compiler that makes shared libraries"
     )
+
+
+def load_library(folder: Path, name: str) -> Any:
+    """The generated Python module in ``folder``, on its compiled library."""
+    path = folder / "python" / f"{name}.py"
+    specification = importlib.util.spec_from_file_location(path.stem, path)
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
