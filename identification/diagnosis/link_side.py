@@ -12,17 +12,17 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_banded
 
 from generator.symbolic.model import Model
-from identification.diagnosis.hypothesis import ShapeRange
 from identification.diagnosis.perturbation import change_of, sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
 
-#: Parts of a base parameter that are tried for a rotor's inertia that is grouped in it.
-_SHARES = (0.1, 0.9)
+#: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
+_SHARE = 0.5
 
 
 @dataclass(frozen=True)
@@ -48,9 +48,38 @@ class LinkSide:
         result: Array = self.torque_on(self.scene.motion)[self.k]
         return result
 
-    def torque_per(self, deflection: Array) -> Array:
-        """Change of the motors' torques (n x N) per unit of a deflection q_l - q (N) [rad, m]."""
-        return sensitivity(self.torque_on, self.scene.motion, change_of(self.scene, self.k, deflection))
+    @cached_property
+    def inertia(self) -> Array:
+        """Of the links about the joint (N) [kg m2, kg]."""
+        motion = self.scene.motion
+        quicker = motion.qdd.copy()
+        quicker[self.k] += 1.0
+        result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
+        return result
+
+    def deflection(self, stiffness: float, damping: float) -> Motion:
+        """How the joint's link moves against the motor on an elastic drive train, M e'' + d e' + k e = -tau_link(q).
+
+        ``stiffness`` is k [N m/rad, N/m], ``damping`` the ratio d / (2 sqrt(k M)) of the link on it, the motor held. To
+        the first order in 1/k e is -tau_link/k, but that holds far below the resonance alone.
+        """
+        M, h = self.inertia, self.scene.period
+        d = 2 * damping * np.sqrt(stiffness * M)
+        # Central differences forward in time, from the link at rest on its spring.
+        ahead, here, before = M / h**2 + d / (2 * h), stiffness - 2 * M / h**2, M / h**2 - d / (2 * h)
+        bands, force = np.zeros((3, len(M))), np.zeros(len(M))
+        bands[0, 2:], bands[1, 1:-1], bands[2, :-2] = ahead[1:-1], here[1:-1], before[1:-1]
+        bands[0, :2], force[:2] = stiffness, -self.load[:2]
+        bands[1, 0] = 0.0
+        force[2:] = -self.load[1:-1]
+        e: Array = solve_banded((2, 0), bands, force)
+        change = change_of(self.scene, self.k, e)
+        change.qdd[self.k] = -(self.load + d * change.qd[self.k] + stiffness * e) / M
+        return change
+
+    def torque_per(self, deflection: Motion) -> Array:
+        """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
+        return sensitivity(self.torque_on, self.scene.motion, deflection)
 
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
@@ -69,14 +98,12 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     return result
 
 
-def rotor_inertia(scene: Scene, k: int) -> float | ShapeRange | None:
-    """Inertia of the joint's drive train [kg m2, kg]: as the robot's file or the fit has it, else what to search in.
-
-    None where the base parameter that holds it has no positive value, so that nothing can be said.
+def rotor_inertia(scene: Scene, k: int) -> float:
+    """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
+    half of the base parameter that it is grouped in, 0 where the model has none.
     """
     model = scene.regressors.model
-    joint = model.robot.moving[k]
-    name = f"Ia{joint.number}"
+    name = f"Ia{model.robot.moving[k].number}"
     if name in scene.values:
         return scene.values[name]
     for one in model.robot.parameter_sets.values():
@@ -84,9 +111,7 @@ def rotor_inertia(scene: Scene, k: int) -> float | ShapeRange | None:
             return one.values[name].value
     for title, terms in model.grouping.numeric().items():
         if name in terms:
-            whole = scene.values.get(title, 0.0) / terms[name]
-            unit = "kg m2" if joint.sigma == 0 else "kg"
-            return ShapeRange("Iam", unit, *(share * whole for share in _SHARES), 4, log=False) if whole > 0 else None
+            return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
     return 0.0
 
 
