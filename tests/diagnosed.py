@@ -27,7 +27,7 @@ from tests.plant.trajectory import Trajectory
 
 #: No noise, no steps: what is left between log and model is the effect.
 CLEAN = Sensors(noise=0.0, quantised=False)
-#: Cut-off of the motion's filter [Hz], decimation of its rows, and speed below which a joint stands, in parts of its rms.
+#: Cut-off of the motion's filter [Hz], decimation of its rows, and speed below which a joint stands, in its rms.
 CUTOFF, FACTOR, SLOW = 50.0, 10, 0.04
 
 

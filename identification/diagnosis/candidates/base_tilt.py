@@ -1,9 +1,9 @@
 """A base that leans against the pose in the robot's file.
 
-Turned by small angles phi about the world's axes, the robot feels the weight of gravity g - phi x g in its old pose: the
-measured torque holds the torque of gravity g x e_k per radian about axis k. It is linear in the bodies' first moments
-and masses, some of which an upright base does not show at all, such as the first moments about a vertical first axis.
-For these the base parameters tell nothing: their products with the angles are coefficients of their own.
+Turned by small angles phi about the world's axes, the robot feels the weight of gravity g - phi x g in its old pose:
+the measured torque holds the torque of gravity g x e_k per radian about axis k. It is linear in the bodies' first
+moments and masses, some of which an upright base does not show at all, such as the first moments about a vertical first
+axis. For these the base parameters tell nothing: their products with the angles are coefficients of their own.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ _POSITIONS, _NOTHING = 200, 1e-6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One for the robot: angles [rad] about the two of the world's axes that are not along gravity, by which the base is
-    turned beyond its pose in the file (rotation vector, in the world); none without gravity or weight.
+    """One for the robot: angles [rad] about the two of the world's axes that are not along gravity, by which the base
+    is turned beyond its pose in the file (rotation vector, in the world); none without gravity or weight.
     """
     if not scenes or not any(scenes[0].robot.gravity):
         return []
