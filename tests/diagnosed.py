@@ -51,9 +51,9 @@ class Known:
 
 
 def known(robot: Robot, folder: Path) -> Known:
-    """The robot by its file, with true values."""
+    """The robot by its file, with true values; a wrist has no coupled rotor."""
     path = folder / f"{robot.name}.yaml"
-    path.write_text(robot_file(robot), encoding="utf-8")
+    path.write_text(robot_file(robot, leave_out={"coupled_rotor"}), encoding="utf-8")
     description = read(path)
     regressors = Regressors(description)
     standard = {name: one.value for name, one in description.parameter_sets[PRIOR].values.items()}
