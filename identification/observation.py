@@ -82,11 +82,20 @@ class Regressors:
 
     def torques(self, parameters: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""
+        tau: Array = self._generated.inverse_dynamics(self._vector(parameters), motion.q.T, motion.qd.T, motion.qdd.T)
+        return tau.T
+
+    def inertia(self, parameters: Mapping[str, float], q: Array) -> Array:
+        """M (N x n x n) at positions ``q`` (n x N) for values of the base parameters by name, absent ones zero."""
+        M: Array = self._generated.inertia_matrix(self._vector(parameters), q.T)
+        return M
+
+    def _vector(self, parameters: Mapping[str, float]) -> Array:
+        """The generated functions' parameter vector."""
         vector = self.model.default_parameters()
         for k, parameter in enumerate(self.model.parameters):
             vector[k] = parameters.get(parameter.name, vector[k] if k >= len(self.names) else 0.0)
-        tau: Array = self._generated.inverse_dynamics(vector, motion.q.T, motion.qd.T, motion.qdd.T)
-        return tau.T
+        return vector
 
     @cached_property
     def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
