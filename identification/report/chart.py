@@ -19,7 +19,7 @@ COLOURS = tuple(f"--curve-{k}" for k in range(6))
 
 Trace = dict[str, Any]
 #: Ratio of the ends of a logarithmic axis from which powers of ten suffice.
-_WIDE = 50.0
+_WIDE = 30.0
 #: Numbers of an axis, None for a gap.
 Numbers = Sequence[float | None]
 

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 Numbers = list[float | None]
 
 #: Points of all lines of one kind on a page, and the most and the fewest of one line.
-_ALL, _MOST, _FEWEST = 60_000, 1600, 240
+_ALL, _MOST, _FEWEST = 48_000, 1600, 160
 #: Distance of two samples, in the usual one, from which a line is interrupted.
 _GAP = 1.5
 

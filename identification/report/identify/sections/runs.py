@@ -6,6 +6,7 @@ from generator.review.markup import Content, Markup, element, join, table
 from identification.report.identify.subject import Subject
 from identification.report.numbers import plain
 from identification.report.runs_table import runs_table
+from identification.report.told import facts
 
 TITLE = "Runs and method"
 ORDER = 110
@@ -14,7 +15,7 @@ ORDER = 110
 def render(subject: Subject) -> Markup:
     results = subject.results
     method = results["method"]
-    facts = {
+    about = {
         "method": "inverse dynamic model, least squares (report eq. 39-46)",
         "weights": method["least_squares"] + (", Huber's weights against outliers" if method["robust"] else ""),
         "std": method["std"],
@@ -23,11 +24,8 @@ def render(subject: Subject) -> Markup:
         "essential": f"ratio of relative standard deviations below {results['essential']['ratio']:g} (report eq. 47)",
         "given": ", ".join(f"{name} = {plain(value, 6)}" for name, value in method["fixed"].items()) or "nothing",
     }
-    about = element(
-        "dl", [element("div", element("dt", name), element("dd", text)) for name, text in facts.items()], class_="facts"
-    )
     kinds = {"fitted": results["data"]["train"], "held out": results["data"]["test"]}
-    return join(runs_table(kinds), element("h3", "Method"), about, _sensitivity(subject))
+    return join(runs_table(kinds), element("h3", "Method"), facts(about), _sensitivity(subject))
 
 
 def _sensitivity(subject: Subject) -> Markup | None:

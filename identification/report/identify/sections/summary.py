@@ -10,6 +10,7 @@ from generator.review.markup import Markup, element, join
 from generator.review.words import listed, plural
 from identification.report.identify.subject import ALL, Subject
 from identification.report.numbers import card, number, percent, plain
+from identification.report.told import notes
 
 TITLE = "Summary"
 ORDER = 10
@@ -19,15 +20,12 @@ _WORSE = 1.5
 
 
 def render(subject: Subject) -> Markup:
-    notes = subject.results["notes"]
     return join(
         element("p", " ".join(_quality(subject)), class_="verdict"),
         element("p", " ".join(_parameters(subject))),
         element("p", " ".join(_positivity(subject))),
         element("div", _cards(subject), class_="cards results"),
-        [element("h3", "Repairs and doubts"), element("ul", [element("li", one) for one in notes], class_="notes")]
-        if notes
-        else None,
+        notes(subject.results["notes"]),
     )
 
 
