@@ -34,7 +34,7 @@ def norms(residual: Mapping[str, Any], units: Mapping[int, str], part: str = "jo
 def _table(kinds: Mapping[str, Any], units: Mapping[int, str], part: str) -> Markup:
     heads = [part]
     for kind in kinds:
-        heads += [f"{_KINDS[kind][0]}: rows", "‖e‖", "‖e‖ / ‖Y‖", "‖e‖ / ‖Y − mean Y‖"]
+        heads += [f"{_KINDS[kind][0]}, rows", "‖e‖", "‖e‖/‖Y‖", "‖e‖/‖Y − mean‖"]
     rows: list[list[Content]] = []
     for k, number_ in enumerate([one["joint"] for one in next(iter(kinds.values()))["per_joint"]]):
         rows.append([str(number_), *_cells(kinds, lambda each, k=k: each["per_joint"][k], unit(units[number_]))])

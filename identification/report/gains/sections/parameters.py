@@ -19,7 +19,7 @@ def render(subject: Subject) -> Markup:
         name: element("span", one["refused"], class_="state") for name, one in gains.items() if one.get("refused")
     }
     states |= {
-        name: element("span", f"{plain(share, 2)}\u202f% of it from the payload's std", class_="faint")
+        name: element("span", f"{plain(share, 2)}\u202f% come from the payload's", class_="faint")
         for name, share in results["gains_by_payload_percent"].items()
         if share
     }

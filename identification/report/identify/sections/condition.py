@@ -20,7 +20,7 @@ _TOLD, _PART = 3, 0.2
 
 def render(subject: Subject) -> Markup:
     solution = subject.found.full.solution
-    s, V, names = _directions(subject)
+    s, V, names = directions(subject)
     text = [
         "cond(W) is ", number(solution.condition, 6), ", with columns of unit length ",
         number(solution.scaled_condition, 4), "; 1 would be ideal. ",
@@ -48,7 +48,7 @@ def render(subject: Subject) -> Markup:
     )
 
 
-def _directions(subject: Subject) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], list[list[float]], list[str]]:
+def directions(subject: Subject) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], list[list[float]], list[str]]:
     """Singular values of W with columns of unit length, and the right singular vectors, a row each."""
     problem = subject.found.problem
     R = triangular(np.concatenate([one.on(problem.names)[:, :-1] for one in problem.factors]))

@@ -19,4 +19,4 @@ def render(subject: Subject) -> Markup:
         about["wrench"] = " ".join(method["wrench"])
     if "balancer_torque" in method:
         about["balancer"] = ", ".join(f"{one:.6g}" for one in method["balancer_torque"]) + " subtracted, run by run"
-    return join(runs_table(subject.results["data"]), element("h3", "Method"), facts(about))
+    return join(runs_table({"fitted": subject.results["data"]["train"]}), element("h3", "Method"), facts(about))
