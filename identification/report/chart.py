@@ -27,8 +27,10 @@ Numbers = Sequence[float | None]
 def chart(
     data: Sequence[Trace], layout: Mapping[str, Any], described: str, caption: Content = None, height: int = 340
 ) -> Markup:
-    """A figure ``height`` px high; ``described`` tells it to those who cannot see it."""
-    text = json.dumps({"data": list(data), "layout": {**layout, "height": height}}, separators=(",", ":"))
+    """A figure ``height`` px high; ``described`` tells it to those who cannot see it. Numbers must be finite."""
+    text = json.dumps(
+        {"data": list(data), "layout": {**layout, "height": height}}, separators=(",", ":"), allow_nan=False
+    )
     # No figure element: the style sheet gives the pictures inside one a size of their own.
     return element(
         "div",

@@ -9,6 +9,7 @@ from generator.review.markup import Content, Markup, join, table
 from generator.review.words import unit
 from identification.report.chart import HELD_OUT, RESIDUAL, axis, chart
 from identification.report.numbers import NONE, number, percent
+from identification.report.series import numbers
 
 _KINDS = {"train": ("fitted runs", RESIDUAL), "test": ("held-out runs", HELD_OUT)}
 
@@ -21,7 +22,7 @@ def norms(residual: Mapping[str, Any], units: Mapping[int, str], part: str = "jo
             "type": "bar",
             "name": _KINDS[kind][0],
             "x": [f"{part} {one['joint']}" for one in each["per_joint"]] + ["all"],
-            "y": [float(f"{one['relative_to_mean_percent']:.4g}") for one in (*each["per_joint"], each["total"])],
+            "y": numbers(one["relative_to_mean_percent"] for one in (*each["per_joint"], each["total"])),
             "marker": {"color": _KINDS[kind][1]},
         }
         for kind, each in kinds.items()
