@@ -156,28 +156,52 @@ def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, robots: Ca
     assert max(tried) > 0.97
 
 
+def drive_train(name: str, effect: Effect, scene: Scene, stiffness: float) -> dict[str, float]:
+    """The plant's own drive train: it damps by the motor's inertia, the candidate by the link's."""
+    rotor = ROBOTS[name].chain[effect.joint - 1].rotor
+    inertia = float(LinkSide(scene, effect.joint - 1, rotor).inertia.mean())
+    damping = effect.value("damping_ratio", ROBOTS[name]) * np.sqrt(rotor / inertia)
+    return {"Iam": rotor, "k": stiffness, "damping": damping}
+
+
 @pytest.mark.parametrize(("name", "joint", "part"), [(HEAVY, 1, 0.3), (HEAVY, 3, 1.0), (SCARA, 2, 1.0)])
 def test_an_elastic_drive_train_gives_way_and_swings(
     name: str, joint: int, part: float, robots: Callable[[str], Known]
 ) -> None:
     """With the plant's own stiffness and damping, and by the values that are tried."""
-    robot = robots(name)
     effect = Effect("joint_flexibility", joint)
-    effect = effect.sized(part * effect.amount(robot.robot))
-    scene, truth, kept = played(robot, effect, WAY)
+    effect = effect.sized(part * effect.amount(ROBOTS[name]))
+    compliance = effect.amount(ROBOTS[name])
+    scene, truth, kept = played(robots(name), effect, WAY)
     (hypothesis,) = offered([scene], "joint_elasticity", joint)
-    compliance, rotor = effect.amount(robot.robot), robot.robot.chain[joint - 1].rotor
-    assert hypothesis.given["Iam"] == pytest.approx(rotor)
-    inertia = LinkSide(scene, joint - 1, rotor).inertia.mean()
-    damping = effect.value("damping_ratio", robot.robot) * np.sqrt(rotor / inertia)
-    shape = {**hypothesis.given, "k": 1 / compliance, "damping": damping}
+    shape = drive_train(name, effect, scene, 1 / compliance)
+    assert hypothesis.given["Iam"] == pytest.approx(shape["Iam"])
     (found,), likeness = fitted(hypothesis.columns(scene, shape), truth, kept, scene)
-    print(name,joint,found/compliance,likeness)
     assert likeness > 0.99
     assert found == pytest.approx(compliance, rel=0.05)
     tried = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
-    print(max(tried),np.array(hypothesis.shapes[0].points)*compliance)
     assert max(tried) > 0.9
+    assert any(points * compliance == pytest.approx(1, rel=0.1) for points in hypothesis.shapes[0].points)
+
+
+@pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), (HEAVY, 2), (SCARA, 1)])
+def test_a_link_falls_through_its_gap(name: str, joint: int, robots: Callable[[str], Known]) -> None:
+    """Looser than the others: each landing depends on the speed of the one before, which the log's motor, sampled and
+    filtered, does not tell to the last digit.
+    """
+    effect = Effect("backlash", joint, 4e-4)
+    scene, truth, kept = played(robots(name), effect, WAY)
+    (hypothesis,) = offered([scene], "backlash", joint)
+    stiffness = effect.value("stiffer", ROBOTS[name]) * ROBOTS[name].chain[joint - 1].stiffness
+    shape = {**drive_train(name, effect, scene, stiffness), "gap": 4e-4}
+    (found,), likeness = fitted(hypothesis.columns(scene, shape), truth, kept, scene)
+    print(found, likeness)
+    assert likeness > 0.95
+    assert found == pytest.approx(4e-4, rel=0.1)
+    (tried,) = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
+    print(tried, hypothesis.variants)
+    assert tried > 0.85
+    assert hypothesis.variants[0]["gap"] == pytest.approx(4e-4, rel=0.25)
 
 
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:

@@ -7,22 +7,35 @@ turn with the motor and do not see e.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_banded
 
 from generator.symbolic.model import Model
-from identification.diagnosis.perturbation import change_of, sensitivity
+from identification.diagnosis.perturbation import sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
+Value: TypeAlias = float | Array
 
 #: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
 _SHARE = 0.5
+
+
+@dataclass(frozen=True)
+class Train:
+    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``damping`` the ratio d / (2 sqrt(k M)) of the link on it,
+    the motor held, ``gap`` its play [rad, m]. Arrays are many of them.
+    """
+
+    stiffness: Value
+    damping: Value
+    gap: Value = 0.0
 
 
 @dataclass(frozen=True)
@@ -57,25 +70,31 @@ class LinkSide:
         result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
         return result
 
-    def deflection(self, stiffness: float, damping: float) -> Motion:
-        """How the joint's link moves against the motor on an elastic drive train, M e'' + d e' + k e = -tau_link(q).
+    def steps(self, train: Train, end: int | None = None) -> Iterator[tuple[Value, Value, Value]]:
+        """Position, speed and acceleration of the joint's link against the motor, sample by sample up to ``end``:
+        M e'' + d e' + k z = -tau_link(q), z what e is beyond the gap, d nothing within it.
 
-        ``stiffness`` is k [N m/rad, N/m], ``damping`` the ratio d / (2 sqrt(k M)) of the link on it, the motor held. To
-        the first order in 1/k e is -tau_link/k, but that holds far below the resonance alone.
+        To the first order in 1/k and without a gap e is -tau_link/k, but that holds far below the resonance alone.
         """
-        M, h = self.inertia, self.scene.period
-        d = 2 * damping * np.sqrt(stiffness * M)
-        # Central differences forward in time, from the link at rest on its spring.
-        ahead, here, before = M / h**2 + d / (2 * h), stiffness - 2 * M / h**2, M / h**2 - d / (2 * h)
-        bands, force = np.zeros((3, len(M))), np.zeros(len(M))
-        bands[0, 2:], bands[1, 1:-1], bands[2, :-2] = ahead[1:-1], here[1:-1], before[1:-1]
-        bands[0, :2], force[:2] = stiffness, -self.load[:2]
-        bands[1, 0] = 0.0
-        force[2:] = -self.load[1:-1]
-        e: Array = solve_banded((2, 0), bands, force)
-        change = change_of(self.scene, self.k, e)
-        change.qdd[self.k] = -(self.load + d * change.qd[self.k] + stiffness * e) / M
-        return change
+        h, half, k = self.scene.period, train.gap / 2, train.stiffness
+        d = 2 * train.damping * np.sqrt(k * float(np.mean(self.inertia)))
+        e: Value = -(half * np.sign(self.load[0]) + self.load[0] / k)
+        v: Value = 0.0 * e
+        for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
+            beyond = e - (abs(e + half) - abs(e - half)) / 2
+            a = -(load + k * beyond + (abs(e) > half) * d * v) / M
+            yield e, v, a
+            v = v + h * a
+            e = e + h * v
+
+    def deflection(self, train: Train) -> Motion:
+        """The link's motion against the motor's on a drive train of plain numbers."""
+        plain = Train(float(train.stiffness), float(train.damping), float(train.gap))
+        own = np.array(list(self.steps(plain))).T
+        moved = [np.zeros_like(self.scene.motion.q) for _ in own]
+        for signal, x in zip(moved, own, strict=True):
+            signal[self.k] = x
+        return Motion(*moved)
 
     def torque_per(self, deflection: Motion) -> Array:
         """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
