@@ -17,6 +17,9 @@ from identification.diagnosis.played import Played
 
 Array = NDArray[np.float64]
 
+#: Least gap to the noise, in squares of the residual, of which a share is told.
+_GAP = 0.25
+
 
 @dataclass(frozen=True)
 class Tried:
@@ -46,7 +49,7 @@ class Tried:
     def closed(self) -> float | None:
         """The share of the gap between ``before`` and the noise that is closed; None where there is no gap."""
         gap = self.before**2 - self.floor**2
-        return (self.before**2 - self.after**2) / gap if gap > 0.05 * self.before**2 else None
+        return (self.before**2 - self.after**2) / gap if gap > _GAP * self.before**2 else None
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,11 @@ class Subject:
     def numbers(self) -> list[int]:
         """The joints' numbers."""
         return [joint.number for joint in self.found.robot.moving]
+
+    @property
+    def leading(self) -> str:
+        """The joint that is looked at first, as it is named on buttons."""
+        return str(self.found.before.joint or self.numbers[0])
 
     @cached_property
     def torque_units(self) -> dict[int, str]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from generator.review.words import listed, unit
-from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING
+from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING, Where
 from identification.diagnosis.finding import FIRM, Finding
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
@@ -37,8 +38,12 @@ def values(one: Finding) -> str:
 
 
 def chance(p: float) -> str:
-    """A p-value in words."""
-    return f"less than {plain(_LEAST_P, 1)}" if p < _LEAST_P else plain(p, 2)
+    """A p-value."""
+    return f"<\u202f{plain(_LEAST_P, 1)}" if p < _LEAST_P else plain(p, 2)
+
+
+def _probability(p: float) -> str:
+    return f"below {plain(_LEAST_P, 1)}" if p < _LEAST_P else f"of {plain(p, 2)}"
 
 
 def verdict(subject: Subject) -> Iterator[str]:
@@ -48,45 +53,35 @@ def verdict(subject: Subject) -> Iterator[str]:
         yield "The model explains these runs: nothing in the library of effects improves it beyond chance,"
         yield "and what is left on each joint is noise."
         return
-    if not found.findings:
-        where = found.before
-        yield "Something is missing in the model, and no effect of the library explains it."
-        yield f"It is on joint {where.joint}, {_ordered(where.variable, where.region)}."
+    if found.verdict == NAMED:
+        yield f"The model lacks {_named(found.findings)}."
         return
-    if len(found.findings) > 1:
-        yield f"The model lacks {len(found.findings)} effects."
-    for one in found.findings:
-        yield from _finding(subject, one)
-    if found.verdict != NAMED:
-        after = found.after
-        yield f"That is not all: joint {after.joint or _largest(subject)} keeps more than noise,"
-        yield f"{_ordered(after.variable, after.region)}, so that what is named here is tentative."
+    where = found.after if found.after.joint else found.before
+    yield "Something is missing in the model that no effect of the library explains:"
+    yield f"joint {where.joint or _largest(subject)} keeps more than noise, {_ordered(subject, where)}."
+    if found.findings:
+        yield f"What is named is therefore tentative: {_named(found.findings)}."
 
 
-def _finding(subject: Subject, one: Finding) -> Iterator[str]:
-    yield f"On {joints(one.joints)} the model lacks {one.hypothesis.title}: {values(one)}."
+def finding(subject: Subject, one: Finding) -> Iterator[str]:
+    """How much, and how sure, of one effect."""
+    yield f"{one.hypothesis.title[:1].upper()}{one.hypothesis.title[1:]} on {joints(one.joints)}: {values(one)}."
     amplitude = [
         f"{plain(rms, 3)}\u00a0{unit(subject.torque_units[number])} on joint {number}"
         for number, rms in sorted(one.amplitude.items(), key=lambda pair: -pair[1])[:3]
     ]
-    yield f"Its torque is {listed(amplitude)} (rms),"
-    yield f"of which {plain(one.evidence.size, 2)} times the noise cannot be laid to anything else in the model."
-
-
-def certainty(subject: Subject) -> Iterator[str]:
-    """How sure that is."""
-    for one in subject.found.findings:
-        e = one.evidence
-        yield f"{one.hypothesis.title[:1].upper()}{one.hypothesis.title[1:]} on {joints(one.joints)} is {one.status}:"
-        yield f"chance would explain as much with a probability of {chance(e.p)}, and it lowers the sum of squares of"
-        yield f"the runs that were not fitted by {plain(e.validation, 3)}, in variances of the noise."
-        if one.alternatives:
-            others = [f"{other.title} on {joints(other.joints)}" for other in one.alternatives]
-            yield f"This data cannot tell it from {listed(others)}."
-        elif one.status == FIRM:
-            yield "No other effect of the library would do in its place."
-        if not one.homogeneous:
-            yield "Its size differs between the runs: it drifts, or is chance."
+    yield f"Its torque is {listed(amplitude)} (rms);"
+    yield f"{plain(one.evidence.size, 2)} times the noise of it can be laid to nothing else in the model."
+    e = one.evidence
+    yield f"It is {one.status}: chance would explain as much with a probability {_probability(e.p)}, and the sum of"
+    yield f"squares of runs that were not fitted falls by {plain(e.validation, 3)}, in variances of the noise."
+    if one.alternatives:
+        others = [f"{other.title} on {joints(other.joints)}" for other in one.alternatives]
+        yield f"This data cannot tell it from {listed(others)}."
+    elif one.status == FIRM:
+        yield "No other effect of the library would do in its place."
+    if not one.homogeneous:
+        yield "Its size differs between the runs: it drifts, or is chance."
 
 
 def change(subject: Subject) -> Iterator[str]:
@@ -114,10 +109,21 @@ def mode(subject: Subject) -> str:
     )
 
 
-def _ordered(variable: str, region: str) -> str:
-    if not variable:
+def shortened(subject: Subject, text: str) -> str:
+    """A text with the runs' names without their folders."""
+    for run in subject.found.runs:
+        text = text.replace(run.sampled.run.name, Path(run.sampled.run.name).name)
+    return text
+
+
+def _named(found: Sequence[Finding]) -> str:
+    return listed(f"{one.hypothesis.title} on {joints(one.joints)}" for one in found)
+
+
+def _ordered(subject: Subject, where: Where) -> str:
+    if not where.variable:
         return "and no variable orders it"
-    return f"over {variable}" + (f" ({region})" if region else "")
+    return f"over {where.variable}" + (f" ({shortened(subject, where.region)})" if where.region else "")
 
 
 def _largest(subject: Subject) -> int:

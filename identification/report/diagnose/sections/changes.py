@@ -24,5 +24,9 @@ def render(subject: Subject) -> Markup | None:
 
 def _diff(text: str) -> Markup:
     """A unified diff, a span a line."""
-    lines = [element("span", f"{one}\n", class_=_KINDS.get(one[:1])) for one in text.splitlines()]
+    lines = [element("span", one or " ", class_=_kind(one)) for one in text.splitlines()]
     return element("pre", lines, class_="diff")
+
+
+def _kind(line: str) -> str | None:
+    return "place" if line[:3] in ("---", "+++") else _KINDS.get(line[:1])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from generator.review.markup import Content, Markup, element, join, table
 from identification.report.chart import ESTIMATED, RESIDUAL, axis, chart
 from identification.report.diagnose.subject import Subject
@@ -30,12 +32,12 @@ def render(subject: Subject) -> Markup:
         }
         for name, where, colour in (("before", found.before, RESIDUAL), ("with the findings", found.after, ESTIMATED))
     ]  # fmt: skip
-    layout = {"yaxis": axis("lack of fit, in the noise's rms"), "xaxis": axis(""), "bargap": 0.35}
+    layout = {"yaxis": axis("lack of fit in the noise"), "xaxis": axis(""), "bargap": 0.35}
     rows: list[list[Content]] = [
         [
             str(one.joint), number(one.ratio, 4), chance(one.p), number(one.size, 3),
             number(other.ratio, 4), chance(other.p), number(other.size, 3),
-            element("span", f"once, at {other.burst[1]:.2f} s of {other.burst[0]}", class_="state")
+            element("span", f"once, at {other.burst[1]:.2f} s of {Path(other.burst[0]).name}", class_="state")
             if other.burst is not None else None,
         ]
         for one, other in zip(found.before.lack, found.after.lack, strict=True)

@@ -25,14 +25,14 @@ def render(subject: Subject) -> Markup:
         " mean. The share tells how much of the residual's variance the variable orders, beyond chance."
     )
     before, after = subject.found.before.views, subject.found.after.views
-    order = sorted(subject.numbers, key=lambda number: number != subject.found.before.joint)
+    leading = subject.found.before.variable
     panels = {
-        f"{number}": choice("variable", "Over", _panels(subject, number, before[number], after[number]))
+        f"{number}": choice("variable", "Over", _panels(subject, number, before[number], after[number]), leading)
         if before[number]
         else element("p", f"Joint {number} has too few rows.")
-        for number in order
+        for number in subject.numbers
     }
-    return join(element("p", text), choice("joint", "Joint", panels))
+    return join(element("p", text), choice("joint", "Joint", panels, subject.leading))
 
 
 def _panels(subject: Subject, joint: int, before: Sequence[View], after: Sequence[View]) -> dict[str, Markup]:
@@ -59,9 +59,8 @@ def _chart(subject: Subject, joint: int, before: Sequence[View], after: Sequence
         name = f"{name}, with the findings".strip(", ")
         data.append(line(numbers(one.centre), numbers(one.mean), name, colour, line=style))
     last = max((one.share for one in after), default=0.0)
-    caption = (
-        f"Share of the variance: {plain(100 * first.share, 3)}\u202f% before, {plain(100 * last, 3)}\u202f% after."
-    )
+    shares = [plain(100 * share, 3) for share in (first.share, last)]
+    caption = f"Share of the variance: {shares[0]}\u202f% before, {shares[1]}\u202f% with the findings."
     layout = {
         "xaxis": axis(_named(first.variable, joint), first.unit),
         "yaxis": axis(f"residual of joint {joint}", subject.torque_units[joint]),

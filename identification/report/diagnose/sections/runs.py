@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from generator.review.markup import Markup, element, join
 from identification import outcome
+from identification.diagnosis.prepared import Prepared
 from identification.report.diagnose.subject import Subject
 from identification.report.runs_table import runs_table
 from identification.report.told import facts
@@ -19,12 +22,7 @@ def render(subject: Subject) -> Markup:
         kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs]
         for kind, runs in (("fitted", found.runs[:count]), ("validates", found.runs[count:]))
     }
-    periods = {
-        one.sampled.run.name: f"repeats every {one.period * one.sampled.filters.factor * one.sampled.run.period:.4g} s"
-        if one.period
-        else "does not repeat"
-        for one in found.runs
-    }
+    periods = {Path(one.sampled.run.name).name: _period(one) for one in found.runs}
     about = {
         "untouched": ", ".join(found.roles.test) or "none",
         "noise": "autoregressive, measured joint by joint and run by run",
@@ -33,3 +31,9 @@ def render(subject: Subject) -> Markup:
         **periods,
     }
     return join(runs_table(kinds), element("h3", "Method"), facts(about))
+
+
+def _period(one: Prepared) -> str:
+    if not one.period:
+        return "does not repeat"
+    return f"repeats every {one.period * one.sampled.filters.factor * one.sampled.run.period:.4g} s"

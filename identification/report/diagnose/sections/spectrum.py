@@ -23,13 +23,12 @@ Array = NDArray[np.float64]
 
 def render(subject: Subject) -> Markup:
     text = (
-        "Amplitude densities of the runs that are fitted and that validate; rows near standstill count as zero. The noise"
-        " is that by which all evidence is weighed: what repetitions of the motion do not share, or what all"
+        "Amplitude densities of the runs that are fitted and that validate; rows near standstill count as zero. The"
+        " noise is that by which all evidence is weighed: what repetitions of the motion do not share, or what all"
         " candidates together leave."
     )
-    order = sorted(subject.numbers, key=lambda number: number != subject.found.before.joint)
-    panels = {f"{number}": _panel(subject, subject.numbers.index(number), number) for number in order}
-    return join(element("p", text), choice("joint", "Joint", panels))
+    panels = {f"{number}": _panel(subject, subject.numbers.index(number), number) for number in subject.numbers}
+    return join(element("p", text), choice("joint", "Joint", panels, subject.leading))
 
 
 def _panel(subject: Subject, k: int, number: int) -> Markup:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
+from generator.review.words import plural
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.report.diagnose import words
 from identification.report.diagnose.subject import Subject
@@ -21,17 +22,17 @@ def render(subject: Subject) -> Markup:
     mended = () if subject.mended is None else subject.mended.notes
     return join(
         element("p", " ".join(words.verdict(subject)), class_="verdict"),
-        element("p", " ".join(words.certainty(subject))) if subject.found.findings else None,
+        [element("p", " ".join(words.finding(subject, one))) for one in subject.found.findings],
         element("p", " ".join(words.change(subject))) if subject.tried else None,
         element("p", words.mode(subject)),
         element("div", list(_cards(subject)), class_="cards results"),
-        notes([*subject.found.notes, *mended]),
+        notes([words.shortened(subject, one) for one in (*subject.found.notes, *mended)]),
     )
 
 
 def _cards(subject: Subject) -> Iterator[Markup]:
     found = subject.found
-    yield card(_VERDICTS.get(found.verdict, "unexplained"), "verdict", f"{len(found.findings)} findings")
+    yield card(_VERDICTS.get(found.verdict, "unexplained"), "verdict", plural(len(found.findings), "finding"))
     if found.before.joint:
         yield card(f"joint {found.before.joint}", "disagrees most", f"over {found.before.variable or 'no variable'}")
     worst = max(found.before.lack, key=lambda one: one.size)

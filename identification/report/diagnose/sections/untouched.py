@@ -22,9 +22,10 @@ def render(subject: Subject) -> Markup | None:
         "Runs that nothing looked at before. The model after is the new robot file's, regenerated; its parameters come"
         " from the fitted runs alone. The noise is what was measured on the other runs, at these rows' rate."
     )
-    order = sorted(subject.numbers, key=lambda one: one != subject.found.before.joint)
-    runs = {f"{joint}": choice("run", "Run", _panels(subject, joint)) for joint in order if joint in subject.tried}
-    return join(element("p", text), _bars(subject), _table(subject), choice("joint", "Joint", runs) if runs else None)
+    seen = [joint for joint in subject.numbers if joint in subject.tried]
+    panels = {f"{joint}": choice("run", "Run", _panels(subject, joint)) for joint in seen}
+    runs = choice("joint", "Joint", panels, subject.leading) if panels else None
+    return join(element("p", text), _bars(subject), _table(subject), runs)
 
 
 def _bars(subject: Subject) -> Markup:
@@ -35,7 +36,7 @@ def _bars(subject: Subject) -> Markup:
         ("noise", MEASURED, [one.relative_floor for one in subject.tried.values()]),
     )
     data = [{"type": "bar", "name": n, "x": names, "y": numbers(y), "marker": {"color": c}} for n, c, y in kinds]
-    layout = {"xaxis": axis(""), "yaxis": axis("rms residual in the torque's spread", "%"), "bargap": 0.3}
+    layout = {"xaxis": axis(""), "yaxis": axis("residual of the spread", "%"), "bargap": 0.3}
     return chart(data, layout, "Residual of the untouched runs before and after, beside the noise", height=260)
 
 
