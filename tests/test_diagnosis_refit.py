@@ -130,13 +130,16 @@ def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:
     assert after.t.shape == after.measured.shape[1:] == after.kept.shape[1:]
 
 
-def test_without_a_compiler_numpy_plays(case: Case, monkeypatch: pytest.MonkeyPatch, fitted: Refit) -> None:
+def test_without_a_compiler_numpy_plays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CC", "no-such-compiler")
-    player, notes = compiled(case.new, case.folder / "uncompiled", case.regressors)
+    regressors = Regressors(robot_of(find_robot("emps").read_text(encoding="utf-8"), "emps.yaml"))
+    player, notes = compiled(find_robot("emps"), tmp_path, regressors)
     assert not player.compiled
+    assert player.folder == tmp_path / "emps"
     assert "no-such-compiler" in notes[0]
-    one = case.sampled(2, case.regressors)
-    assert play(one, player, fitted.values).residuals.total.relative_to_mean < 1.0
+    steady = Motion(np.zeros((1, 3)), np.array([[0.1, 0.2, -0.2]]), np.zeros((1, 3)))
+    values = {"Fv1": 200.0, "Fc1": 20.0}
+    np.testing.assert_allclose(player.torques(values, steady), [[40.0, 60.0, -60.0]], rtol=1e-12)
 
 
 def test_what_is_known_holds_where_the_runs_say_little(case: Case, fitted: Refit) -> None:
