@@ -3,7 +3,7 @@
 --locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one a pose, in which the tool
 presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where
 they hold currents, torque constants are identified too. What the poses cannot show is refused by name. DIR receives
-results.json and the robot file with the values in it.
+results.json, report.html and the robot file with the values in it.
 """
 
 from __future__ import annotations
@@ -42,6 +42,8 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         from identification import force_steps, locked_output, outcome, stiffness_results
         from identification.recipe import read as recipe_of
+        from identification.report.page import REPORT
+        from identification.report.stiffness.report import report
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise stiffness"), f"{error.name} is not installed", extra) from None
@@ -55,11 +57,13 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
             values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
+            page = report(steps, document)
         else:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
             values, document = dict(locked.essential), stiffness_results.of_locked(locked)
+            page = report(locked, document)
     folder = arguments.out or Path("identified") / f"{robot.name}_stiffness"
-    files = stiffness_results.save(document, values, robot, path, folder)
+    files = stiffness_results.save(document, values, robot, path, folder, {REPORT: page})
     total = document["residual"]["train"]["total"]
     lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]
     lines += outcome.table(values)
