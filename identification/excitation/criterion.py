@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from identification.excitation.limits import Limits
 from identification.excitation.noise import Noise
+from identification.excitation.shapes import SEARCHED
 from identification.observation import Motion, Regressors, standing
 
 Array = NDArray[np.float64]
@@ -42,7 +43,7 @@ class Criterion:
     kind: str = DETERMINANT
 
     def information(self, motions: Motion, count: int) -> tuple[Array, Array]:
-        """Of ``count`` motions one after the other: information (count x p x p), largest load (count)."""
+        """Of ``count`` motions of ``Shapes`` one after the other: information (count x p x p), largest load (count)."""
         names = self.regressors.names
         place = {name: k for k, name in enumerate(names)}
         columns = self.regressors.base(motions)
@@ -57,9 +58,11 @@ class Criterion:
         sigma = np.maximum(self.noise.deviations(self.factor), np.finfo(float).tiny)
         result = np.zeros((count, len(names), len(names)))
         for k, (row, W) in enumerate(zip(self.regressors.structure, columns, strict=True)):
-            used = np.where(left_out[k], 0.0, W / sigma[k]).reshape(len(row), count, samples).transpose(1, 0, 2)
+            # In blocks so small that the matrix product does not start threads, which cost more than they bring.
+            used = np.where(left_out[k], 0.0, W / sigma[k]).reshape(len(row), count, -1, SEARCHED)
+            blocks = used.transpose(1, 2, 0, 3)
             at = [place[name] for name in row]
-            result[np.ix_(range(count), at, at)] += used @ used.transpose(0, 2, 1) / samples
+            result[np.ix_(range(count), at, at)] += (blocks @ blocks.transpose(0, 1, 3, 2)).sum(axis=1) / samples
         loads = np.abs(self.limits.loads @ tau).reshape(-1, count, samples).max(axis=(0, 2), initial=0.0)
         return result, loads
 

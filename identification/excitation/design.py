@@ -20,6 +20,8 @@ Progress = Callable[[float], None]
 
 #: Random motions looked at before the best ones are improved; how many are, and motions of a generation.
 _DRAWN, _STARTS, _GENERATION = 256, 2, 24
+#: Generations for which the axes of the evolution stay as they are: finding them costs as much as one.
+_WAIT = 10
 #: First step of the search, in units of the drawn numbers.
 _STEP = 0.3
 #: Halvings by which a motion is made small enough for the torques.
@@ -76,7 +78,13 @@ def _improved(
         warnings.simplefilter("ignore")  # it plots where matplotlib is
         import cma
 
-    options = {"verbose": -9, "popsize": _GENERATION, "seed": np.nan, "randn": lambda *size: draw.normal(size=size)}
+    options = {
+        "verbose": -9,
+        "popsize": _GENERATION,
+        "seed": np.nan,
+        "randn": lambda *size: draw.normal(size=size),
+        "updatecovwait": _WAIT,
+    }
     evolution = cma.CMAEvolutionStrategy(start, _STEP, options)
     done = 0
     while done < budget and not evolution.stop():
