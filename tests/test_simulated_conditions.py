@@ -53,10 +53,10 @@ def test_a_payload_weighs_what_it_weighs(machine: Machine, flexible: bool) -> No
 
 
 def test_identification_reads_the_payload_from_the_sidecar(machine: Machine, tmp_path: Path) -> None:
-    payload = Payload("L", {"M": 5.0, "MX": 0.3, "XX": 0.09, "ZZ": 0.1})
+    payload = Payload("L", {"M": 5.0, "MX": 0.3, "XX": 0.085, "YY": 0.025, "ZZ": 0.1})
     run = simulate(machine, replace(SHORT, duration=20.0, rate=500.0, noise=(0.05, 0.08), payload=payload))
     path, beside = save(run, "two_links", machine.robot.digest, tmp_path / "a.csv")
-    for line in ("payload:", "  name: L", "  M: 5 kg", "  MX: 0.3 kg m", "  YY: 0.018 kg m2", "  ZZ: 0.1 kg m2"):
+    for line in ("payload:", "  name: L", "  M: 5 kg", "  MX: 0.3 kg m", "  XZ: 0 kg m2", "  ZZ: 0.1 kg m2"):
         assert line in beside.read_text().splitlines()
     assert "    ZZ2: 1.3" in beside.read_text().splitlines()
     found = identify(machine.robot, [str(path)], [], Options(recipe=Recipe()), Regressors(machine.robot)).full
