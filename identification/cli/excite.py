@@ -138,6 +138,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
         problem = f"{samples} samples at {arguments.rate:g} Hz"
         raise InputError(command_line("--periods"), problem, f"at least {filters.fewest} for the filters")
     values = _values(arguments.parameters, regressors)
+    regressors = regressors.loaded_by(values)
     part = arguments.noise_part if arguments.noise_part is not None else 0.0 if arguments.noise else PART
     limits = limits_of(robot, arguments.speed, arguments.acceleration)
     shapes = Shapes(limits, arguments.frequency, arguments.harmonics)
