@@ -79,6 +79,21 @@ def test_temperatures_tell_the_warmth(machine: Machine, tmp_path: Path) -> None:
     assert even["temp1"] == pytest.approx(300.0 + 20.0 * even["t"] / 4.0)
 
 
+def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine: Machine, tmp_path: Path) -> None:
+    """A robot file with the drift of the torque constants takes it out again, by the temperatures."""
+    text = file.read_text().replace(
+        "use: warm, warm: [0.5, 0.4]}", "use: warm, warm: [0.5, 0.4]}\n  torque_drift: [-1/5, -1/5]"
+    )
+    drifting = tmp_path / "drifting.yaml"
+    drifting.write_text(text + "signals: {warm_rise: 20 K}\n")
+    settings = replace(SHORT, further=("temp",), warm_up=1.5, rise=20.0)
+    runs = []
+    for name, drift in (("cold", 0.0), ("warm", -0.2)):
+        made = simulate(machine, replace(settings, constant_drift=drift))
+        runs.append(save(made, "two_links", machine.robot.digest, tmp_path / f"{name}.csv")[0])
+    assert load(str(runs[1]), read(drifting)).tau == pytest.approx(load(str(runs[0]), machine.robot).tau, abs=1e-7)
+
+
 REFUSED = {
     ("--payload", "M=-1"): "--payload:1:1: a mass of -1 kg, expected M=MASS above 0 in kg",
     ("--payload", "MX=1"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
