@@ -14,50 +14,10 @@
 
 typedef double lanes __attribute__((vector_size(BYTES)));
 
-/* Rounds of the chains that each thread runs; a round is CHAINS instructions, of both kinds twice as many. */
+/* A round is as many instructions of each kind. */
 const size_t chains = CHAINS;
 
-static double products_of(size_t rounds, double start)
-{
-    const lanes factor = start + (lanes){ 0.0 };
-    lanes x[CHAINS];
-    for (size_t c = 0; c < CHAINS; ++c) {
-        x[c] = factor * (double)c;
-    }
-    for (size_t k = 0; k < rounds; ++k) {
-#pragma GCC unroll 16
-        for (size_t c = 0; c < CHAINS; ++c) {
-            x[c] = x[c] * factor + factor;
-        }
-    }
-    double sum = 0.0;
-    for (size_t c = 0; c < CHAINS; ++c) {
-        sum += x[c][0];
-    }
-    return sum;
-}
-
-static double sums_of(size_t rounds, double start)
-{
-    const lanes term = start + (lanes){ 0.0 };
-    lanes x[CHAINS];
-    for (size_t c = 0; c < CHAINS; ++c) {
-        x[c] = term * (double)c;
-    }
-    for (size_t k = 0; k < rounds; ++k) {
-#pragma GCC unroll 16
-        for (size_t c = 0; c < CHAINS; ++c) {
-            x[c] = x[c] + term;
-        }
-    }
-    double sum = 0.0;
-    for (size_t c = 0; c < CHAINS; ++c) {
-        sum += x[c][0];
-    }
-    return sum;
-}
-
-static double both_of(size_t rounds, double start)
+static inline __attribute__((always_inline)) double rounds_of(size_t rounds, double start, int fused, int added)
 {
     const lanes number = start + (lanes){ 0.0 };
     lanes x[CHAINS];
@@ -68,8 +28,12 @@ static double both_of(size_t rounds, double start)
     for (size_t k = 0; k < rounds; ++k) {
 #pragma GCC unroll 16
         for (size_t c = 0; c < CHAINS; ++c) {
-            x[c] = x[c] * number + number;
-            y[c] = y[c] + number;
+            if (fused) {
+                x[c] = x[c] * number + number;
+            }
+            if (added) {
+                y[c] = y[c] + number;
+            }
         }
     }
     double sum = 0.0;
@@ -79,12 +43,12 @@ static double both_of(size_t rounds, double start)
     return sum;
 }
 
-/* Fused products and sums alone, sums alone, and both kinds, on every thread; what they return is of no use. */
+/* Fused products and sums, sums alone, and both kinds, on every thread; what they return is of no use. */
 double products(size_t rounds, double start)
 {
     double sum = 0.0;
 #pragma omp parallel reduction(+ : sum)
-    sum += products_of(rounds, start);
+    sum += rounds_of(rounds, start, 1, 0);
     return sum;
 }
 
@@ -92,7 +56,7 @@ double sums(size_t rounds, double start)
 {
     double sum = 0.0;
 #pragma omp parallel reduction(+ : sum)
-    sum += sums_of(rounds, start);
+    sum += rounds_of(rounds, start, 0, 1);
     return sum;
 }
 
@@ -100,6 +64,6 @@ double both(size_t rounds, double start)
 {
     double sum = 0.0;
 #pragma omp parallel reduction(+ : sum)
-    sum += both_of(rounds, start);
+    sum += rounds_of(rounds, start, 1, 1);
     return sum;
 }

@@ -163,12 +163,12 @@ def _pinocchio(
     same = {}
     for variant_name, one in measured.items():
         few = [x[:200] for x in one.signals]
-        bodies = one.arm.only(*INERTIAL, "Ia")
+        bodies = one.arm.with_values(arm.values)
         W, tau = np.empty((200, one.arm.dof, 10 * one.arm.dof)), np.empty((200, one.arm.dof))
         matrix, _ = one.found(200)
         torques = one.module.Robot(bodies.parameters).inverse_dynamics(*few)
         kept = _columns(one, {stem: k for k, stem in enumerate(_PINOCCHIO)})
-        for each in peers.pinocchio(PinocchioArm(bodies.robot, bodies.values).model, loop, build):
+        for each in loops:
             each("regressor", few, W)
             each("inverse_dynamics", few, tau)
             agrees = agree(matrix[:, :, [c for c, _ in kept]], W[:, :, [c for _, c in kept]])
