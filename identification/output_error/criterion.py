@@ -16,10 +16,10 @@ from identification.output_error.variations import Variations, variations
 
 Array = NDArray[np.float64]
 
-#: Part of a first state's own curvature that keeps what the positions do not show of it where it is.
+#: Damping that keeps what no position shows of a first state where it is.
 _HELD = 1e-9
 #: Smallest weight's residual [rad, m]: that of a simulation in steps.
-_FLOOR = 1e-9
+_FLOOR = 1e-7
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,40 @@ class Reduced:
     def follow(self, step: Array) -> tuple[Array, ...]:
         """Steps of the first states that go with a step of the parameters."""
         return tuple(own - by @ step for own, by in zip(self.own, self.by_chi, strict=True))
+
+
+@dataclass(frozen=True)
+class Normal:
+    """Normal equations A x = y (S x (2n + b)) of each experiment's segments, b parameters last in x.
+
+    With each come the curvatures (2n) that first states have where nothing but inertia acts on them.
+    """
+
+    parts: tuple[tuple[Array, Array, Array], ...]
+    b: int
+
+    @property
+    def finite(self) -> bool:
+        """Whether the sensitivities have not grown beyond all numbers."""
+        return all(bool(np.isfinite(A).all()) for A, _, _ in self.parts)
+
+    def reduced(self, damping: float = 0.0) -> Reduced:
+        """For the parameters alone; first states are damped in parts of their curvatures without friction.
+
+        A state that friction brings to rest has next to no curvature of its own: dampings in parts of that would let it
+        go anywhere.
+        """
+        H, g = np.zeros((self.b, self.b)), np.zeros(self.b)
+        own, by_chi = [], []
+        for A, y, free in self.parts:
+            size = len(free)
+            states = A[:, :size, :size] + (damping + _HELD) * np.diag(free)
+            follow = np.linalg.solve(states, np.concatenate([y[:, :size, None], A[:, :size, size:]], axis=-1))
+            H += (A[:, size:, size:] - A[:, size:, :size] @ follow[:, :, 1:]).sum(axis=0)
+            g += (y[:, size:] - (A[:, size:, :size] @ follow[:, :, :1])[:, :, 0]).sum(axis=0)
+            own.append(follow[:, :, 0])
+            by_chi.append(follow[:, :, 1:])
+        return Reduced((H + H.T) / 2, g, tuple(own), tuple(by_chi))
 
 
 @dataclass(frozen=True)
@@ -119,35 +153,21 @@ class Criterion:
             found.append(varied)
         return Linearised(tuple(errors), tuple(slopes), tuple(found))
 
-    def reduced(self, at: Linearised) -> Reduced:
+    def normal(self, at: Linearised) -> Normal:
         """Normal equations about a point, in units of ``scale``."""
-        b = len(self.sought)
-        H, g = np.zeros((b, b)), np.zeros(b)
-        own, by_chi = [], []
-        for e, S in zip(at.errors, at.slopes, strict=True):
-            size = S.shape[-1] - b
-            rows = (S / self.scale[:, None]).reshape(len(S), -1, size + b)
-            z = (e / self.scale).reshape(len(e), -1, 1)
+        parts = []
+        for one, e, S in zip(self.experiments, at.errors, at.slopes, strict=True):
+            rows = (S / self.scale[:, None]).reshape(len(S), -1, S.shape[-1])
             turned = rows.transpose(0, 2, 1)
-            A, y = turned @ rows, (turned @ z)[:, :, 0]
-            states = _held(A[:, :size, :size])
-            follow = np.linalg.solve(states, np.concatenate([y[:, :size, None], A[:, :size, size:]], axis=-1))
-            H += (A[:, size:, size:] - A[:, size:, :size] @ follow[:, :, 1:]).sum(axis=0)
-            g += (y[:, size:] - (A[:, size:, :size] @ follow[:, :, :1])[:, :, 0]).sum(axis=0)
-            own.append(follow[:, :, 0])
-            by_chi.append(follow[:, :, 1:])
-        return Reduced((H + H.T) / 2, g, tuple(own), tuple(by_chi))
+            with np.errstate(over="ignore", invalid="ignore"):
+                A, y = turned @ rows, (turned @ (e / self.scale).reshape(len(e), -1, 1))[:, :, 0]
+            samples, last = e.shape[1], e.shape[1] * one.step
+            own = samples / self.scale**2
+            parts.append((A, y, np.concatenate([own, own * last**2 / 3])))
+        return Normal(tuple(parts), len(self.sought))
 
     def weighted(self, errors: Sequence[Array]) -> Criterion:
         """The same with each joint's rms of these errors as its scale."""
         square = sum((one**2).sum(axis=(0, 1)) for one in errors)
         count = sum(one.shape[0] * one.shape[1] for one in errors)
         return replace(self, scale=np.maximum(np.sqrt(square / count), _FLOOR))
-
-
-def _held(A: Array) -> Array:
-    """Normal matrices of first states (S x 2n x 2n) that can be inverted: what no position shows does not move."""
-    diagonal = np.einsum("sii->si", A)
-    own = _HELD * np.maximum(diagonal, diagonal.max(axis=-1, keepdims=True) * _HELD)
-    result: Array = A + own[:, :, None] * np.eye(A.shape[-1])
-    return result

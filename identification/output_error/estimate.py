@@ -21,8 +21,8 @@ from identification.simulation.machine import Machine
 Array = NDArray[np.float64]
 
 #: Singular values of the sensitivities below this part of the largest are zero; part of a parameter in a direction that
-#: no position shows, from which it is not identifiable.
-_RANK, _INVOLVED = 1e-6, 1e-4
+#: no position shows, from which it is not identifiable; change of positions in units of their errors that is not seen.
+_RANK, _INVOLVED, _UNSEEN = 1e-6, 1e-4, 1e-2
 #: Steps by which first states of held-out runs are found, and by how much an eigenvalue may be above the margin at most
 #: for the constraint to count as active, in parts of the margin.
 _SETTLING, _ACTIVE = 6, 1e-2
@@ -94,17 +94,20 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     """A minimum with its uncertainty and errors, on the experiments of the search and on ``tests``."""
     criterion, point = minimum.criterion, minimum.point
     errors = criterion.errors(point)
-    if not np.isfinite(criterion.sum(errors)):
+    at = criterion.linearised(point) if np.isfinite(criterion.sum(errors)) else None
+    normal = None if at is None else criterion.normal(at)
+    if at is None or normal is None or not normal.finite:
         place = criterion.experiments[0].run.place
         raise InputError(place, "the simulation diverges", "shorter segments, or a start nearer to the robot")
-    at = criterion.linearised(point)
-    reduced = criterion.reduced(at)
+    reduced = normal.reduced()
     size = np.sqrt(np.diag(reduced.H))
-    size = np.where(size > 0, size, 1.0)
+    # Parameters of which a change as large as they are, or as is expected, could not be told from the errors.
+    silent = size * np.maximum(np.abs(point.chi), search.std) < _UNSEEN
+    size = np.where(silent, np.inf, size)
     power, directions = np.linalg.eigh(reduced.H / np.outer(size, size))
     seen = power > _RANK**2 * power[-1]
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
-    hidden = np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED
+    hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
     density = noise_density(criterion, search.settings.recipe.standstill)
     tested = None
     if tests:
@@ -132,7 +135,7 @@ def _settled(criterion: Criterion, chi: Array) -> Point:
     point = criterion.begin(chi)
     least = criterion.value(point)
     for _ in range(_SETTLING if np.isfinite(least) else 0):
-        steps = criterion.reduced(criterion.linearised(point)).own
+        steps = criterion.normal(criterion.linearised(point)).reduced().own
         trial = Point(chi, tuple(old + new for old, new in zip(point.states, steps, strict=True)))
         value = criterion.value(trial)
         if not value < least:

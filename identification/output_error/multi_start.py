@@ -104,6 +104,9 @@ def output_error(
     scores = {name: _score(search, np.array(one["rms"])) for name, one in results.items()}
     chosen = min(scores, key=lambda name: scores[name])
     best = evaluated(search, _minimum(search, results[chosen]), tried)
+    # What no torque shows no position shows.
+    hidden = [name for name in best.names if name in best.hidden or name in solution.hidden]
+    best = replace(best, hidden=tuple(hidden))
     return OutputError(robot, settings, first, train, tried, scores, chosen, best, _notes(first, best, train))
 
 

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 #: Rounds of cutting planes of a step, and part of the margin by which they may fall short.
 _ROUNDS, _SHORT = 50, 1e-6
+#: Residual of the least distances' dual problem, below which there are no such parameters.
+_EMPTY = 1e-10
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,8 @@ class Positivity:
             rows.append(normal * std)
             bounds.append(bound - float(normal @ chi))
             step = std * _nearest(np.eye(len(chi)), np.zeros(len(chi)), np.array(rows), np.array(bounds))
+            if not np.isfinite(step).all():
+                return None
         return None
 
     def _columns(self, q: Array, v: Array) -> Array:
@@ -120,7 +124,7 @@ def constrained(H: Array, g: Array, size: Array, positivity: Positivity, chi: Ar
 
 
 def _nearest(R: Array, best: Array, A: Array, bounds: Array) -> Array:
-    """The x nearest to ``best`` in |R (x - best)| with A x >= bounds.
+    """The x nearest to ``best`` in |R (x - best)| with A x >= bounds; not finite where there is none.
 
     Least distance programming by non-negative least squares (Lawson and Hanson, Solving Least Squares Problems, 1974,
     chapter 23).
@@ -135,6 +139,8 @@ def _nearest(R: Array, best: Array, A: Array, bounds: Array) -> Array:
     f[-1] = 1.0
     u, _ = nnls(E, f)
     r = E @ u - f
+    if -r[-1] <= _EMPTY:
+        return np.full_like(best, np.nan)
     y = -unit * r[:-1] / r[-1]
     result: Array = best + solve_triangular(R, y)
     return result

@@ -42,16 +42,20 @@ class Variations:
     inverse: Array
 
     def forward(self) -> Array:
-        """Derivatives of q (S x K x n x (2n + b)) by the first state and the parameters, at all samples."""
+        """Derivatives of q (S x K x n x (2n + b)) by the first state and the parameters, at all samples.
+
+        They are not finite where an unstable motion makes them grow beyond all numbers.
+        """
         segments, steps, size, b = self.driven.shape
         x = np.zeros((segments, size, size + b))
         x[:, :, :size] = np.eye(size)
         result = np.empty((segments, steps + 1, size // 2, size + b))
         result[:, 0] = x[:, : size // 2]
-        for k in range(steps):
-            x = self.transition[:, k] @ x
-            x[:, :, size:] += self.driven[:, k]
-            result[:, k + 1] = x[:, : size // 2]
+        with np.errstate(over="ignore", invalid="ignore"):
+            for k in range(steps):
+                x = self.transition[:, k] @ x
+                x[:, :, size:] += self.driven[:, k]
+                result[:, k + 1] = x[:, : size // 2]
         return result
 
     def backward(self, weights: Array) -> Array:

@@ -23,7 +23,7 @@ SUMMARY = "Gauss-Newton with sensitivities"
 #: Iterations of a minimisation, and how often joints are weighted by the errors found.
 _MOST, _WEIGHTINGS = 40, 2
 #: Part of the criterion below which a step no longer improves it.
-_ENOUGH = 1e-7
+_ENOUGH = 1e-5
 _FIRST, _SMALLEST, _LARGEST, _EASIER, _HARDER = 1e-6, 1e-11, 1e6, 0.1, 8.0
 
 
@@ -58,13 +58,15 @@ class _Descent:
             if self.iterations >= self._most or time.monotonic() > self._end or not np.isfinite(value):
                 break
             self.iterations += 1
-            reduced = criterion.reduced(criterion.linearised(point))
-            size = np.sqrt(np.diag(reduced.H))
-            size = np.where(size > 0, size, 1.0)
-            scaled = reduced.H / np.outer(size, size)
+            normal = criterion.normal(criterion.linearised(point))
+            if not normal.finite:
+                break
             gain = 0.0
             while damping < _LARGEST:
-                H = scaled + damping * np.eye(len(size))
+                reduced = normal.reduced(damping)
+                size = np.sqrt(np.diag(reduced.H))
+                size = np.where(size > 0, size, 1.0)
+                H = reduced.H / np.outer(size, size) + damping * np.eye(len(size))
                 step = constrained(H, reduced.g / size, size, self.search.positivity, point.chi)
                 states = tuple(old + new for old, new in zip(point.states, reduced.follow(step), strict=True))
                 trial = replace(point, chi=point.chi + step, states=states)
