@@ -314,15 +314,15 @@ class Selection:
     # -- what cannot be seen --------------------------------------------------------------------------------------
 
     def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which the model takes up all but a hundredth."""
-        left: dict[tuple[str, int], float] = {}
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], list[float]] = {}
         whose: dict[tuple[str, int], Hypothesis] = {}
         for variant in self.bank.variants:
             key = _key(variant)
             at = np.array(variant.columns) - self.normal.base
-            left[key] = max(left.get(key, 0.0), float(self.normal.left[at].max()))
+            left.setdefault(key, []).append(float(self.normal.left[at].max()))
             whose[key] = variant.hypothesis
-        return [whose[key] for key, part in left.items() if part < _VISIBLE]
+        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
 
 
 def _key(variant: Variant) -> tuple[str, int]:

@@ -108,7 +108,7 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     seen = power > _RANK**2 * power[-1]
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
     hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
-    density = noise_density(criterion, search.settings.recipe.standstill)
+    density = noise_density(criterion, search.settings.recipe.standstills(criterion.robot))
     tested = None
     if tests:
         others = replace(criterion, experiments=tuple(tests))
