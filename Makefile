@@ -27,7 +27,8 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list excite simulate identify gains stiffness compare test test-extra format lock bench twins clean distclean
+.PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
+    example-diagnosis test test-extra format lock bench twins clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -69,6 +70,13 @@ stiffness: $(TESTING) ## robot=NAME data=A.csv options="--locked 2": stiffness o
 
 compare: $(TESTING) ## a=A/results.json b=NAME:SET: where two results differ, and whether it can be noise
 	$(IN_CALLER) compare $(a) $(b) $(options)
+
+output-error: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters by simulation in open loop
+	$(IN_CALLER) output-error "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
+
+diagnose: $(TESTING) ## robot=NAME data="A.csv B.csv" validate=C.csv test=D.csv prior=SET: what the model lacks
+	$(IN_CALLER) diagnose "$$robot" $(data) $(if $(validate),--validate $(validate)) $(if $(test),--test $(test)) \
+	    $(if $(prior),--prior $(prior)) $(options)
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests

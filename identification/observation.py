@@ -130,6 +130,11 @@ class Regressors:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""
         return self._evaluated("inverse_dynamics", motion, parameters).T
 
+    def inertia(self, parameters: Mapping[str, float], q: Array) -> Array:
+        """M (N x n x n) at positions ``q`` (n x N) for values of the base parameters by name, absent ones zero."""
+        still = np.zeros_like(q)
+        return self._evaluated("inertia_matrix", Motion(q, still, still), parameters)
+
     @cached_property
     def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
         """Where a torque jumps: the joint's coordinate, and (coordinate, weight) of the speeds whose sum it follows."""

@@ -76,8 +76,9 @@ def save(
     folder: Path,
     consistent: ConsistentFit | None = None,
     variations: Sequence[Variation] = (),
+    beside: Mapping[str, bytes] | None = None,
 ) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
@@ -87,6 +88,7 @@ def save(
     files = {
         RESULTS: written(document(found, consistent, variations)).encode(),
         f"{found.robot.name}.yaml": text.encode(),
+        **(beside or {}),
     }
     replace(folder, files)
     return sorted(files)

@@ -107,9 +107,14 @@ def refusals(values: Mapping[str, Value]) -> list[str]:
 
 
 def save(
-    document: Mapping[str, Any], values: Mapping[str, Value], robot: Robot, robot_file: Path, folder: Path
+    document: Mapping[str, Any],
+    values: Mapping[str, Value],
+    robot: Robot,
+    robot_file: Path,
+    folder: Path,
+    beside: Mapping[str, bytes] | None = None,
 ) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
@@ -118,11 +123,12 @@ def save(
     elastic = {f"k{number}" for number in robot.flexible}
     own = {name: one for name, one in values.items() if name in elastic}
     others = {name: one for name, one in values.items() if name not in elastic}
-    kept, beside = outcome.values_of_set(own), outcome.values_of_set(others)
-    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, beside)
+    kept, further = outcome.values_of_set(own), outcome.values_of_set(others)
+    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, further)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
-    replace(folder, {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode()})
-    return sorted([RESULTS, f"{robot.name}.yaml"])
+    files = {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode(), **(beside or {})}
+    replace(folder, files)
+    return sorted(files)
 
 
 def _head(robot: Robot) -> dict[str, Any]:
