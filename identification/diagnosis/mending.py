@@ -17,7 +17,7 @@ from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.hypothesis import BODY
 from identification.diagnosis.normal import Prior
-from identification.diagnosis.played import Played, Player, compiled, play
+from identification.diagnosis.played import Played, Player, aligned, compiled, play
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
@@ -76,13 +76,14 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("playing the untouched runs"):
         before = _played(found.roles.test, Player(old_regressors), values)
         after = _played(found.roles.test, player, fit.values)
+        pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
     return Mended(
         text,
         new.robot,
         tuple(additions),
         fit,
-        before,
-        after,
+        tuple(old for old, _ in pairs),
+        tuple(now for _, now in pairs),
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
         folder / GENERATED / found.robot.name,
@@ -114,7 +115,7 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
 def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
     robot = regressors.model.robot
     recipe = recipes.recipe_of(robot.name)
-    return [sampled(load(source, robot, recipe.columns), recipe, regressors) for source in sources]
+    return [sampled(load(source, robot, recipe.columns, resting=True), recipe, regressors) for source in sources]
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from identification.dataset import Run
 
 #: Parts of a run's time that are fitted and that validate, where there are too few runs; the rest tests.
 _FITTED, _VALIDATED = 0.55, 0.2
 #: Time between such parts [s] and, in a short run, its part of the time.
 _GAP, _SHORT = 0.5, 0.02
+#: Places that are tried for the validating block, and the least part of a run that is worth fitting.
+_PLACES, _LEAST = 7, 0.1
 
 
 @dataclass(frozen=True)
@@ -43,27 +47,42 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
 
 
 def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
-    """Blocks of time of every run, with gaps between them."""
+    """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates."""
     share = 0.0 if validate else _VALIDATED
     tested = 0.0 if test else 1 - _FITTED - _VALIDATED
     train, held, last = [], [], []
     for run in data:
         start, length = run.start, (run.samples - 1) * run.period
         gap = min(_GAP, _SHORT * length)
-        first = start + length * (1 - share - tested)
-        second = first + length * share
-        train.append(_part(run.name, start, first))
-        if not validate:
-            held.append(_part(run.name, first + gap, second))
+        end = start + length * (1 - tested)
         if not test:
-            last.append(_part(run.name, second + gap, start + length))
+            last.append(_part(run.name, end + gap, start + length))
+        if validate:
+            train.append(_part(run.name, start, end))
+            continue
+        first = _liveliest(run, end, share * length)
+        held.append(_part(run.name, first, first + share * length))
+        around = ((start, first - gap), (first + share * length + gap, end))
+        train += [_part(run.name, a, b) for a, b in around if b - a > _LEAST * length]
     parts = [text for text, wanted in (("validates", not validate), ("tests", not test)) if wanted]
     fitted = 100 * (1 - share - tested)
     note = (
-        f"of every run the first {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
+        f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
     return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), (note,))
+
+
+def _liveliest(run: Run, end: float, length: float) -> float:
+    """Where a block of ``length`` [s] before ``end`` begins in which the joint that moves least moves most."""
+    power = np.gradient(run.q, run.period, axis=-1) ** 2
+    total = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=-1)], axis=-1)
+    moves = total[:, -1] > 1e-9 * total[:, -1].max()
+    count = int(length / run.period)
+    room = int((end - run.start) / run.period) - count
+    places = np.unique(np.linspace(0, room, _PLACES).astype(int))
+    shares = [((total[:, k + count] - total[:, k]) / np.maximum(total[:, -1], 1e-300))[moves].min() for k in places]
+    return float(run.start + places[int(np.argmax(shares))] * run.period)
 
 
 def _part(name: str, start: float, end: float) -> str:
