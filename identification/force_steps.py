@@ -1,8 +1,9 @@
 """Stiffness and torque constants from a tool pressed on a rigid stop with steps of force (report eq. 73-78).
 
 The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by
-axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is
-a pose; its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
+axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37), less dry
+friction (``torque_constants``). A run is a pose; its mean stands for the weight and the preload. Components of the
+wrench that a run does not hold do not change.
 """
 
 from __future__ import annotations
@@ -20,12 +21,13 @@ from generator.robot.description import PRISMATIC, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.drive_train import coupling, with_unit_constants
-from identification.filtering import decimated, derivative, smoothed
+from identification.filtering import decimated, derivative, kept_indices, smoothed, undisturbed
 from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.signals import EFFORTS, WRENCH, NoColumns
+from identification.torque_constants import Turning, torque_constant
 
 Array = NDArray[np.float64]
 
@@ -41,6 +43,8 @@ LIMIT = 0.1
 _APART, _DEVIATIONS = 0.2, 4.0
 #: Motion [rad, m] beyond which a joint does more than yield.
 _STILL = 0.05
+#: Part of a joint's largest speed from which its motor turns.
+_TURNING = 0.2
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,8 @@ class Pose:
     """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
     the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
 
-    ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
+    ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands or nearly does. ``at``
+    are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
     """
 
     run: Run
@@ -57,6 +62,7 @@ class Pose:
     held: Array
     rotors: Array
     i: Array | None
+    turning: Array
     at: Array
     wrench: Array
 
@@ -134,7 +140,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
             problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
             raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
-    qdd = derivative(derivative(q, run.period), run.period)
+    qd = derivative(q, run.period)
+    qdd = derivative(qd, run.period)
     wrench: Array = np.stack([run.others[name] if name in run.others else np.zeros(run.samples) for name in WRENCH])
     force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
     signals = [q, force, Ia[:, None] * qdd]
@@ -148,7 +155,17 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     at = q[:, inner].mean(axis=1)
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
-    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, at, wrench)
+    turning = _turning(qd[:, inner], filters)
+    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, turning, at, wrench)
+
+
+def _turning(qd: Array, filters: Filters) -> Array:
+    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill."""
+    fast = np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)
+    reach = round(filters.rate / filters.cutoff / 2)
+    steady = np.array([undisturbed(~one, filters.factor, reach) for one in fast])
+    result: Array = np.sign(qd[:, kept_indices(qd.shape[1], filters.factor)]) * steady
+    return result
 
 
 def _about_mean(x: Array) -> Array:
@@ -197,18 +214,25 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
     to_motors = np.linalg.inv(coupling(robot)).T
     for m, joint in enumerate(robot.moving):
         name = f"kt{joint.number}"
-        pairs = [
-            (one.i[m], (to_motors @ (one.held + one.rotors))[m])
-            for one in poses
-            if one.i is not None and _changes(one.held, m)
-        ]
-        if not pairs:
+        pressed = [one for one in poses if one.i is not None and _changes(one.held, m)]
+        if not pressed:
             why = f"the measured force asks nothing of motor {joint.number} in any pose"
             values[name] = Value(None, np.inf, "N m/A", refused=why)
             continue
-        slope, residuals[m] = _slope([x for x, _ in pairs], [y for _, y in pairs])
-        values[name] = _value(slope, "N m/A")
+        try:
+            kt, std, residuals[m] = torque_constant([_of_motor(one, m, to_motors) for one in pressed])
+        except ValueError as error:
+            values[name] = Value(None, np.inf, "N m/A", refused=str(error))
+            continue
+        values[name] = _value((kt, std), "N m/A")
     return values, residuals
+
+
+def _of_motor(pose: Pose, m: int, to_motors: Array) -> Turning:
+    assert pose.i is not None
+    turning = pose.turning[m] != 0
+    tau = (to_motors @ (pose.held + pose.rotors))[m]
+    return Turning(pose.i[m, turning], tau[turning], pose.turning[m, turning])
 
 
 def _changes(held: Array, k: int) -> bool:

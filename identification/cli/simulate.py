@@ -31,6 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", type=Path, help="default: simulated/ROBOT/TRAJECTORY_SEED.csv")
     parser.add_argument("--flexible", action="store_true", help="with elastic drive trains")
     parser.add_argument("--parameters", metavar="SET", help="a set of the robot file")
+    parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", default=[], help="a body in the tool frame [SI]")
     motion = parser.add_argument_group("motion")
     motion.add_argument("--trajectory", metavar="NAME", default="fourier", help="default: fourier")
     motion.add_argument("--set", metavar="NAME=VALUE", nargs="+", default=[], help="settings of the trajectory")
@@ -51,6 +52,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--resolution", metavar="RAD", type=float, nargs="+", default=[0.0], help="step of the motors' encoders"
     )
     log.add_argument("--noise", metavar="A", type=float, nargs="+", default=[0.0], help="rms of the currents' noise")
+    log.add_argument(
+        "--wrench-noise", metavar="N", type=float, nargs="+", default=[0.0], help="rms of the forces' noise, [N m] too"
+    )
     log.add_argument("--delay", metavar="S", type=float, default=0.0, help="of the motors' positions")
     log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="of the links' positions")
     drift = parser.add_argument_group("temperature, changes by the end in parts")
@@ -89,6 +93,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _settings(arguments: argparse.Namespace) -> Settings:
+    from identification.sidecar import given
     from identification.simulation.settings import Settings
 
     return Settings(
@@ -107,6 +112,8 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         largest=arguments.largest,
         resolution=arguments.resolution,
         noise=arguments.noise,
+        wrench_noise=arguments.wrench_noise,
+        payload=given(arguments.payload, command_line("--payload")).known,
         delay=arguments.delay,
         link_delay=arguments.link_delay,
         friction_drift=arguments.friction_drift,

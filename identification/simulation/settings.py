@@ -22,10 +22,13 @@ class Settings:
     ``log_rate`` of the log (the same if None). ``further`` columns are of FURTHER.
 
     ``bandwidth`` [Hz] is that of the speed loops, ``largest`` [A, else N m, N of the rotor] cuts the current.
+    ``payload`` holds parameters of a body in the tool frame by stem [SI], absent ones zero.
+
     ``resolution`` [rad, m] is a step of the motors' encoders (the joints' where there are no drives), ``noise`` the
-    rms of the logged effort in its unit. ``delay`` [s] is how late controller and log see the motors, ``link_delay``
-    how late the log sees the links. By the end of the run frictions have changed by ``friction_drift``, torque
-    constants by ``constant_drift`` (parts of their first values), evenly in time.
+    rms of the logged effort in its unit, ``wrench_noise`` that of logged forces [N], and of moments [N m] if it has
+    two values. ``delay`` [s] is how late controller and log see the motors, ``link_delay`` how late the log sees the
+    links. By the end of the run frictions have changed by ``friction_drift``, torque constants by ``constant_drift``
+    (parts of their first values), evenly in time.
     """
 
     trajectory: str = "fourier"
@@ -43,6 +46,8 @@ class Settings:
     largest: Sequence[float] = (np.inf,)
     resolution: Sequence[float] = (0.0,)
     noise: Sequence[float] = (0.0,)
+    wrench_noise: Sequence[float] = (0.0,)
+    payload: Mapping[str, float] = field(default_factory=dict)
     delay: float = 0.0
     link_delay: float = 0.0
     friction_drift: float = 0.0
