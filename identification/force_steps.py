@@ -20,7 +20,7 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
-from identification.drive_train import coupling, with_unit_constants
+from identification.drive_train import constants, coupling, with_unit_constants
 from identification.filtering import decimated, derivative, kept_indices, smoothed, undisturbed
 from identification.observation import generated_module
 from identification.outcome import Value
@@ -53,7 +53,8 @@ class Pose:
     the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
 
     ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands or nearly does. ``at``
-    are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
+    are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the mean torques of the drive
+    trains (n), weight included, with the robot's own torque constants.
     """
 
     run: Run
@@ -65,6 +66,7 @@ class Pose:
     turning: Array
     at: Array
     wrench: Array
+    load: Array
 
 
 @dataclass(frozen=True)
@@ -102,11 +104,11 @@ def force_steps(
     if all(value.value is None for value in stiffness.values()):
         first = next(iter(stiffness.values())).refused
         raise InputError(runs[0][0].place, f"no joint's stiffness can be told: {first}", "steps of a measured force")
-    constants, motor_residuals = _constants(robot, poses)
-    if constants and not np.any(Ia):
+    kt, motor_residuals = _constants(robot, poses)
+    if kt and not np.any(Ia):
         notes.append("torque constants without the rotors' acceleration: no inertia Iam or Ia was given")
     notes = [note for run, _ in runs for note in run.notes] + notes
-    return ForceSteps(robot, poses, components, stiffness, constants, residuals, motor_residuals, tuple(notes))
+    return ForceSteps(robot, poses, components, stiffness, kt, residuals, motor_residuals, tuple(notes))
 
 
 def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
@@ -156,7 +158,11 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
     turning = _turning(qd[:, inner], filters)
-    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, turning, at, wrench)
+    load = run.tau.mean(axis=1)
+    if with_current:
+        N, kt = coupling(robot), constants(robot)
+        load = N.T @ (kt * np.linalg.solve(N.T, load))
+    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, turning, at, wrench, load)
 
 
 def _turning(qd: Array, filters: Filters) -> Array:
@@ -180,10 +186,9 @@ def _held(links: Array, wrench: Array, generated: Any) -> Array:
 
 
 def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generated: Any) -> Pose:
-    """The pose with its links where the mean wrench leaves them, which is not where the motors are."""
+    """The pose with its links where weight and mean wrench leave them, which is not where the motors are."""
     k = [stiffness[f"k{joint.number}"].value for joint in robot.moving]
-    held = _held(pose.at, pose.wrench, generated).mean(axis=1)
-    twist = np.array([torque / value if value else 0.0 for torque, value in zip(held, k, strict=True)])
+    twist = np.array([torque / value if value else 0.0 for torque, value in zip(pose.load, k, strict=True)])
     return replace(pose, held=_about_mean(_held(pose.at - twist, pose.wrench, generated)))
 
 
@@ -211,7 +216,7 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
     residuals: dict[int, Residual] = {}
     if any(one.i is None for one in poses):
         return values, residuals
-    to_motors = np.linalg.inv(coupling(robot)).T
+    to_motors = np.asarray(np.linalg.inv(coupling(robot)).T, dtype=float)
     for m, joint in enumerate(robot.moving):
         name = f"kt{joint.number}"
         pressed = [one for one in poses if one.i is not None and _changes(one.held, m)]

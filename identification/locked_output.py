@@ -87,8 +87,8 @@ def locked_output(
         found.append((run, filters))
     rows = np.concatenate(stacked)
     if len(rows) < _FEWEST * len(names):
-        problem = f"{len(rows)} rows in which the motor of joint {number} turns steadily"
-        raise InputError(found[0][0].place, problem, f"{_FEWEST * len(names)} at least: a longer run")
+        few = f"{len(rows)} rows in which the motor of joint {number} turns steadily"
+        raise InputError(found[0][0].place, few, f"{_FEWEST * len(names)} at least: a longer run")
     factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()

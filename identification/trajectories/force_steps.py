@@ -73,7 +73,7 @@ def _rotation(wanted: Array, now: Array) -> Array:
 
 
 def _sliding(task: Task, axis: Array) -> Reference:
-    """The references move into the stop by what stop and drive trains yield along the force; sideways the tool slips."""
+    """The references move into the stop by what stop and drive trains yield along the force, and slip sideways."""
     stiffness = task.number("stiffness")
     pose = task.model.tool_transform(task.pose)
     direction = pose[:3, :3] @ axis
