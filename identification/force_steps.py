@@ -54,7 +54,7 @@ class Pose:
 
     ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands or nearly does. ``at``
     are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the mean torques of the drive
-    trains (n), weight included, with the robot's own torque constants.
+    trains (n), weight included.
     """
 
     run: Run
@@ -84,22 +84,27 @@ class ForceSteps:
 
 
 def force_steps(
-    robot: Robot, sources: Sequence[str], inertias: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
+    robot: Robot,
+    sources: Sequence[str],
+    inertias: Mapping[str, float] | None = None,
+    recipe: Recipe = RECIPE,
+    generated: Any = None,
 ) -> ForceSteps:
     """Values from the runs ``sources``, one a pose, each with columns of the wrench in the tool frame.
 
     ``inertias`` hold Iam or Ia of the joints by name, for the rotors' acceleration, which is left out without.
-    Torque constants need currents in every run.
+    Torque constants need currents in every run. ``generated`` is that of ``wrench_torque``, to be used again.
 
     Raises InputError for runs without a wrench, joints that move freely, and where no joint's stiffness shows.
     """
     runs = [_loaded(str(source), robot, recipe) for source in sources]
     components = tuple(name for name in WRENCH if any(name in run.others for run, _ in runs))
-    generated = _wrench_torque(robot)
+    generated = generated or wrench_torque(robot)
     Ia = _inertias(robot, inertias or {})
     poses = tuple(_pose(run, with_current, robot, recipe, Ia, generated) for run, with_current in runs)
     stiffness, _, _ = _stiffness(robot, poses, components)
-    poses = tuple(_untwisted(pose, stiffness, robot, generated) for pose in poses)
+    kt, _ = _constants(robot, poses)
+    poses = tuple(_untwisted(_weighed(pose, kt, robot), stiffness, robot, generated) for pose in poses)
     stiffness, residuals, notes = _stiffness(robot, poses, components)
     if all(value.value is None for value in stiffness.values()):
         first = next(iter(stiffness.values())).refused
@@ -119,7 +124,7 @@ def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
         return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i"), resting=True), False
 
 
-def _wrench_torque(robot: Robot) -> Any:
+def wrench_torque(robot: Robot) -> Any:
     """The generated module with the function wrench_torque(q, wrench)."""
     return generated_module(derive(robot, names=("wrench_torque",)))
 
@@ -158,11 +163,18 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
     turning = _turning(qd[:, inner], filters)
-    load = run.tau.mean(axis=1)
-    if with_current:
-        N, kt = coupling(robot), constants(robot)
-        load = N.T @ (kt * np.linalg.solve(N.T, load))
-    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, turning, at, wrench, load)
+    return Pose(
+        run,
+        filters,
+        _about_mean(level),
+        _about_mean(held),
+        _about_mean(rotors),
+        i,
+        turning,
+        at,
+        wrench,
+        run.tau.mean(axis=1),
+    )
 
 
 def _turning(qd: Array, filters: Filters) -> Array:
@@ -185,11 +197,27 @@ def _held(links: Array, wrench: Array, generated: Any) -> Array:
     return result
 
 
+def _weighed(pose: Pose, kt: Mapping[str, Value], robot: Robot) -> Pose:
+    """The pose with the load that its mean currents carry, by the torque constants found, else the file's."""
+    if pose.i is None:
+        return pose
+    N, values = coupling(robot), constants(robot)
+    for m, joint in enumerate(robot.moving):
+        values[m] = kt[f"kt{joint.number}"].value or values[m]
+    return replace(pose, load=N.T @ (values * np.linalg.solve(N.T, pose.load)))
+
+
 def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generated: Any) -> Pose:
-    """The pose with its links where weight and mean wrench leave them, which is not where the motors are."""
-    k = [stiffness[f"k{joint.number}"].value for joint in robot.moving]
-    twist = np.array([torque / value if value else 0.0 for torque, value in zip(pose.load, k, strict=True)])
-    return replace(pose, held=_about_mean(_held(pose.at - twist, pose.wrench, generated)))
+    """The pose with its links where their drive trains leave them, which is not where the motors are.
+
+    A joint whose stiffness is not known follows its motor, as a wrist does that turns against the arm's twist.
+    """
+    links = pose.at[:, None] + pose.q
+    for k, joint in enumerate(robot.moving):
+        value = stiffness[f"k{joint.number}"].value
+        if value:
+            links[k] -= (pose.load[k] + pose.held[k]) / value
+    return replace(pose, held=_about_mean(generated.wrench_torque(links.T, pose.wrench.T).T))
 
 
 def _stiffness(

@@ -26,8 +26,9 @@ POSES = (
 )
 STEPS = {"force": 4000.0, "steps": 6}
 #: Rms of the noise of the currents [A] and of the wrench [N, N m].
-NOISE, WRENCH_NOISE = (1.5,), (200.0, 60.0)
-_ALL_BUT_FZ = ("fx", "fy", "mx", "my", "mz")
+NOISE, WRENCH_NOISE = (1.5,), (400.0, 120.0)
+#: What is told apart by the models' names: components that are not measured.
+SENSORS = {"": (), ", fz alone": ("fx", "fy", "mx", "my", "mz")}
 _SET = "pressed"
 
 
@@ -47,12 +48,13 @@ def play(seeds: Sequence[int], folder: Path) -> Iterator[Found]:
         runs = [simulate(machine, replace(settings, pose=pose)) for pose in POSES]
     truth = runs[0].parameters
     inertias = {name: value for name, value in truth.items() if name.startswith("Iam")}
+    generated = method.wrench_torque(robot)
     for seed in seeds:
         draws = [noisy(run, NOISE, WRENCH_NOISE, len(runs) * seed + k) for k, run in enumerate(runs)]
         models, residuals = {}, {}
-        for suffix, unseen in (("", ()), (", fz alone", _ALL_BUT_FZ)):
+        for suffix, unseen in SENSORS.items():
             paths = [saved(_without(unseen, run), robot, folder / f"pose{k}.csv") for k, run in enumerate(draws)]
-            found = method.force_steps(robot, paths, inertias)
+            found = method.force_steps(robot, paths, inertias, generated=generated)
             for name, values, each in (
                 ("stiffness", found.stiffness, found.residuals),
                 ("torque constants", found.constants, found.motor_residuals),
