@@ -265,7 +265,7 @@ def _of_motor(pose: Pose, m: int, to_motors: Array) -> Turning:
     assert pose.i is not None
     turning = pose.turning[m] != 0
     tau = (to_motors @ (pose.held + pose.rotors))[m]
-    return Turning(pose.i[m, turning], tau[turning], pose.turning[m, turning])
+    return Turning(pose.i[m, turning], tau[turning], pose.q[m, turning], pose.turning[m, turning])
 
 
 def _changes(held: Array, k: int) -> bool:

@@ -1,7 +1,8 @@
 """Torque constants of motors that press: what their currents do beside overcoming their own dry friction (eq. 75, 78).
 
 A motor that stands may hold any torque within its friction, so only samples count in which it turns:
-i = (tau + Fc s) / kt + c, s the direction in which it turns, c what weight and preload ask in a pose.
+i = (tau + Fc s) / kt + c, s the direction in which it turns, c what weight and preload ask in a pose. Currents and
+forces are both noisy, so the instrument is the motor's position, which follows the twist that the force makes.
 """
 
 from __future__ import annotations
@@ -19,18 +20,19 @@ Array = NDArray[np.float64]
 
 #: Fewest samples an unknown.
 _FEWEST = 3
-#: Part of the torques that friction and preload must not be able to stand for.
+#: Part of torques times positions that friction must not be able to stand for.
 _SEEN = 1e-3
 
 
 @dataclass(frozen=True)
 class Turning:
     """Samples of one motor in one pose in which it turns (N each): current ``i`` [A], torque ``tau`` that the force and
-    the rotor ask of it [N m], both on the motor side, and ``direction`` (1 or -1).
+    the rotor ask of it [N m], both on the motor side, ``position`` in any unit, and ``direction`` (1 or -1).
     """
 
     i: Array
     tau: Array
+    position: Array
     direction: Array
 
 
@@ -39,21 +41,27 @@ def torque_constant(poses: Sequence[Turning]) -> tuple[float, float, Residual]:
 
     Raises ValueError, with the reason, where friction and preload cannot be told from the force.
     """
-    tau, direction, i = (np.concatenate([getattr(one, name) for one in poses]) for name in ("tau", "direction", "i"))
+    names = ("i", "tau", "position", "direction")
+    i, tau, position, direction = (np.concatenate([getattr(one, name) for one in poses]) for name in names)
     preload = np.repeat(np.eye(len(poses)), [len(one.i) for one in poses], axis=0)
-    others = np.column_stack([direction, preload[:, preload.any(axis=0)]])
+    preload = preload[:, preload.any(axis=0)]
+    others = np.column_stack([direction, preload])
     if len(i) < _FEWEST * (1 + others.shape[1]):
         raise ValueError("the motor hardly turns between the steps")
-    own = tau - others @ np.linalg.lstsq(others, tau, rcond=None)[0]
-    power = float(own @ own)
-    if power <= (_SEEN * np.linalg.norm(tau)) ** 2:
+    instrument, asked, given = (_without(x, others) for x in (position, tau, i))
+    power = float(instrument @ asked)
+    if abs(power) <= _SEEN * np.linalg.norm(_without(tau, preload)) * np.linalg.norm(_without(position, preload)):
         raise ValueError("its friction cannot be told from the force: steps up and down are needed")
-    slope = float(own @ i) / power
-    left = i - slope * own
-    error = left - others @ np.linalg.lstsq(others, left, rcond=None)[0]
+    slope = float(instrument @ given) / power
+    error = given - slope * asked
     variance = float(error @ error) / (len(i) - 1 - others.shape[1]) * inflation(error)
     kt = 1 / slope if slope else np.inf
-    std = float(np.sqrt(variance / power)) * kt**2
-    about = kt * (i - preload @ np.linalg.lstsq(preload, i, rcond=None)[0])
-    size = float(np.linalg.norm(about))
+    std = float(np.sqrt(variance) * np.linalg.norm(instrument)) / abs(power) * kt**2
+    size = float(np.linalg.norm(kt * _without(i, preload)))
     return kt, std, Residual(len(i), float(np.linalg.norm(kt * error)), size, size)
+
+
+def _without(x: Array, columns: Array) -> Array:
+    """``x`` (N) without what ``columns`` (N x p) can stand for."""
+    result: Array = x - columns @ np.linalg.lstsq(columns, x, rcond=None)[0]
+    return result
