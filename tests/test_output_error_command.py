@@ -34,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A robot file, and a run of it with noise."""
     place = tmp_path_factory.mktemp("command")
     (place / "two_links.yaml").write_text(robot_text())
-    words = "--duration 6 --noise 0.3 --parameters twin --out".split()
+    words = ["--duration", "6", "--noise", "0.3", "--parameters", "twin", "--out"]
     from generator.cli.main import main
 
     assert main(["simulate", str(place / "two_links.yaml"), *words, str(place / "A.csv")]) == 0
