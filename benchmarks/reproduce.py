@@ -37,13 +37,14 @@ def main(words: Sequence[str]) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     workers = max(os.cpu_count() or 1, 1)
-    kept = dict(read().experiments) if FILE.exists() else {}
+    new = {}
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
         parts = {name: [pool.submit(played, name, range(seeds)[k::workers]) for k in range(workers)] for name in names}
         for name in names:
-            kept[name] = _summary(name, [one.result() for one in parts[name]])
-            _tell(name, kept[name])
-    results = Results({name: kept[name] for name in known if name in kept})
+            new[name] = _summary([one.result() for one in parts[name]])
+            _tell(name, new[name])
+    every = {**(read().experiments if FILE.exists() else {}), **new}
+    results = Results({name: every[name] for name in known if name in every})
     write(results)
     page.write(results)
     return 0
@@ -56,7 +57,7 @@ def played(name: str, seeds: Sequence[int]) -> list[Found]:
         return list(experiment.play(seeds, Path(folder)))
 
 
-def _summary(name: str, parts: Sequence[Sequence[Found]]) -> dict[str, Any]:
+def _summary(parts: Sequence[Sequence[Found]]) -> dict[str, Any]:
     """For the results file; the first part begins with the first draw."""
     everything = [one for part in parts for one in part]
     return {"draws": len(everything), "first": parts[0][0].as_json(), "coverage": coverage(everything)}
