@@ -46,7 +46,10 @@ def main(words: Sequence[str]) -> int:
     every = {**(read().experiments if FILE.exists() else {}), **new}
     results = Results({name: every[name] for name in known if name in every})
     write(results)
-    page.write(results)
+    if lacking := [name for name in known if name not in every]:
+        print(f"the page waits for {', '.join(lacking)}")
+    else:
+        page.write(results)
     return 0
 
 
