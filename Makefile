@@ -27,7 +27,7 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list identify test test-extra format lock bench twins reproduce clean distclean
+.PHONY: help generate all-robots list identify output-error test test-extra format lock bench twins reproduce clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -51,6 +51,9 @@ list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 
 identify: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters from recorded runs
 	@cd "$${CALLER:-.}" && $(COUNTERPOISE) identify "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
+
+output-error: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters by simulation in open loop
+	@cd "$${CALLER:-.}" && $(COUNTERPOISE) output-error "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests

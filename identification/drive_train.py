@@ -42,3 +42,16 @@ def with_constants(robot: Robot, values: Sequence[float]) -> Robot:
 def with_unit_constants(robot: Robot) -> Robot:
     """The robot with torque constants of 1 N m/A, for which the joint torques of currents are N^T i."""
     return with_constants(robot, np.ones(len(robot.moving)).tolist())
+
+
+def supplied(robot: Robot, motor: int, tau: Array) -> Array:
+    """The part of joint torques (n x N) that motor number ``motor``, from 0, supplies: N^T E N^-T tau.
+
+    E picks the motor. Without drives each joint has its own motor.
+    """
+    if robot.drives is None:
+        result = np.zeros_like(tau)
+        result[motor] = tau[motor]
+        return result
+    N = coupling(robot)
+    return np.outer(N[motor], np.linalg.solve(N.T, tau)[motor])

@@ -124,7 +124,7 @@ def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
     return indices
 
 
-def undisturbed(left_out: NDArray[np.bool_], factor: int, reach: int = 0) -> NDArray[np.bool_]:
+def kept_rows(left_out: NDArray[np.bool_], factor: int, reach: int = 0) -> NDArray[np.bool_]:
     """Which samples that decimation keeps have none of ``left_out`` (N) in their window: ``factor`` samples to either
     side, ``reach`` if that is more.
     """

@@ -21,7 +21,7 @@ from generator.robot.description import PRISMATIC, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.drive_train import constants, coupling, with_unit_constants
-from identification.filtering import decimated, derivative, kept_indices, smoothed, undisturbed
+from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
@@ -181,7 +181,7 @@ def _turning(qd: Array, filters: Filters) -> Array:
     """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill."""
     fast = np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)
     reach = round(filters.rate / filters.cutoff / 2)
-    steady = np.array([undisturbed(~one, filters.factor, reach) for one in fast])
+    steady = np.array([kept_rows(~one, filters.factor, reach) for one in fast])
     result: Array = np.sign(qd[:, kept_indices(qd.shape[1], filters.factor)]) * steady
     return result
 

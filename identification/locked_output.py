@@ -18,7 +18,7 @@ from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.essential import RATIO, essential
 from identification.factors import Factor, triangular
-from identification.filtering import decimated, derivative, smoothed, undisturbed
+from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.least_squares import Problem, Solution
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
@@ -149,7 +149,7 @@ def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
     columns = np.stack([qdd, qd, np.sign(qd), q, np.ones_like(q), run.tau[k] - removed])
     inner = columns[:, filters.first : run.samples - filters.last]
     speed = np.abs(inner[1])
-    keep = undisturbed(speed < _STANDSTILL * speed.max(), filters.factor)
+    keep = kept_rows(speed < _STANDSTILL * speed.max(), filters.factor)
     result: Array = decimated(inner, filters.factor)[:, keep].T
     return result
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.dataset import Run
-from identification.filtering import Stage, decimated, derivative, kept_indices, smoothed, stages, undisturbed
+from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
 from identification.observation import Motion, Regressors, standing
 from identification.recipe import Filters, Recipe
 
@@ -66,7 +66,7 @@ def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
     )
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
-    motion = Motion(q[:, inner], qd[:, inner], qdd[:, inner])
+    motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
     left_out = standing(regressors.signs, motion.qd, recipe.standstill)
     left_out[list(still)] = False
     if run.unusable is not None:
@@ -85,7 +85,7 @@ def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:
             row += one.run.payload.names().values()
     times = one.times
     factor = one.filters.factor
-    keep = [undisturbed(one.left_out[k], factor) for k in range(len(names))]
+    keep = [kept_rows(one.left_out[k], factor) for k in range(len(names))]
     indices = kept_indices(one.motion.samples, factor)
     for part in _decimated_parts(one, regressors):
         for k, (W, Y) in enumerate(part.columns):

@@ -33,6 +33,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     search.add_argument("--segment", metavar="S", default="1", help="time of a simulation, or none; default: 1")
     search.add_argument("--iterations", metavar="N", type=int, help="of each start at most")
     search.add_argument("--seconds", metavar="S", type=float, help="of each start at most")
+    search.add_argument(
+        "--margin", metavar="KGM2", type=float, help="least eigenvalue of M(q); default: a tenth of the start's"
+    )
     search.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="not estimated")
     search.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
     many = parser.add_argument_group("starts")
@@ -84,7 +87,7 @@ def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
         value = getattr(arguments, name)
         if value is not None and value < least:
             raise InputError(command_line(f"--{name}"), str(value), f"at least {least}")
-    for name in ("seconds", "spread"):
+    for name in ("seconds", "spread", "margin"):
         value = getattr(arguments, name)
         if value is not None and not 0 < value < float("inf"):
             raise InputError(command_line(f"--{name}"), f"{value:g}", "a positive number")
@@ -98,6 +101,7 @@ def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
         method=arguments.method,
         iterations=arguments.iterations,
         seconds=arguments.seconds,
+        margin=arguments.margin,
         fixed=given,
         spread=arguments.spread,
         seed=arguments.seed,

@@ -17,8 +17,8 @@ from identification.recipe import JOINT, Recipe
 
 Array = NDArray[np.float64]
 
-#: Poses at which M(q) is looked at, of each run, and the smallest eigenvalue in parts of the mean of M's diagonal.
-_POSES, _MARGIN = 200, 1e-4
+#: Poses at which M(q) is looked at, of each run; least eigenvalue allowed in parts of the start's, and of the mean one.
+_POSES, _MARGIN, _LEAST = 200, 0.1, 1e-4
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,7 @@ class Settings:
 
     ``segment`` [s] is the time after which the simulation begins anew at a state of its own, None for one simulation a
     run. ``method`` is a module of ``methods``. A search ends after ``iterations`` or ``seconds`` where they are given.
+    ``margin`` [kg m2, kg] is the least eigenvalue of M(q) that is allowed, a tenth of the start's where it is None.
     ``fixed`` are values [SI] of parameters that are not sought; ``spread`` is that of further starts about the first,
     in its standard deviations, ``seed`` that of their draws.
     """
@@ -36,6 +37,7 @@ class Settings:
     method: str = "gauss-newton"
     iterations: int | None = None
     seconds: float | None = None
+    margin: float | None = None
     fixed: Mapping[str, float] = field(default_factory=dict)
     spread: float = 2.0
     seed: int = 0
@@ -100,8 +102,10 @@ def search_of(
     q = np.concatenate([one.motion.q.T[:: max(1, one.motion.samples // _POSES)] for one in experiments])
     criterion = Criterion(module, tuple(experiments), sought, fixed, np.ones(q.shape[1]))
     positivity = Positivity(module, np.ascontiguousarray(q), sought, fixed, 0.0)
-    mean = float(np.abs(positivity.eigenvalues(chi)).mean())
-    search = Search(criterion, replace(positivity, margin=_MARGIN * mean), size, settings)
+    eigenvalues = positivity.eigenvalues(chi)
+    margin = max(_MARGIN * float(eigenvalues.min()), _LEAST * float(np.abs(eigenvalues).mean()))
+    positivity = replace(positivity, margin=margin if settings.margin is None else settings.margin)
+    search = Search(criterion, positivity, size, settings)
     feasible = search.positivity.nearest(chi, size)
     if feasible is None:
         raise InputError(place, "M(q) is not positive definite for any parameters near the start", "other fixed values")

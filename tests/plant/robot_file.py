@@ -4,20 +4,28 @@ its data alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from math import isclose, pi
 
+from tests.plant.effect import Effect
+from tests.plant.known_effects import Entry, entry
 from tests.plant.robot import BODY, Robot
 
 #: The name of the parameter set in the file.
 PRIOR = "known"
 
 
-def robot_file(robot: Robot, leave_out: Collection[str] = ()) -> str:
-    """YAML with the geometry, the drives, rotor inertia, friction, offset and the balancer, and their true values.
+def robot_file(
+    robot: Robot,
+    leave_out: Collection[str | tuple[str, int]] = (),
+    known: Collection[Effect] | None = None,
+    told: Callable[[str, float], tuple[float, float | None]] = lambda name, value: (value, None),
+) -> str:
+    """YAML with the geometry, the drives, rotor inertia, friction, offset and the robot's own effects.
 
-    ``leave_out`` are ids of the generator's effects. The coupling of a wrist's rotors and elastic drive trains are
-    not written.
+    ``leave_out`` are ids of the generator's effects, or such with a joint (from 1). ``known`` are effects beside the simple ones, the robot's own if
+    None. ``told`` turns a parameter's name and true value into the value in the file and its relative standard
+    deviation [%], None for none. Elastic drive trains are not written.
     """
     lines = [f"name: {robot.name}", "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]"]
     if any(robot.base):
@@ -46,26 +54,24 @@ def robot_file(robot: Robot, leave_out: Collection[str] = ()) -> str:
     lines.append(f"  torque_constants: {{unit: N m/A, use: data, data: [{constants}]}}")
     simple = {"rotor_inertia": "Ia", "viscous_friction": "Fv", "coulomb_friction": "Fc", "offset": "Off"}
     kept = {name: stem for name, stem in simple.items() if name not in leave_out}
-    lines.append("effects:" if kept else "effects: []")
-    lines += [f"  - {{effect: {name}, joints: all}}" for name in kept]
-    values = _standard(robot, kept)
-    for effect in robot.own:
-        if effect.law == "spring_balancer" and effect.law not in leave_out:
-            stiffness = effect.amount(robot)
-            values[f"Kr{effect.joint}"] = (stiffness, "N/m")
-            values[f"K0{effect.joint}"] = (-stiffness * effect.value("free_length", robot), "N")
-            lines.append(_balancer("spring_balancer", effect.joint, _crank(effect.value, robot)))
-        elif effect.law in ("gas_isotherm", "gas_polytrope") and "gas_balancer" not in leave_out:
-            exponent = 1.0 if effect.law == "gas_isotherm" else effect.value("exponent", robot)
-            values[f"F0{effect.joint}"] = (effect.amount(robot), "N")
-            shape = f"{_crank(effect.value, robot)}, l0: {effect.value('l0', robot)!r} m, exponent: {exponent:g}"
-            lines.append(_balancer("gas_balancer", effect.joint, shape))
-    lines += ["parameters:", f"  {PRIOR}:", "    description: true values of the simulation", "    values:"]
-    lines += [f"      {name}: {{value: {value!r}, unit: {unit}}}" for name, (value, unit) in values.items()]
+    there = {name: [j for j in range(1, n + 1) if (name, j) not in leave_out] for name in kept}
+    uses = [f"  - {{effect: {name}, joints: {joints}}}" for name, joints in there.items() if joints]
+    values = _standard(robot, {kept[name]: joints for name, joints in there.items()})
+    for one in _entries(robot.own if known is None else known, robot):
+        if one.effect not in leave_out and (one.effect, one.joint) not in leave_out:
+            uses.append(one.line)
+            values |= {f"{stem}{one.joint}": value for stem, value in one.parameters.items()}
+    lines += ["effects:", *uses] if uses else ["effects: []"]
+    lines += ["parameters:", f"  {PRIOR}:", "    description: values of the simulation", "    values:"]
+    for name, (value, unit) in values.items():
+        shown, relative = told(name, value)
+        spread = "" if relative is None else f", relative_std: {relative:g}"
+        lines.append(f"      {name}: {{value: {shown!r}, unit: {unit}{spread}}}")
     return "\n".join(lines) + "\n"
 
 
-def _standard(robot: Robot, kept: dict[str, str]) -> dict[str, tuple[float, str]]:
+def _standard(robot: Robot, kept: Mapping[str, Collection[int]]) -> dict[str, tuple[float, str]]:
+    """Values and units of bodies, and of the simple effects by their stems on joints that have them."""
     values: dict[str, tuple[float, str]] = {}
     for j, joint in enumerate(robot.chain, 1):
         for name, value in zip(BODY, joint.body, strict=True):
@@ -78,18 +84,19 @@ def _standard(robot: Robot, kept: dict[str, str]) -> dict[str, tuple[float, str]
             "Fc": (joint.coulomb, force),
             "Off": (joint.offset, force),
         }
-        values |= {f"{stem}{j}": drive[stem] for stem in kept.values()}
+        values |= {f"{stem}{j}": drive[stem] for stem, joints in kept.items() if j in joints}
     return values
 
 
-def _crank(value: Callable[[str, Robot], float], robot: Robot) -> str:
-    return ", ".join(
-        f"{name}: {value(name, robot)!r} {unit}" for name, unit in (("d21", "m"), ("d22", "m"), ("phi", "rad"))
-    )
-
-
-def _balancer(name: str, joint: int, values: str) -> str:
-    return f"  - {{effect: {name}, joint: {joint}, values: {{{values}}}}}"
+def _entries(effects: Collection[Effect], robot: Robot) -> list[Entry]:
+    """One entry for each effect of a robot file and joint."""
+    entries: dict[tuple[str, int], Entry] = {}
+    for effect in effects:
+        one = entry(effect, robot)
+        if one is not None:
+            key = (one.effect, one.joint)
+            entries[key] = entries[key].merged(one) if key in entries else one
+    return list(entries.values())
 
 
 def _angle(value: float) -> str:

@@ -1,0 +1,87 @@
+"""What may be missing: an effect on a joint, as columns of torque per unit of its parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: What a finding becomes in the robot file.
+EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """A parameter that the columns multiply: its name in the robot's parameters or in the correction, its unit [SI],
+    and closed physical bounds, None where free.
+    """
+
+    name: str
+    unit: str
+    lower: float | None = None
+    upper: float | None = None
+
+
+@dataclass(frozen=True)
+class ShapeRange:
+    """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``).
+
+    ``points`` are tried instead where they are given. ``whole`` tells that nothing lies between them.
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    count: int = 5
+    log: bool = True
+    points: tuple[float, ...] = ()
+    whole: bool = False
+
+    def grid(self) -> list[float]:
+        """The points that are tried first."""
+        if self.points:
+            return list(self.points)
+        space = np.geomspace if self.log else np.linspace
+        return [float(x) for x in space(self.low, self.high, self.count)]
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """An effect on ``joint`` (number; 0 for the whole robot) with k coefficients that enter linearly.
+
+    ``effect`` is an id of the generator's library, or of a correction of the robot file. ``columns(scene, shape)``
+    returns k x n x N torques [N m, N] per unit of each coefficient at the recorded rate: what the *measured* torque
+    holds more than the model's says. ``shapes`` are searched, ``given`` are values that are known; both are values of
+    the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
+    the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
+    experiment that tells them apart.
+    """
+
+    effect: str
+    title: str
+    joint: int
+    coefficients: tuple[Coefficient, ...]
+    columns: Callable[[Scene, Mapping[str, float]], Array]
+    shapes: tuple[ShapeRange, ...] = ()
+    given: Mapping[str, float] = field(default_factory=dict)
+    kind: str = EFFECT
+    joints: tuple[int, ...] = ()
+    variable: str = ""
+    would_show: str = ""
+    separating: Mapping[str, str] = field(default_factory=dict)
+    tries: int = 0
+
+    @property
+    def variants(self) -> list[dict[str, float]]:
+        """All combinations of the shapes' first grids; one empty dictionary where there are none."""
+        result: list[dict[str, float]] = [dict(self.given)]
+        for shape in self.shapes:
+            result = [{**one, shape.name: x} for one in result for x in shape.grid()]
+        return result

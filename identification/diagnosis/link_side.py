@@ -1,0 +1,148 @@
+"""The robot on the link side of one joint's drive train, where the log has the motor's motion.
+
+With q_l = q + e the link's position and q the motor's over the gear, what the motor must supply changes by
+(dtau_link/dq) e + (dtau_link/dqd) e' + (dtau_link/dqdd) e'' (report eq. 7, 8). The drive train's own inertia and
+friction turn with the motor and do not see e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.symbolic.model import Model
+from identification.diagnosis.perturbation import sensitivity
+from identification.diagnosis.scene import Scene
+from identification.observation import Motion
+
+Array = NDArray[np.float64]
+#: A number, or an array of as many as are played at once.
+Value: TypeAlias = Any
+
+#: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
+_SHARE = 0.5
+
+
+@dataclass(frozen=True)
+class Train:
+    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``gap`` its play [rad, m], and ``damping`` the ratio
+    d / (2 sqrt(k M)) of the link on it, the motor held. Arrays are many of them.
+    """
+
+    stiffness: Value
+    damping: Value
+    gap: Value = 0.0
+
+
+@dataclass(frozen=True)
+class LinkSide:
+    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg]."""
+
+    scene: Scene
+    k: int
+    rotor: float
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Base parameters without what turns with the motor."""
+        return without_drive_train(self.scene, self.k, self.rotor)
+
+    def torque_on(self, motion: Motion) -> Array:
+        """Torques (n x N) of all but the joint's drive train."""
+        return self.scene.regressors.torques(self.values, motion)
+
+    @cached_property
+    def load(self) -> Array:
+        """What the drive train transmits (N) [N m, N]."""
+        result: Array = self.torque_on(self.scene.motion)[self.k]
+        return result
+
+    @cached_property
+    def inertia(self) -> Array:
+        """Of the links about the joint (N) [kg m2, kg]."""
+        motion = self.scene.motion
+        quicker = motion.qdd.copy()
+        quicker[self.k] += 1.0
+        result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
+        return result
+
+    def steps(self, train: Train, end: int | None = None) -> Iterator[tuple[Value, Value, Value]]:
+        """Position, speed and acceleration of the joint's link against the motor, sample by sample up to ``end``:
+        M e'' + d e' + k z = -tau_link(q), z what e is beyond the gap, d nothing within it.
+
+        To the first order in 1/k and without a gap e is -tau_link/k, but that holds far below the resonance alone.
+        """
+        h, half, k = self.scene.period, train.gap / 2, train.stiffness
+        d = 2 * train.damping * np.sqrt(k * float(np.mean(self.inertia)))
+        # The log does not tell how the link swings when it begins: it hangs still on its spring.
+        e: Value = -(half * np.sign(self.load[0]) + self.load[0] / k)
+        v: Value = (self.load[0] - self.load[1]) / (h * k)
+        # Speeds are those between samples, damping is centred: the frequency of a swing is right to the second order.
+        for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
+            beyond = e - (abs(e + half) - abs(e - half)) / 2
+            c = (abs(e) > half) * d * (h / (2 * M))
+            after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
+            yield e, (v + after) / 2, (after - v) / h
+            v = after
+            e = e + h * v
+
+    def deflection(self, train: Train) -> Motion:
+        """The link's motion against the motor's on a drive train of plain numbers."""
+        plain = Train(float(train.stiffness), float(train.damping), float(train.gap))
+        own = np.array(list(self.steps(plain))).T
+        moved = [np.zeros_like(self.scene.motion.q) for _ in own]
+        for signal, x in zip(moved, own, strict=True):
+            signal[self.k] = x
+        return Motion(*moved)
+
+    def torque_per(self, deflection: Motion) -> Array:
+        """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
+        return sensitivity(self.torque_on, self.scene.motion, deflection)
+
+
+def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
+    """The scene's values with those of the joint's own drive-train effects taken out, ``rotor`` from where it is
+    grouped.
+    """
+    model = scene.regressors.model
+    own = _of_motor(model, model.robot.moving[k].number)
+    inertia = f"Ia{model.robot.moving[k].number}"
+    result = dict(scene.values)
+    for name, terms in model.grouping.numeric().items():
+        if set(terms) <= own:
+            result[name] = 0.0
+        elif inertia in own & set(terms):
+            result[name] = result.get(name, 0.0) - terms[inertia] * rotor
+    return result
+
+
+def rotor_inertia(scene: Scene, k: int) -> float:
+    """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
+    half of the base parameter that it is grouped in, 0 where the model has none.
+    """
+    model = scene.regressors.model
+    name = f"Ia{model.robot.moving[k].number}"
+    if name in scene.values:
+        return scene.values[name]
+    for one in model.robot.parameter_sets.values():
+        if name in one.values:
+            return one.values[name].value
+    for title, terms in model.grouping.numeric().items():
+        if name in terms:
+            return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
+    return 0.0
+
+
+def _of_motor(model: Model, number: int) -> frozenset[str]:
+    """Parameters whose torque turns with the motor of a joint, or with another joint's that turns with it."""
+    names: set[str] = set()
+    for instance in model.effects:
+        columns = instance.columns()
+        if not instance.effect.on_link and any(number in column for column in columns):
+            names |= set(instance.names)
+    return frozenset(names)

@@ -1,0 +1,75 @@
+"""One run beside the model as it stands: all that a candidate's columns may be made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import Robot
+from identification.observation import Motion, Regressors
+from identification.sampling import Sampled
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI]."""
+
+    sampled: Sampled
+    regressors: Regressors
+    values: Mapping[str, float]
+
+    @property
+    def robot(self) -> Robot:
+        """As its file says."""
+        return self.regressors.model.robot
+
+    @property
+    def motion(self) -> Motion:
+        """Filtered positions, speeds, accelerations (n x N each)."""
+        return self.sampled.motion
+
+    @property
+    def tau(self) -> Array:
+        """Measured torques on the joint side (n x N) [N m, N]."""
+        return self.sampled.tau
+
+    @property
+    def t(self) -> Array:
+        """Time since the run's start [s] (N)."""
+        return self.sampled.times - self.sampled.run.start
+
+    @property
+    def period(self) -> float:
+        """Of the samples [s]."""
+        return self.sampled.run.period
+
+    @cached_property
+    def torque(self) -> Array:
+        """Torques of the model along the motion (n x N) [N m, N]."""
+        return self.torque_on(self.motion)
+
+    def torque_on(self, motion: Motion) -> Array:
+        """Torques of the model along another motion (n x N) [N m, N]."""
+        return self.regressors.torques(self.values, motion)
+
+    @cached_property
+    def resting(self) -> Array:
+        """Torques of the model at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
+        still = np.zeros_like(self.motion.q)
+        return self.torque_on(Motion(self.motion.q, still, still))
+
+    @cached_property
+    def load(self) -> Array:
+        """Static loads of the transmissions (n x N): weight, springs and balancers, without the drives' offsets."""
+        offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
+        return self.resting - np.array(offsets)[:, None]
+
+    def rate(self, x: Array) -> Array:
+        """Time derivative of signals with samples along the last axis, central differences."""
+        return np.gradient(x, self.period, axis=-1)
