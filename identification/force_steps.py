@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Robot
-from identification.colour import inflation
+from identification.colour import scatter
 from identification.dataset import Run, load
 from identification.drive_train import constants, coupling, with_unit_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
@@ -280,16 +280,16 @@ def _slope(x: Sequence[Array], y: Sequence[Array]) -> tuple[tuple[float, float],
     The instrument is x itself some samples before and after: least squares would come out too small, as x is noisy too.
     """
     inner = slice(_LAG, -_LAG)
-    Z = np.concatenate([(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x])
-    X, Y = (np.concatenate([one[inner] for one in some]) for some in (x, y))
-    size, power = float(np.linalg.norm(Y)), float(Z @ X)
+    Z = [(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x]
+    X, Y = ([one[inner] for one in some] for some in (x, y))
+    rows, size = sum(map(len, Y)), float(np.linalg.norm(np.concatenate(Y)))
+    power = sum(float(z @ one) for z, one in zip(Z, X, strict=True))
     if not power:
-        return (0.0, np.inf), Residual(len(Y), size, size, size)
-    slope = float(Z @ Y) / power
-    e = Y - slope * X
-    variance = float(e @ e) / max(len(Y) - len(x) - 1, 1) * inflation(e)
-    std = float(np.sqrt(variance) * np.linalg.norm(Z)) / abs(power)
-    return (slope, std), Residual(len(Y), float(np.linalg.norm(e)), size, size)
+        return (0.0, np.inf), Residual(rows, size, size, size)
+    slope = sum(float(z @ one) for z, one in zip(Z, Y, strict=True)) / power
+    errors = [theirs - slope * ours for ours, theirs in zip(X, Y, strict=True)]
+    std = scatter(Z, errors, len(x) + 1) / abs(power)
+    return (slope, std), Residual(rows, float(np.linalg.norm(np.concatenate(errors))), size, size)
 
 
 def _value(slope: tuple[float, float], unit: str) -> Value:

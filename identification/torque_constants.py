@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.colour import inflation
+from identification.colour import scatter
 from identification.residuals import Residual
 
 Array = NDArray[np.float64]
@@ -54,9 +54,10 @@ def torque_constant(poses: Sequence[Turning]) -> tuple[float, float, Residual]:
         raise ValueError("its friction cannot be told from the force: steps up and down are needed")
     slope = float(instrument @ given) / power
     error = given - slope * asked
-    variance = float(error @ error) / (len(i) - 1 - others.shape[1]) * inflation(error)
+    ends = np.cumsum([len(one.i) for one in poses if len(one.i)])[:-1]
     kt = 1 / slope if slope else np.inf
-    std = float(np.sqrt(variance) * np.linalg.norm(instrument)) / abs(power) * kt**2
+    spread = scatter(np.split(instrument, ends), np.split(error, ends), 1 + others.shape[1])
+    std = spread / abs(power) * kt**2
     size = float(np.linalg.norm(kt * _without(i, preload)))
     return kt, std, Residual(len(i), float(np.linalg.norm(kt * error)), size, size)
 

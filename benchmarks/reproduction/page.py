@@ -43,6 +43,7 @@ def coverage_rows(results: Results) -> list[Row]:
                 {
                     "experiment": module.TITLE,
                     "model": model,
+                    "draws": results.experiments[name]["draws"],
                     "estimates": counted["count"],
                     "inside [%]": f"{share(counted):.1f}",
                     "least": least,
