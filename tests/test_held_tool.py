@@ -1,4 +1,4 @@
-"""Simulated runs with a held tool, a payload, a noisy wrench: statics and groupings of their own say what must come."""
+"""Simulated runs with a held tool and a noisy wrench: statics of their own say what must come."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from generator.robot.readers import read
 from identification.force_steps import force_steps
 from identification.signals import WRENCH
 from identification.simulation.machine import Machine, compiled
-from identification.simulation.payload import carried
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import Simulated, noisy, simulate
@@ -103,19 +102,3 @@ def test_noise_added_later_is_the_noise_of_a_simulation(pressed: tuple[Machine, 
     assert rms == pytest.approx({"i2": 0.5, "fx": 50.0, "mz": 15.0}, rel=0.25)
     with pytest.raises(ValueError, match="has its noise already"):
         noisy(found, (0.5,))
-
-
-def test_a_payload_is_part_of_the_last_body(pressed: tuple[Machine, Simulated]) -> None:
-    """The tool frame of this arm is that of body 6: the groupings say what each of the ten adds."""
-    machine, _ = pressed
-    payload = {"XX": 13.3, "XY": 0.4, "XZ": 5.7, "YY": 17.3, "YZ": -0.2, "ZZ": 7.9, "MX": 26.3, "MZ": -38.2, "M": 175.0}
-    wanted = {
-        name: sum(terms.get(f"{stem}6", 0.0) * value for stem, value in payload.items())
-        for name, terms in machine.model.grouping.numeric().items()
-    }
-    found = carried(machine.robot, payload)
-    assert found == pytest.approx(wanted, abs=1e-7)
-    loaded = simulate(machine, Settings(duration=0.5, payload=payload)).parameters
-    empty = simulate(machine, Settings(duration=0.5)).parameters
-    assert loaded["MY3R"] - empty["MY3R"] == pytest.approx(wanted["MY3R"], abs=1e-7)
-    assert wanted["MY3R"] == pytest.approx(-1.025 * 175)

@@ -2,7 +2,8 @@
 
 A run is a file with columns t, q1 .. qn (or qm1 .. qmn on the motors) and tau1 .. taun (or taum1 .. taumn, or currents
 i1 .. in); FILE@FROM:TO takes a part of it, with times in s. Filters come from the robot's recipe in recipes/, or from
---recipe, or from the options. DIR receives results.json and the robot file with the identified parameters in it.
+--recipe, or from the options. DIR receives results.json,
+report.html and the robot file with the identified parameters in it.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
     filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
     filters.add_argument(
-        "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
+        "--standstill", metavar="SPEED", type=float, help="rad/s, m/s below which a joint's rows are left out"
     )
     filters.add_argument(
         "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
@@ -49,7 +50,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
     method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
-    method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
+    method.add_argument(
+        "--essential",
+        metavar="RATIO",
+        type=float,
+        help="r_sigma of the essential parameters, held whatever the residual becomes",
+    )
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
     method.add_argument(
@@ -72,6 +78,8 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.consistent_fit import consistent_fit, doubts
         from identification.inverse_model import identify
         from identification.observation import Regressors
+        from identification.report.identify.report import report
+        from identification.report.page import REPORT
         from identification.results import save
         from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
@@ -99,7 +107,9 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.sensitivity:
         with stage("trying other filters"):
             variations = sensitivity(found, arguments.data)
-    files = save(found, path, folder, consistent, variations)
+    with stage("writing the report"):
+        page = {REPORT: report(found, consistent, variations)}
+    files = save(found, path, folder, consistent, variations, page)
     print(_summary(found, consistent))
     for one in variations:
         print(f"{one.setting} {one.value:g}: no parameter moves by more than {one.change:.2f} std ({one.parameter})")
@@ -113,7 +123,11 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
 
     place = command_line("--fix")
     prior = None if arguments.prior is None else _prior(arguments.prior, regressors)
-    ratio = {} if arguments.essential is None else {"ratio": _more(arguments.essential, "--essential", 1.0)}
+    ratio = (
+        {}
+        if arguments.essential is None
+        else {"ratio": _more(arguments.essential, "--essential", 1.0), "growth": float("inf")}
+    )
     return Options(
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),

@@ -24,10 +24,23 @@ _LEFT = 1e-4
 
 @dataclass(frozen=True)
 class Prior:
-    """What is known of the base parameters beforehand: values and standard deviations (p), infinite where nothing."""
+    """What is known of the base parameters beforehand: ``mean`` (p) and ``precision``, the inverse of its covariance
+    (p x p), with zero rows for parameters of which nothing is known.
+    """
 
     mean: Array
-    std: Array
+    precision: Array
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """The parameters of which anything is known (p)."""
+        return np.diag(self.precision) > 0
+
+    def shifted(self, direction: Array, value: float, std: float) -> Prior:
+        """With ``value`` times a direction (p) added to the parameters, known with a standard deviation."""
+        weighted = self.precision @ direction
+        lost = np.outer(weighted, weighted) * std**2 / (1 + std**2 * float(direction @ weighted))
+        return Prior(self.mean + direction * value, self.precision - lost)
 
 
 @dataclass(frozen=True)
@@ -44,14 +57,12 @@ class Normal:
         """The Gram matrix with the prior's rows."""
         if self.prior is None:
             return self.gram
-        known = np.flatnonzero(np.isfinite(self.prior.std))
-        weight = self.prior.std[known] ** -2.0
-        mean = self.prior.mean[known]
+        weighted = self.prior.precision @ self.prior.mean
         whole = self.gram.copy()
-        whole[known, known] += weight
-        whole[known, -1] += weight * mean
-        whole[-1, known] += weight * mean
-        whole[-1, -1] += float(weight @ mean**2)
+        whole[: self.base, : self.base] += self.prior.precision
+        whole[: self.base, -1] += weighted
+        whole[-1, : self.base] += weighted
+        whole[-1, -1] += float(weighted @ self.prior.mean)
         return whole
 
     @cached_property
@@ -104,6 +115,8 @@ class Normal:
 
 def inverse(A: Array, rank: float = _RANK) -> Array:
     """Pseudo-inverse of a matrix of products, by the eigenvalues of what it is with columns of unit length."""
+    if len(A) == 1:
+        return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
     size = np.sqrt(np.maximum(np.diag(A), 0.0))
     live = size > 1e-12 * size.max(initial=0.0)
     scale = np.where(live, np.maximum(size, 1e-300), 1.0)

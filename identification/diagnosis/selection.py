@@ -27,18 +27,35 @@ _ALPHA = 1e-3
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it.
 _FLOOR, _SHARE = 0.06, 0.01
+#: What nearly every robot has: taken first, then challenged by everything else.
+_COMMON = (
+    "rotor_inertia",
+    "viscous_friction",
+    "coulomb_friction",
+    "offset",
+    "payload",
+    "gas_balancer",
+    "spring_balancer",
+)
+_BALANCERS = ("gas_balancer", "spring_balancer")
+#: What is unexplained, in parts of the noise, from which several effects must be missing.
+_GROSS = 20.0
 #: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
 _BESIDE, _ALIKE = 0.03, 0.15
 _OF_SPEED = ("qd", "time since reversal")
 #: By how much a challenger must be better, and how far an equal one may be behind, as a part of the evidence.
 _BETTER, _EQUAL = 6.0, 0.01
+#: Part of the evidence by which a rare effect must be better than a common one.
+_RARE = 0.1
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
 _UNLIKE = 0.25
-_MOST, _ROUNDS = 8, 3
+_MOST, _ROUNDS = 18, 3
 #: Hypotheses whose pairs are tried when single ones do not do.
-_PAIRED = 30
+_PAIRED = 20
+#: Hypotheses, by what they explain, that are held against the validating runs.
+_JUDGED = 16
 
 
 @dataclass(frozen=True)
@@ -75,6 +92,7 @@ class Selection:
     def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
         self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self._known_drops: dict[tuple[int, ...], list[float]] = {}
         self.refresh()
 
     def refresh(self) -> None:
@@ -90,7 +108,7 @@ class Selection:
     # -- evidence -------------------------------------------------------------------------------------------------
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
-        """Of the best variant of every hypothesis that is not chosen, the best first."""
+        """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
         S = self.normal.beside(_columns(chosen))
         taken = {_key(one) for one in chosen}
         best: dict[tuple[str, int], tuple[float, Variant, Array]] = {}
@@ -103,7 +121,8 @@ class Selection:
                 best[key] = (drop, variant, x)
         unexplained = self.unexplained(chosen)
         ranked = sorted(best.values(), key=lambda one: -one[0])
-        found = [self._judged(one, chosen, unexplained) for one in ranked if one[0] > 0]
+        common = [one for one in ranked[_JUDGED:] if one[1].hypothesis.effect in _COMMON]
+        found = [self._judged(one, chosen, unexplained) for one in (*ranked[:_JUDGED], *common) if one[0] > 0]
         return sorted(found, key=lambda one: -one.score)
 
     def of(self, variant: Variant, others: Sequence[Variant]) -> Evidence:
@@ -135,7 +154,8 @@ class Selection:
             return replace(one, why_not="within chance")
         validation = self._validation(variant, others)
         one = replace(one, validation=validation)
-        promised = drop * self.held.rows / self.normal.rows
+        # While much is missing, the missing rest decides what a part of it does to another run.
+        promised = drop * self.held.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         if size < _FLOOR or drop < _SHARE * unexplained:
@@ -149,13 +169,23 @@ class Selection:
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""
         least = 0.0
-        for other in others:
-            if not set(other.joints) & set(variant.joints):
-                continue
-            rest = self.normal.beside(_columns([one for one in others if one is not other]))
-            alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
-            least = max(least, (_ALIKE if alike else _BESIDE) * self._solve(rest, other)[1])
+        if variant.hypothesis.effect in _COMMON:
+            return least
+        for other, drop in zip(others, self._drops(others), strict=True):
+            if set(other.joints) & set(variant.joints):
+                alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
+                least = max(least, (_ALIKE if alike else _BESIDE) * drop)
         return least
+
+    def _drops(self, chosen: Sequence[Variant]) -> list[float]:
+        """What each of the chosen explains beside the rest of them."""
+        key = tuple(_columns(chosen))
+        if key not in self._known_drops:
+            self._known_drops[key] = [
+                self._solve(self.normal.beside(_columns([one for one in chosen if one is not other])), other)[1]
+                for other in chosen
+            ]
+        return self._known_drops[key]
 
     def _validation(self, variant: Variant, others: Sequence[Variant]) -> float:
         """Drop of the held-out sum of squares, with parameters from the fitted runs."""
@@ -168,10 +198,12 @@ class Selection:
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
-        chosen = list(start)
+        chosen = list(start) or self._common_start()
         paired = False
         while len(chosen) < _MOST:
-            first = next((one for one in self.evidence(chosen) if one.passes), None)
+            passing = [one for one in self.evidence(chosen) if one.passes]
+            common = [one for one in passing if one.variant.hypothesis.effect in _COMMON]
+            first = next(iter([*common, *passing]), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
                 paired = True
@@ -180,21 +212,43 @@ class Selection:
                 chosen += pair
             else:
                 chosen.append(self._refined(first.variant, chosen))
-            chosen = self._exchanged(chosen)
+            chosen = self._exchanged(chosen, chosen[-1], 1)
+        chosen = self._exchanged(chosen, None, _ROUNDS)
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
 
-    def _exchanged(self, chosen: list[Variant]) -> list[Variant]:
-        """Each one refined and challenged with the others in place; dropped when its evidence is gone."""
-        for _ in range(_ROUNDS):
+    def _common_start(self) -> list[Variant]:
+        """Where far more is missing than one effect: all common ones together, and the best balancer; then without those
+        that nothing speaks for. One after the other they hide each other.
+        """
+        if self.unexplained([]) < _GROSS * self.normal.rows:
+            return []
+        offered = [one for one in self.bank.variants if one.hypothesis.effect in _COMMON]
+        chosen = [one for one in offered if one.hypothesis.effect not in _BALANCERS]
+        S = self.normal.beside(_columns(chosen))
+        balancers = [one for one in offered if one.hypothesis.effect in _BALANCERS]
+        chosen += sorted(balancers, key=lambda one: -self._solve(S, one)[1])[:1]
+        while chosen:
+            found = [self.of(one, [other for other in chosen if other is not one]) for one in chosen]
+            failing = [one for one in found if not one.passes]
+            if not failing:
+                break
+            chosen.remove(min(failing, key=lambda one: one.drop).variant)
+        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
+
+    def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
+        """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its
+        evidence is gone.
+        """
+        for _ in range(rounds):
             before = list(chosen)
             for one in before:
-                if one not in chosen:
+                if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
                 refined = one
                 mine = self.of(one, others)
-                best = next((other for other in self.evidence(others) if other.passes), None)
-                if best is not None and (not mine.passes or best.score > mine.score + _BETTER):
+                best = self._challenger(mine, others)
+                if best is not None:
                     refined = self._refined(best.variant, others)
                     mine = self.of(refined, others)
                 place = chosen.index(one)
@@ -202,6 +256,20 @@ class Selection:
             if chosen == before:
                 break
         return chosen
+
+    def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
+        """What should stand in the place of ``mine``: clearly better, or common and nearly as good as what is not."""
+        passing = [one for one in self.evidence(others) if one.passes and _key(one.variant) != _key(mine.variant)]
+        common = mine.variant.hypothesis.effect in _COMMON
+        for one in passing:
+            margin = _BETTER
+            if common and one.variant.hypothesis.effect not in _COMMON:
+                margin += _RARE * mine.drop
+            elif not common and one.variant.hypothesis.effect in _COMMON:
+                margin -= _RARE * mine.drop
+            if not mine.passes or one.score > mine.score + margin:
+                return one
+        return None
 
     def _refined(self, variant: Variant, others: Sequence[Variant]) -> Variant:
         """With shapes between the tried ones where they explain more."""
@@ -286,15 +354,15 @@ class Selection:
     # -- what cannot be seen --------------------------------------------------------------------------------------
 
     def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which the model takes up all but a hundredth."""
-        left: dict[tuple[str, int], float] = {}
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], list[float]] = {}
         whose: dict[tuple[str, int], Hypothesis] = {}
         for variant in self.bank.variants:
             key = _key(variant)
             at = np.array(variant.columns) - self.normal.base
-            left[key] = max(left.get(key, 0.0), float(self.normal.left[at].max()))
+            left.setdefault(key, []).append(float(self.normal.left[at].max()))
             whose[key] = variant.hypothesis
-        return [whose[key] for key, part in left.items() if part < _VISIBLE]
+        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
 
 
 def _key(variant: Variant) -> tuple[str, int]:

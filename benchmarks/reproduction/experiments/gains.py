@@ -44,7 +44,9 @@ def play(seeds: Sequence[int], folder: Path) -> Iterator[Found]:
     regressors = Regressors(robot)
     with compiled(robot) as machine:
         empty = simulate(machine, MOTION)
-        loaded = simulate(machine, replace(MOTION, payload=PAYLOAD))
+        loaded = simulate(machine, replace(MOTION, payload=Payload("L", PAYLOAD)))
+    # What the sidecar would tell of the payload is what is sought.
+    loaded = replace(loaded, settings=MOTION)
     ratios = np.diag(coupling(robot))
     units = {parameter.name: parameter.unit for parameter in regressors.model.base_parameters}
     units |= {f"{stem}L": unit for stem, unit in UNITS.items()}
