@@ -88,7 +88,7 @@ def noisy(run: Simulated, noise: Sequence[float], wrench_noise: Sequence[float] 
 def _columns(machine: Machine, model: Any, settings: Settings, reference: Reference, log: Log) -> dict[str, Array]:
     """What is logged, without noise."""
     robot, kept = machine.robot, slice(None, None, settings.every)
-    rows = len(log.q)
+    rows, n = log.q.shape
     numbers = [joint.number for joint in robot.moving]
     N = cascade.ratios(robot)
     constants = torque_constants(machine, model)
