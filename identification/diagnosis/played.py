@@ -14,10 +14,10 @@ from generator.errors import InputError
 from generator.generation import Stage, generate, silent
 from generator.python_library import build_library, load_library
 from generator.symbolic.effect_torques import STATES, WARMTH
-from identification.filtering import decimated, kept_indices
+from identification.filtering import decimated, kept_indices, kept_rows
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
-from identification.sampling import Sampled, kept_rows
+from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
