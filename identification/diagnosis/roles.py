@@ -14,16 +14,20 @@ _FITTED, _VALIDATED = 0.55, 0.2
 #: Time between such parts [s] and, in a short run, its part of the time.
 _GAP, _SHORT = 0.5, 0.02
 #: Places that are tried for the validating block, and the least part of a run that is worth fitting.
-_PLACES, _LEAST = 7, 0.1
+_PLACES, _LEAST = 7, 0.2
 
 
 @dataclass(frozen=True)
 class Roles:
-    """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how."""
+    """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how.
+
+    ``known`` are all but those that test, whole where parts of them have a role: what a last fit is made of.
+    """
 
     train: tuple[str, ...]
     validate: tuple[str, ...]
     test: tuple[str, ...]
+    known: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
 
@@ -40,9 +44,9 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
             notes.append(f"{chosen_validate[0]} validates: it is not fitted")
         if not test:
             notes.append(f"{chosen_test[0]} tests: it is touched by nothing before the report")
-        return Roles(tuple(rest), chosen_validate, chosen_test, tuple(notes))
+        return Roles(tuple(rest), chosen_validate, chosen_test, (*rest, *chosen_validate), tuple(notes))
     if not missing:
-        return Roles(tuple(names), tuple(validate), tuple(test))
+        return Roles(tuple(names), tuple(validate), tuple(test), (*names, *validate))
     return _split(data, validate, test)
 
 
@@ -50,11 +54,12 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
     """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates."""
     share = 0.0 if validate else _VALIDATED
     tested = 0.0 if test else 1 - _FITTED - _VALIDATED
-    train, held, last = [], [], []
+    train, held, last, known = [], [], [], list(validate)
     for run in data:
         start, length = run.start, (run.samples - 1) * run.period
         gap = min(_GAP, _SHORT * length)
         end = start + length * (1 - tested)
+        known.append(_part(run.name, start, end) if not test else run.name)
         if not test:
             last.append(_part(run.name, end + gap, start + length))
         if validate:
@@ -70,7 +75,7 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
         f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
-    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), (note,))
+    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), tuple(known), (note,))
 
 
 def _liveliest(run: Run, end: float, length: float) -> float:
