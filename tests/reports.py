@@ -75,6 +75,15 @@ class Page(HTMLParser):
         self._parameters = False
         self.feed(page.decode())
 
+    @property
+    def loads(self) -> list[str]:
+        """Tags that would make a browser fetch something."""
+        attributes = {"src", "srcset", "data", "poster", "action", "background"}
+        tags = {"link", "iframe", "img", "object", "embed", "base"}
+        links = [given["href"] or "" for _, given in self.tags if "href" in given]
+        found = [tag for tag, given in self.tags if attributes & set(given) or tag in tags]
+        return found + [link for link in links if not link.startswith("#")]
+
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = dict(attrs)
         self.tags.append((tag, given))

@@ -70,8 +70,8 @@ def finding(subject: Subject, one: Finding) -> Iterator[str]:
         f"{plain(rms, 3)}\u00a0{unit(subject.torque_units[number])} on joint {number}"
         for number, rms in sorted(one.amplitude.items(), key=lambda pair: -pair[1])[:3]
     ]
-    yield f"Its torque is {listed(amplitude)} (rms);"
-    yield f"{plain(one.evidence.size, 2)} times the noise of it can be laid to nothing else in the model."
+    yield f"Its torque is {listed(amplitude)} (rms); what of it nothing else in the model can stand for is"
+    yield f"{plain(one.evidence.size, 2)} times the noise."
     e = one.evidence
     yield f"It is {one.status}: chance would explain as much with a probability {_probability(e.p)}, and the sum of"
     yield f"squares of runs that were not fitted falls by {plain(e.validation, 3)}, in variances of the noise."
