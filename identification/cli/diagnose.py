@@ -38,6 +38,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification.diagnosis.command import diagnosed
+        from identification.report.diagnose.report import report
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise diagnose"), f"{error.name} is not installed", extra) from None
@@ -47,7 +48,15 @@ def run(arguments: argparse.Namespace) -> None:
         robot = read(path)
     folder = arguments.out or Path("diagnosed") / robot.name
     found, files = diagnosed(
-        path, robot, arguments.data, arguments.validate, arguments.test, arguments.prior, folder, arguments.dry_run
+        path,
+        robot,
+        arguments.data,
+        arguments.validate,
+        arguments.test,
+        arguments.prior,
+        folder,
+        report,
+        arguments.dry_run,
     )
     print("\n".join(summary(found)))
     if files:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from generator.cli.progress import stage
@@ -11,6 +11,7 @@ from generator.writing import replace
 from identification import recipe as recipes
 from identification.dataset import load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
+from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
@@ -18,8 +19,8 @@ from identification.diagnosis.roles import roles
 from identification.observation import Regressors
 from identification.results import written
 
-#: Name of the machine-readable result.
-RESULTS = "diagnosis.json"
+#: Names of the machine-readable result and of the one for people.
+RESULTS, REPORT = "diagnosis.json", "report.html"
 
 
 def diagnosed(
@@ -30,9 +31,12 @@ def diagnosed(
     test: Sequence[str],
     prior: str | None,
     folder: Path,
+    page: Callable[[Diagnosis, Mended | None], bytes],
     dry: bool = False,
 ) -> tuple[Diagnosis, list[str]]:
     """The diagnosis of the robot file ``path`` by runs, and the names of the files written into ``folder``.
+
+    ``page`` makes the report, which knows the diagnosis while that does not know it. A ``dry`` one writes nothing.
 
     Raises InputError for runs and parameter sets that cannot be used.
     """
@@ -53,5 +57,9 @@ def diagnosed(
             pass
 
     found = diagnose(regressors, runs, chosen, known, told)
-    replace(folder, {RESULTS: written(document(found)).encode()})
-    return found, [RESULTS]
+    if dry:
+        return found, []
+    after = mended(path, found, prior, folder, stage)
+    files = {RESULTS: written(document(found, after)).encode(), REPORT: page(found, after)}
+    replace(folder, files)
+    return found, sorted([*files, f"{robot.name}.yaml", f"{GENERATED}/"])

@@ -9,9 +9,11 @@ from identification import outcome
 from identification.diagnosis.diagnosis import Diagnosis, Where
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.lack_of_fit import Lack
+from identification.diagnosis.mending import GENERATED, Mended
+from identification.diagnosis.untouched import untouched
 
 
-def document(found: Diagnosis) -> dict[str, Any]:
+def document(found: Diagnosis, after: Mended | None = None) -> dict[str, Any]:
     """Everything that was found, see docs/diagnosis.md: angles in rad, torques in N m, times in s."""
     count = len(found.roles.train)
     kinds = {"train": found.runs[:count], "validate": found.runs[count:]}
@@ -35,7 +37,24 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "data": {
             kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs] for kind, runs in kinds.items()
         },
-        "notes": list(found.notes),
+        "residual": None if after is None else _residual(found, after),
+        "robot_file": None if after is None else f"{found.robot.name}.yaml",
+        "generated": None if after is None else f"{GENERATED}/{after.generated.name}",
+        "notes": [*found.notes, *(() if after is None else after.notes)],
+    }
+
+
+def _residual(found: Diagnosis, after: Mended) -> dict[str, Any]:
+    """Root mean squares on the test runs, and in percent of the torque's spread."""
+    joints = untouched(found.found.bank, after.before, after.after)
+    sizes = {
+        "before": {number: (one.before, one.relative_before) for number, one in joints.items()},
+        "after": {number: (one.after, one.relative_after) for number, one in joints.items()},
+        "noise_floor": {number: (one.floor, one.relative_floor) for number, one in joints.items()},
+    }
+    return {
+        kind: [{"joint": number, "rms": rms, "relative_to_mean_percent": part} for number, (rms, part) in each.items()]
+        for kind, each in sizes.items()
     }
 
 
