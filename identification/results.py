@@ -133,7 +133,7 @@ def _method(found: Identification) -> dict[str, Any]:
         "robust": options.robust,
         "residual_variance": "rows minus one" if found.problem.by_samples else "rows minus parameters",
         "std": _std_of(options.draws),
-        "standstill": recipe.standstill,
+        "standstill": recipe.standstills(found.robot).tolist(),
         "fixed": {name: found.problem.fixed[name] for name in sorted(options.fixed)},
     }
 

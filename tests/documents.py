@@ -28,6 +28,7 @@ SESSIONS = {
     "docs/batch.md": False,
     "docs/conventions.md": False,
     "docs/extending.md": True,
+    "docs/output_error.md": False,
     "docs/simulation.md": False,
 }
 

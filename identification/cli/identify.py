@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
     filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
     filters.add_argument(
-        "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
+        "--standstill", metavar="SPEED", type=float, help="rad/s, m/s below which a joint's rows are left out"
     )
     filters.add_argument(
         "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
