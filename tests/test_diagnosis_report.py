@@ -11,6 +11,7 @@ import pytest
 
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED
 from identification.diagnosis.noise_floor import noise_floor
+from identification.diagnosis.untouched import rms
 from identification.report.diagnose.report import report
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
@@ -39,12 +40,13 @@ def test_the_untouched_run_is_measured_against_noise(named: Case) -> None:
     subject = Subject(named.found, named.after)
     one = subject.tried[1]
     (_, before, after), k = subject.tested[0], 0
-    for played, size in ((before, one.before), (after, one.after)):
-        rows = before.kept[k] & after.kept[k]
-        assert size == pytest.approx(float(np.sqrt(np.mean((played.measured - played.model)[k, rows] ** 2))))
+    for played, residual in ((before, one.before), (after, one.after)):
+        e = (played.measured - played.model)[k, played.kept[k]]
+        assert rms(residual) == pytest.approx(float(np.sqrt(np.mean(e**2))))
     assert one.closed is not None
     assert one.closed > 0.9
-    assert one.after == pytest.approx(one.floor, rel=0.2)
+    assert rms(one.after) == pytest.approx(one.floor, rel=0.2)
+    assert one.relative_floor == pytest.approx(one.after.relative_to_mean * one.floor / rms(one.after))
 
 
 def test_the_noise_floor_is_that_of_the_noise_made(named: Case) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 
 from benchmarks.diagnosis_study.prior import deviation
 from tests.plant.effect import Effect
-from tests.plant.library import LAWS
 from tests.plant.law import value_of
+from tests.plant.library import LAWS
 from tests.plant.robot import BODY, Array, Robot
 from tests.plant.run import Run
 from tests.plant.simulate import make_run

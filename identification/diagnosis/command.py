@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from generator.cli.progress import stage
@@ -11,7 +12,7 @@ from generator.writing import replace
 from identification import recipe as recipes
 from identification.dataset import load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
-from identification.diagnosis.mending import GENERATED, Mended, mended
+from identification.diagnosis.mending import Mended, mended
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
@@ -19,36 +20,43 @@ from identification.diagnosis.roles import roles
 from identification.observation import Regressors
 from identification.results import written
 
-#: Names of the machine-readable result and of the one for people.
-RESULTS, REPORT = "diagnosis.json", "report.html"
+#: Name of the machine-readable result.
+RESULTS = "diagnosis.json"
+
+
+@dataclass(frozen=True)
+class Request:
+    """Runs by role, the set that is known beforehand (None: all is fitted); ``dry`` only locates."""
+
+    data: Sequence[str]
+    validate: Sequence[str] = ()
+    test: Sequence[str] = ()
+    prior: str | None = None
+    dry: bool = False
 
 
 def diagnosed(
     path: Path,
     robot: Robot,
-    data: Sequence[str],
-    validate: Sequence[str],
-    test: Sequence[str],
-    prior: str | None,
+    wanted: Request,
     folder: Path,
-    page: Callable[[Diagnosis, Mended | None], bytes],
-    dry: bool = False,
-) -> tuple[Diagnosis, list[str]]:
-    """The diagnosis of the robot file ``path`` by runs, and the names of the files written into ``folder``.
+    pages: Callable[[Diagnosis, Mended | None], Mapping[str, bytes]],
+) -> tuple[Diagnosis, Mended | None, list[str]]:
+    """The diagnosis of the robot file ``path``, the mended robot, and the names of what was written into ``folder``.
 
-    ``page`` makes the report, which knows the diagnosis while that does not know it. A ``dry`` one writes nothing.
+    ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Raises InputError for runs and parameter sets that cannot be used.
     """
     regressors = Regressors(robot)
-    known = None if prior is None else prior_of(regressors.model, prior)
+    known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
-    with stage(f"reading {len(data) + len(validate) + len(test)} runs"):
-        first = [load(source, robot, recipe.columns) for source in data]
-        chosen = roles(first, validate, test)
+    with stage(f"reading {len(wanted.data) + len(wanted.validate) + len(wanted.test)} runs"):
+        first = [load(source, robot, recipe.columns) for source in wanted.data]
+        chosen = roles(first, wanted.validate, wanted.test)
         # A part of a run that is good as a whole may stand still.
         runs = [
-            prepared(load(source, robot, recipe.columns, resting=source not in data), recipe, regressors)
+            prepared(load(source, robot, recipe.columns, resting=source not in wanted.data), recipe, regressors)
             for source in (*chosen.train, *chosen.validate)
         ]
 
@@ -56,10 +64,10 @@ def diagnosed(
         with stage(text):
             pass
 
-    found = diagnose(regressors, runs, chosen, known, told)
-    if dry:
-        return found, []
-    after = mended(path, found, prior, folder, stage)
-    files = {RESULTS: written(document(found, after)).encode(), REPORT: page(found, after)}
-    replace(folder, files)
-    return found, sorted([*files, f"{robot.name}.yaml", f"{GENERATED}/"])
+    found = diagnose(regressors, runs, chosen, known, told, wanted.dry)
+    new = None if wanted.dry else mended(path, found, wanted.prior, folder, stage)
+    with stage("writing the report"):
+        files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}
+        replace(folder, files)
+    made = [] if new is None else [f"{robot.name}.yaml", "generated"]
+    return found, new, [*files, *made]

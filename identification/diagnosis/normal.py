@@ -31,6 +31,17 @@ class Prior:
     mean: Array
     precision: Array
 
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """The parameters of which anything is known (p)."""
+        return np.diag(self.precision) > 0
+
+    def shifted(self, direction: Array, value: float, std: float) -> Prior:
+        """With ``value`` times a direction (p) added to the parameters, known with a standard deviation."""
+        weighted = self.precision @ direction
+        lost = np.outer(weighted, weighted) * std**2 / (1 + std**2 * float(direction @ weighted))
+        return Prior(self.mean + direction * value, self.precision - lost)
+
 
 @dataclass(frozen=True)
 class Normal:

@@ -37,6 +37,9 @@ _COMMON = (
     "gas_balancer",
     "spring_balancer",
 )
+_BALANCERS = ("gas_balancer", "spring_balancer")
+#: What is unexplained, in parts of the noise, from which several effects must be missing.
+_GROSS = 20.0
 #: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
 _BESIDE, _ALIKE = 0.03, 0.15
 _OF_SPEED = ("qd", "time since reversal")
@@ -191,7 +194,7 @@ class Selection:
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
-        chosen = list(start)
+        chosen = list(start) or self._common_start()
         paired = False
         while len(chosen) < _MOST:
             passing = [one for one in self.evidence(chosen) if one.passes]
@@ -208,6 +211,25 @@ class Selection:
             chosen = self._exchanged(chosen, chosen[-1], 1)
         chosen = self._exchanged(chosen, None, _ROUNDS)
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
+
+    def _common_start(self) -> list[Variant]:
+        """Where far more is missing than one effect: all common ones together, and the best balancer; then without those
+        that nothing speaks for. One after the other they hide each other.
+        """
+        if self.unexplained([]) < _GROSS * self.normal.rows:
+            return []
+        offered = [one for one in self.bank.variants if one.hypothesis.effect in _COMMON]
+        chosen = [one for one in offered if one.hypothesis.effect not in _BALANCERS]
+        S = self.normal.beside(_columns(chosen))
+        balancers = [one for one in offered if one.hypothesis.effect in _BALANCERS]
+        chosen += sorted(balancers, key=lambda one: -self._solve(S, one)[1])[:1]
+        while chosen:
+            found = [self.of(one, [other for other in chosen if other is not one]) for one in chosen]
+            failing = [one for one in found if not one.passes]
+            if not failing:
+                break
+            chosen.remove(min(failing, key=lambda one: one.drop).variant)
+        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
         """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its
@@ -314,15 +336,15 @@ class Selection:
     # -- what cannot be seen --------------------------------------------------------------------------------------
 
     def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which the model takes up all but a hundredth."""
-        left: dict[tuple[str, int], float] = {}
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], list[float]] = {}
         whose: dict[tuple[str, int], Hypothesis] = {}
         for variant in self.bank.variants:
             key = _key(variant)
             at = np.array(variant.columns) - self.normal.base
-            left[key] = max(left.get(key, 0.0), float(self.normal.left[at].max()))
+            left.setdefault(key, []).append(float(self.normal.left[at].max()))
             whose[key] = variant.hypothesis
-        return [whose[key] for key, part in left.items() if part < _VISIBLE]
+        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
 
 
 def _key(variant: Variant) -> tuple[str, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
+from generator.review.words import listed
 from identification.report.identify.subject import Subject
 from identification.report.numbers import plain
 from identification.report.runs_table import runs_table
@@ -20,12 +21,21 @@ def render(subject: Subject) -> Markup:
         "weights": method["least_squares"] + (", Huber's weights against outliers" if method["robust"] else ""),
         "std": method["std"],
         "residual variance": method["residual_variance"],
-        "standstill": f"rows of joints slower than {method['standstill']:g} rad/s or m/s are left out",
+        "standstill": f"rows of joints slower than {_slowest(subject)} are left out",
         "essential": f"ratio of relative standard deviations below {results['essential']['ratio']:g} (report eq. 47)",
         "given": ", ".join(f"{name} = {plain(value, 6)}" for name, value in method["fixed"].items()) or "nothing",
     }
     kinds = {"fitted": results["data"]["train"], "held out": results["data"]["test"]}
     return join(runs_table(kinds), element("h3", "Method"), facts(about), _sensitivity(subject))
+
+
+def _slowest(subject: Subject) -> str:
+    """The joints' thresholds, once where they are the same."""
+    limits = [
+        f"{limit:g} {unit}/s"
+        for limit, unit in zip(subject.results["method"]["standstill"], subject.position_units.values(), strict=True)
+    ]
+    return listed(dict.fromkeys(limits)) if len(set(limits)) == 1 else f"{', '.join(limits)} (joint by joint)"
 
 
 def _sensitivity(subject: Subject) -> Markup | None:
