@@ -45,6 +45,8 @@ _BESIDE, _ALIKE = 0.03, 0.15
 _OF_SPEED = ("qd", "time since reversal")
 #: By how much a challenger must be better, and how far an equal one may be behind, as a part of the evidence.
 _BETTER, _EQUAL = 6.0, 0.01
+#: Part of the evidence by which a rare effect must be better than a common one.
+_RARE = 0.1
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
@@ -167,6 +169,8 @@ class Selection:
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""
         least = 0.0
+        if variant.hypothesis.effect in _COMMON:
+            return least
         for other, drop in zip(others, self._drops(others), strict=True):
             if set(other.joints) & set(variant.joints):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
@@ -243,8 +247,8 @@ class Selection:
                 others = [other for other in chosen if other is not one]
                 refined = one
                 mine = self.of(one, others)
-                best = next((other for other in self.evidence(others) if other.passes), None)
-                if best is not None and (not mine.passes or best.score > mine.score + _BETTER):
+                best = self._challenger(mine, others)
+                if best is not None:
                     refined = self._refined(best.variant, others)
                     mine = self.of(refined, others)
                 place = chosen.index(one)
@@ -252,6 +256,20 @@ class Selection:
             if chosen == before:
                 break
         return chosen
+
+    def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
+        """What should stand in the place of ``mine``: clearly better, or common and nearly as good as what is not."""
+        passing = [one for one in self.evidence(others) if one.passes and _key(one.variant) != _key(mine.variant)]
+        common = mine.variant.hypothesis.effect in _COMMON
+        for one in passing:
+            margin = _BETTER
+            if common and one.variant.hypothesis.effect not in _COMMON:
+                margin += _RARE * mine.drop
+            elif not common and one.variant.hypothesis.effect in _COMMON:
+                margin -= _RARE * mine.drop
+            if not mine.passes or one.score > mine.score + margin:
+                return one
+        return None
 
     def _refined(self, variant: Variant, others: Sequence[Variant]) -> Variant:
         """With shapes between the tried ones where they explain more."""

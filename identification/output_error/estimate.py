@@ -9,14 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
-from generator.robot.description import REVOLUTE
 from identification.dataset import Run
 from identification.output_error.criterion import Criterion, Point
 from identification.output_error.experiment import Experiment, experiment
 from identification.output_error.methods import methods
 from identification.output_error.search import Minimum, Search, Settings, search_of
 from identification.output_error.uncertainty import covariance, noise_density
-from identification.recipe import STANDSTILL
 from identification.residuals import Residual, Residuals
 from identification.simulation.machine import Machine
 
@@ -87,7 +85,7 @@ def estimate(
     Raises InputError for runs that are too short or carry a payload, and where M(q) cannot be positive definite.
     """
     settings = settings or Settings()
-    experiments = [experiment(run, settings.recipe, settings.segment) for run in runs]
+    experiments = [experiment(run, machine.robot, settings.recipe, settings.segment) for run in runs]
     search, first = search_of(machine.module, experiments, start, std or {}, settings)
     return evaluated(search, methods()[settings.method].minimise(search, first))
 
@@ -110,8 +108,7 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     seen = power > _RANK**2 * power[-1]
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
     hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
-    standstill = search.settings.recipe.standstill
-    density = noise_density(criterion, STANDSTILL[REVOLUTE] if standstill is None else standstill)
+    density = noise_density(criterion)
     tested = None
     if tests:
         others = replace(criterion, experiments=tuple(tests))
