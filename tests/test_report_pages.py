@@ -23,7 +23,7 @@ from identification.report.welch import spectrum
 from tests.recorded import TRUTH
 from tests.reports import Page, identified, pages
 
-KINDS = ("identify", "gains", "steps", "locked", "compare")
+KINDS = ("identify", "gains", "steps", "locked", "compare", "excite", "output_error")
 
 
 @pytest.fixture(scope="module")

@@ -41,7 +41,7 @@ def correlation(names: Sequence[str], hidden: Sequence[str], covariance: Array) 
     }
     text = (
         "Correlation of the errors of two parameters: near 1 or −1 the data know their sum or difference well and each"
-        " alone poorly. Signs follow report eq. 42."
+        " alone poorly."
     )
     height = max(320, min(900, 120 + 13 * len(names)))
     return join(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
-from generator.review.words import listed
 from identification.report.identify.subject import Subject
 from identification.report.numbers import plain
 from identification.report.runs_table import runs_table
@@ -35,7 +34,7 @@ def _slowest(subject: Subject) -> str:
         f"{limit:g} {unit}/s"
         for limit, unit in zip(subject.results["method"]["standstill"], subject.position_units.values(), strict=True)
     ]
-    return listed(dict.fromkeys(limits)) if len(set(limits)) == 1 else f"{', '.join(limits)} (joint by joint)"
+    return limits[0] if len(set(limits)) == 1 else f"{', '.join(limits)} (joint by joint)"
 
 
 def _sensitivity(subject: Subject) -> Markup | None:
