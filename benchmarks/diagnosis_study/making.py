@@ -85,9 +85,7 @@ def made(case: Case) -> Made:
 def file_of(robot: Robot, own: Sequence[Effect], seed: int) -> str:
     """The robot file with all own effects; its values are wrong by as much as it says."""
     there = {(effect.law, effect.joint) for effect in own}
-    gone = [
-        (name, j) for law, name in _SIMPLE.items() for j in range(1, robot.joints + 1) if (law, j) not in there
-    ]
+    gone = [(name, j) for law, name in _SIMPLE.items() for j in range(1, robot.joints + 1) if (law, j) not in there]
 
     def told(name: str, value: float) -> tuple[float, float]:
         return drawn({name: value}, seed)[name], relative(name) if value else 0.0

@@ -14,8 +14,8 @@ import numpy as np
 
 from benchmarks.diagnosis_study.prior import deviation
 from tests.plant.effect import Effect
-from tests.plant.library import LAWS
 from tests.plant.law import value_of
+from tests.plant.library import LAWS
 from tests.plant.robot import BODY, Array, Robot
 from tests.plant.run import Run
 from tests.plant.simulate import make_run
@@ -33,6 +33,8 @@ _ACTS = 0.1
 #: Speed over its rms below which a joint stands; rows about such a row that are left out as well.
 _SLOW, _ABOUT = 0.04, 25
 _TOLERANCE, _TRIES = 0.05, 6
+#: Multiples of a law's typical size that are still plausible.
+_PLAUSIBLE = 10.0
 
 
 class OutOfReach(Exception):
@@ -156,11 +158,11 @@ def sized(
     """The effect as large as wanted on the runs together, to a twentieth; at its typical size where ``target`` is None
     or where the mode cannot see it.
 
-    Raises OutOfReach.
+    Raises OutOfReach where no size below the law's largest, and below ten times its typical one, will do.
     """
     law = LAWS[effect.law]
     amount = effect.amount(robot)
-    largest = value_of(law.largest, robot, effect.joint - 1)
+    largest = min(value_of(law.largest, robot, effect.joint - 1), _PLAUSIBLE * abs(amount))
     fit: Fit | None = None
     for _ in range(_TRIES):
         tried = effect.sized(amount)
