@@ -28,3 +28,16 @@ def with_unit_constants(robot: Robot) -> Robot:
         return robot
     unit = tuple(Fraction(1) for _ in drives.coupling)
     return replace(robot, drives=Drives(drives.ratios, drives.coupling, {"unit": unit}, "unit"))
+
+
+def supplied(robot: Robot, motor: int, tau: Array) -> Array:
+    """The part of joint torques (n x N) that motor number ``motor``, from 0, supplies: N^T E N^-T tau.
+
+    E picks the motor. Without drives each joint has its own motor.
+    """
+    if robot.drives is None:
+        result = np.zeros_like(tau)
+        result[motor] = tau[motor]
+        return result
+    N = coupling(robot)
+    return np.outer(N[motor], np.linalg.solve(N.T, tau)[motor])

@@ -27,7 +27,7 @@ EFFECT = Effect(
     ),
     columns=_columns,
     potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"]),
-    shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0),),
+    shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0, tried=(1.0,), whole=True, several=300),),
     kinds=(REVOLUTE,),
     needs=("q",),
     sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q)",

@@ -20,7 +20,16 @@ EFFECT = Effect(
     title="presliding friction by Dahl",
     parameters=(LinearParameter("Fd", ("N m", "N"), "friction that sliding ends at", 0.0),),
     columns=_columns,
-    shapes=(Shape("xs", "rad", "motion in which the friction builds up", lower=0.0, prismatic="m"),),
+    shapes=(
+        Shape(
+            "xs",
+            "rad",
+            "motion in which the friction builds up",
+            0.0,
+            prismatic="m",
+            tried=(3e-4, 1e-3, 3e-3, 1e-2, 3e-2),
+        ),
+    ),
     states=(State("zd", ("1", "1"), "part of the friction that is built up, -1 to 1"),),
     rates=_rates,
     needs=("state",),

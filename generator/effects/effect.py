@@ -39,7 +39,9 @@ class Shape:
     """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any.
 
     ``prismatic`` is the unit on a prismatic joint, where it is another one. ``joint`` tells that it is the number of
-    another moving joint.
+    another moving joint. ``tried`` are the values at which a search for an unknown one begins, in units of the joint's
+    top speed or of the range it moves through where ``relative`` says "speed" or "range"; where ``whole`` nothing
+    between whole numbers is a value, and where ``several`` every whole number up to that one can be.
     """
 
     name: str
@@ -50,6 +52,10 @@ class Shape:
     default: sympy.Expr | None = None
     prismatic: str | None = None
     joint: bool = False
+    tried: tuple[float, ...] = ()
+    relative: str = ""
+    whole: bool = False
+    several: int = 0
 
     def unit_on(self, joint: Joint) -> str:
         return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit

@@ -48,8 +48,15 @@ EFFECT = Effect(
     observables=_observables,
     shapes=(
         *crank.SHAPES,
-        Shape("l0", "m", "length of the gas chamber at q = 0", lower=0.0),
-        Shape("exponent", "1", "polytropic exponent, 1 for an isotherm", lower=0.0, default=sympy.Integer(1)),
+        Shape("l0", "m", "length of the gas chamber at q = 0", lower=0.0, tried=(0.35, 0.7, 2.0)),
+        Shape(
+            "exponent",
+            "1",
+            "polytropic exponent, 1 for an isotherm",
+            lower=0.0,
+            default=sympy.Integer(1),
+            tried=(1.0, 1.3),
+        ),
     ),
     kinds=(REVOLUTE,),
     needs=("q",),

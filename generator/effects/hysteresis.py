@@ -23,7 +23,14 @@ EFFECT = Effect(
     parameters=(LinearParameter("Fh", ("N m", "N"), "torque that a long motion one way ends at", 0.0),),
     columns=_columns,
     shapes=(
-        Shape("xs", "rad", "motion in which the torque would build up with its first stiffness", 0.0, prismatic="m"),
+        Shape(
+            "xs",
+            "rad",
+            "motion in which the torque would build up with its first stiffness",
+            0.0,
+            prismatic="m",
+            tried=(3e-3, 1e-2, 3e-2, 1e-1, 3e-1),
+        ),
         Shape("exponent", "1", "sharpness of the bend from elastic to yielding", 0.0, 10.0, default=sympy.Integer(2)),
     ),
     states=(State("zh", ("1", "1"), "part of the torque that is built up, -1 to 1"),),

@@ -8,6 +8,8 @@ from generator.effects.effect import Effect, LinearParameter, Shape
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
 
+_TRIED = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)
+
 EFFECT = Effect(
     id="motor_ripple",
     title="torque ripple of the motor",
@@ -17,7 +19,11 @@ EFFECT = Effect(
     ),
     columns=ripple_columns,
     potential_energy=ripple_energy,
-    shapes=(Shape("order", "1", "periods per turn of the motor", lower=0.0, default=sympy.Integer(1)),),
+    shapes=(
+        Shape(
+            "order", "1", "periods per turn of the motor", lower=0.0, default=sympy.Integer(1), tried=_TRIED, whole=True
+        ),
+    ),
     kinds=(REVOLUTE,),
     needs=("motor",),
     sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r), q_r = N q its position",

@@ -21,7 +21,17 @@ EFFECT = Effect(
         LinearParameter("Fqs", ("N m", "N"), "sine part of the friction's variation"),
     ),
     columns=_columns,
-    shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0, default=sympy.Integer(1)),),
+    shapes=(
+        Shape(
+            "order",
+            "1",
+            "periods per turn of the joint",
+            lower=0.0,
+            default=sympy.Integer(1),
+            tried=(1.0, 2.0, 3.0),
+            whole=True,
+        ),
+    ),
     kinds=(REVOLUTE,),
     needs=("q", "qd"),
     sign_convention="the motor supplies sign(qd) (Fqc cos(order q) + Fqs sin(order q)); sign(0) = 0",

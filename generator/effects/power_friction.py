@@ -19,7 +19,15 @@ EFFECT = Effect(
     columns=_columns,
     shapes=(
         Shape("v", "rad/s", "reference speed", lower=0.0, default=sympy.Integer(1), prismatic="m/s"),
-        Shape("exponent", "1", "power of the speed: 2 quadratic, below 1 concave", 0.0, 5.0, default=sympy.Integer(2)),
+        Shape(
+            "exponent",
+            "1",
+            "power of the speed: 2 quadratic, below 1 concave",
+            0.0,
+            5.0,
+            default=sympy.Integer(2),
+            tried=(0.3, 0.5, 0.7, 1.5, 2.0, 3.0),
+        ),
     ),
     needs=("qd",),
     sign_convention="the motor supplies Fp sign(qd) (|qd|/v)^exponent against the friction",

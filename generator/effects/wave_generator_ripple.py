@@ -17,7 +17,17 @@ EFFECT = Effect(
     ),
     columns=ripple_columns,
     potential_energy=ripple_energy,
-    shapes=(Shape("order", "1", "periods per turn of the wave generator", lower=0.0, default=sympy.Integer(2)),),
+    shapes=(
+        Shape(
+            "order",
+            "1",
+            "periods per turn of the wave generator",
+            lower=0.0,
+            default=sympy.Integer(2),
+            tried=(2.0, 4.0),
+            whole=True,
+        ),
+    ),
     kinds=(REVOLUTE,),
     needs=("motor",),
     sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r), q_r = N q its position",

@@ -30,7 +30,10 @@ class Coefficient:
 
 @dataclass(frozen=True)
 class ShapeRange:
-    """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``)."""
+    """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``).
+
+    ``points`` are tried instead where they are given. ``whole`` tells that nothing lies between them.
+    """
 
     name: str
     unit: str
@@ -38,9 +41,13 @@ class ShapeRange:
     high: float
     count: int = 5
     log: bool = True
+    points: tuple[float, ...] = ()
+    whole: bool = False
 
     def grid(self) -> list[float]:
         """The points that are tried first."""
+        if self.points:
+            return list(self.points)
         space = np.geomspace if self.log else np.linspace
         return [float(x) for x in space(self.low, self.high, self.count)]
 
@@ -69,6 +76,7 @@ class Hypothesis:
     variable: str = ""
     would_show: str = ""
     separating: Mapping[str, str] = field(default_factory=dict)
+    tries: int = 0
 
     @property
     def variants(self) -> list[dict[str, float]]:

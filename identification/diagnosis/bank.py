@@ -1,0 +1,153 @@
+"""Every column that may explain the runs: the base parameters', the hypotheses', the torque; and their products.
+
+Numbers of columns are global: the p base parameters first, then the hypotheses' as they are tried; the torque is apart.
+All that selection asks for is in the Gram matrices of white rows, one a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.scene import Scene
+from identification.diagnosis.whitening import Colour
+
+Array = NDArray[np.float64]
+
+#: Part of a column's largest value on any joint below which it is zero on a joint.
+_NOTHING = 1e-9
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A hypothesis with one shape, and the numbers of its columns."""
+
+    hypothesis: Hypothesis
+    shape: Mapping[str, float]
+    columns: tuple[int, ...]
+    joints: tuple[int, ...]
+
+
+@dataclass
+class _Joint:
+    """Raw rows of one joint of one run: column numbers, rows (k x N), torque (N), kept rows, white rows once known."""
+
+    numbers: list[int]
+    rows: list[Array]
+    tau: Array
+    kept: NDArray[np.bool_]
+    white: Array = field(default_factory=lambda: np.empty((0, 0)))
+
+
+class Bank:
+    """Columns of several runs; ``scenes`` and ``runs`` in the same order."""
+
+    def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
+        self.runs, self.scenes = tuple(runs), tuple(scenes)
+        regressors = scenes[0].regressors
+        self.base: tuple[str, ...] = regressors.names
+        self.variants: list[Variant] = []
+        self.count = len(self.base)
+        place = {name: k for k, name in enumerate(self.base)}
+        self._joints: list[list[_Joint]] = []
+        self._colours: list[list[Colour]] = []
+        self.grams: list[Array] = []
+        for run in runs:
+            base = regressors.base(run.sampled.motion)
+            self._joints.append(
+                [
+                    _Joint([place[name] for name in names], list(run.decimated(W)), run.tau[k], run.kept[k])
+                    for k, (names, W) in enumerate(zip(regressors.structure, base, strict=True))
+                ]
+            )
+
+    @property
+    def dof(self) -> int:
+        """n."""
+        return len(self._joints[0])
+
+    def rows(self, run: int) -> Array:
+        """How many rows each joint of a run has (n)."""
+        return np.array([int(one.kept.sum()) for one in self._joints[run]])
+
+    def add(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Variant | None:
+        """Columns of a hypothesis with a shape; None where that is impossible along a run or acts nowhere."""
+        per_run = []
+        for run, scene in zip(self.runs, self.scenes, strict=True):
+            columns = hypothesis.columns(scene, shape)
+            if not np.all(np.isfinite(columns)):
+                return None
+            per_run.append(columns)
+        largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
+        if not largest:
+            return None
+        acts = [
+            j for j in range(self.dof) if max(np.abs(columns[:, j]).max() for columns in per_run) > _NOTHING * largest
+        ]
+        numbers = tuple(range(self.count, self.count + len(hypothesis.coefficients)))
+        self.count += len(numbers)
+        for r, (run, columns) in enumerate(zip(self.runs, per_run, strict=True)):
+            if self._colours:
+                self.grams[r] = _grown(self.grams[r], len(numbers))
+            for j in acts:
+                self._extend(r, j, numbers, run.decimated(columns[:, j]))
+        variant = Variant(hypothesis, dict(shape), numbers, tuple(acts))
+        self.variants.append(variant)
+        return variant
+
+    def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:
+        one = self._joints[run][joint]
+        one.numbers += numbers
+        one.rows += list(rows)
+        if self._colours:
+            white = self._colours[run][joint].white(rows, one.kept)
+            one.white = np.concatenate([one.white[:-1], white, one.white[-1:]])
+            at, new = np.array([*one.numbers, self.count]), np.array(numbers)
+            products = white @ one.white.T
+            old = len(at) - 1 - len(new)
+            self.grams[run][np.ix_(new, at)] += products
+            others = np.array([*range(old), len(at) - 1])
+            self.grams[run][np.ix_(at[others], new)] += products[:, others].T
+
+    def raw(self, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
+        """Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint, as recorded."""
+        one = self._joints[run][joint]
+        return one.numbers, np.asarray(one.rows), one.tau, one.kept
+
+    def whiten(self, colours: Sequence[Sequence[Colour]]) -> None:
+        """Make all rows white, by the colour of each run's joints."""
+        self._colours = [list(one) for one in colours]
+        for joints, mine in zip(self._joints, colours, strict=True):
+            for joint, colour in zip(joints, mine, strict=True):
+                joint.white = colour.white(np.asarray([*joint.rows, joint.tau]), joint.kept)
+        self.grams = [self._gram(r) for r in range(len(self.runs))]
+
+    def residual(self, run: int, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
+        """What ``values`` of columns by number leave of a joint's torque: white kept rows, or all rows as recorded."""
+        one = self._joints[run][joint]
+        rows = one.white if white else np.asarray([*one.rows, one.tau])
+        weights = np.array([values.get(number, 0.0) for number in one.numbers])
+        return np.asarray(rows[-1] - weights @ rows[:-1])
+
+    def _gram(self, run: int) -> Array:
+        """Products of all columns and the torque, the last one (count + 1 square)."""
+        gram = np.zeros((self.count + 1, self.count + 1))
+        for joint in self._joints[run]:
+            at = np.array([*joint.numbers, self.count])
+            gram[np.ix_(at, at)] += joint.white @ joint.white.T
+        return gram
+
+
+def _grown(gram: Array, count: int) -> Array:
+    """With ``count`` more columns before the last one, zero."""
+    size = len(gram) - 1
+    result = np.zeros((size + count + 1, size + count + 1))
+    result[:size, :size] = gram[:-1, :-1]
+    result[:size, -1] = result[-1, :size] = gram[:-1, -1]
+    result[-1, -1] = gram[-1, -1]
+    return result

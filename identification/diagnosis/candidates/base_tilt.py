@@ -1,0 +1,134 @@
+"""A base that leans against the pose in the robot's file.
+
+Turned by small angles phi about the world's axes, the robot feels the weight of gravity g - phi x g in its old pose: the
+measured torque holds the torque of gravity g x e_k per radian about axis k. It is linear in the bodies' first moments
+and masses, some of which an upright base does not show at all, such as the first moments about a vertical first axis.
+For these the base parameters tell nothing: their products with the angles are coefficients of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from generator.derivation import derive
+from generator.robot.description import Robot
+from generator.symbolic.model import Model
+from identification.diagnosis.hypothesis import BASE, Coefficient, Hypothesis
+from identification.diagnosis.scene import Scene
+from identification.observation import generated_module
+
+Array = NDArray[np.float64]
+
+#: Largest angle [rad].
+_LARGEST = 0.3
+#: Positions at which columns are compared; the part of one, and the torque per unit [N m], that are nothing.
+_POSITIONS, _NOTHING = 200, 1e-6
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One for the robot: angles [rad] about the two of the world's axes that are not along gravity, by which the base is
+    turned beyond its pose in the file (rotation vector, in the world); none without gravity or weight.
+    """
+    if not scenes or not any(scenes[0].robot.gravity):
+        return []
+    robot = scenes[0].robot
+    gravity = sympy.Matrix(robot.gravity)
+    along = max(range(3), key=lambda axis: abs(float(gravity[axis])))
+    weights = {
+        "xyz"[axis]: Weight(robot, gravity.cross(sympy.eye(3).col(axis))) for axis in range(3) if axis != along
+    }
+    model = scenes[0].regressors.model
+    hidden = _hidden(weights, model, _some_positions(scenes))
+    columns = _Columns(model, weights, hidden)
+    if not any(columns(scene, {}).any() for scene in scenes):
+        return []
+    standard = {one.name: one.unit for one in model.standard_parameters}
+    return [
+        Hypothesis(
+            "base_tilt",
+            "tilt of the base",
+            0,
+            (
+                *(Coefficient(f"tilt_{axis}", "rad", -_LARGEST, _LARGEST) for axis in weights),
+                *(Coefficient(f"{name}_tilt_{axis}", f"{standard[name]} rad") for name, axis in hidden),
+            ),
+            columns,
+            kind=BASE,
+            joints=tuple(joint.number for joint in robot.moving),
+            variable="q",
+            would_show="known inertial parameters (--prior), and the first joint turned over its whole range",
+            separating={
+                "position_offset": "a level on the base; a tilt turns with the first joint, an offset does not",
+                "offset": "the first joint turned over its whole range: a tilt's torque changes its sign",
+            },
+        )
+    ]
+
+
+class Weight:
+    """Torques of the bodies' weight under another ``gravity`` [m/s2] in the world, per standard parameter."""
+
+    def __init__(self, robot: Robot, gravity: sympy.Matrix) -> None:
+        model = derive(replace(robot, gravity=tuple(gravity)), names=("regressor_standard",), check=False)
+        names = [one.name for one in model.standard_parameters]
+        effects = {name for instance in model.effects for name in instance.names}
+        self._bodies = {name: p for p, name in enumerate(names) if name not in effects}
+        self._function: Any = generated_module(model).regressor_standard
+
+    def __call__(self, q: Array, standard: Mapping[str, float]) -> Array:
+        """Torques (n x N) at rest in q (n x N), of values of the bodies' standard parameters; absent ones are zero."""
+        still = np.zeros_like(q.T)
+        columns = [(p, standard[name]) for name, p in self._bodies.items() if standard.get(name)]
+        w = self._function(q.T, still, still)
+        return np.asarray(sum((x * w[..., p] for p, x in columns), start=still).T)
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """The columns along a scene: of the angles about the axes of ``weights``, then of the products ``hidden``."""
+
+    model: Model
+    weights: Mapping[str, Weight]
+    hidden: Sequence[tuple[str, str]]
+
+    def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
+        # Standard parameters that make the base parameters: those that give them their names have their values.
+        heads = {base.head: scene.values.get(base.name, 0.0) for base in self.model.grouping.base}
+        q = scene.motion.q
+        known = [weight(q, heads) for weight in self.weights.values()]
+        unknown = [self.weights[axis](q, _unseen(self.model, name)) for name, axis in self.hidden]
+        return np.stack([*known, *unknown])
+
+
+def _unseen(model: Model, name: str) -> dict[str, float]:
+    """Standard parameters that the model's torques do not show: one of ``name``, less what it adds to the others."""
+    coefficients = model.grouping.coefficients(name)
+    pairs = zip(model.grouping.base, coefficients, strict=True)
+    return {name: 1.0, **{base.head: -coefficient for base, coefficient in pairs if coefficient}}
+
+
+def _hidden(weights: Mapping[str, Weight], model: Model, q: Array) -> list[tuple[str, str]]:
+    """Eliminated parameters and axes whose products with the angle show, as few as tell all that can be seen."""
+    found: list[tuple[str, str]] = []
+    basis = np.empty((q.size, 0))
+    for one in model.grouping.eliminated:
+        for axis, weight in weights.items():
+            column = weight(q, _unseen(model, one.name)).reshape(-1)
+            size = np.linalg.norm(column)
+            column = column - basis @ (basis.T @ column)
+            if size > _NOTHING * np.sqrt(q.size) and np.linalg.norm(column) > _NOTHING * size:
+                found.append((one.name, axis))
+                basis = np.column_stack([basis, column / np.linalg.norm(column)])
+    return found
+
+
+def _some_positions(scenes: Sequence[Scene]) -> Array:
+    """Positions (n x N) spread over the runs."""
+    q = np.concatenate([scene.motion.q for scene in scenes], axis=1)
+    return q[:, :: max(1, q.shape[1] // _POSITIONS)]

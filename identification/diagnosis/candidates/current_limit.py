@@ -1,0 +1,75 @@
+"""A drive that clips its current while the log holds what was asked for.
+
+What the log holds too much is what the recorded current is beyond the limit, to either side. By the model the
+coefficient is 1; less is a limit that gives way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
+
+Array = NDArray[np.float64]
+
+#: Parts of a run's samples that stay below the lowest and the highest limit that is tried.
+_LOWEST, _HIGHEST = 0.8, 0.999
+#: Of what exceeds the limit, the least part that must be missing. Noise in the recorded current exceeds a limit as
+#: well, and is missing in the model: alone it would give a small coefficient.
+_LEAST = 0.5
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One a motor whose torque constant is known, without those whose limit the robot's file states."""
+    if not scenes or scenes[0].robot.drives is None or not scenes[0].robot.drives.torque_constants:
+        return []
+    robot = scenes[0].robot
+    stated = robot.signals.current_limit
+    found = []
+    for k, joint in enumerate(robot.moving):
+        low, high = np.quantile(np.concatenate([np.abs(_current(scene, k)) for scene in scenes]), [_LOWEST, _HIGHEST])
+        if stated or not 0 < low < high:
+            continue
+        found.append(
+            Hypothesis(
+                "current_limit",
+                "current saturation",
+                joint.number,
+                (Coefficient(f"clipped{joint.number}", "1", _LEAST, 1.25),),
+                partial(_columns, k),
+                shapes=(ShapeRange("current_limit", "A", float(low), float(high), 8),),
+                kind=SIGNAL,
+                joints=(joint.number,),
+                variable="load",
+                would_show="stronger accelerations, or the current that flowed instead of the one that was asked for",
+                separating={
+                    "torque_gain": "gentler motion: below the limit nothing is missing, a gain is missing everywhere",
+                },
+            )
+        )
+    return found
+
+
+def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    current = _current(scene, k)
+    limit = shape["current_limit"]
+    excess = current - np.clip(current, -limit, limit)
+    return np.outer(coupling(scene.robot)[k] * _constant(scene, k), excess)[None]
+
+
+def _current(scene: Scene, k: int) -> Array:
+    """The recorded current of a motor [A] (N)."""
+    return np.asarray(np.linalg.solve(coupling(scene.robot).T, scene.tau)[k] / _constant(scene, k))
+
+
+def _constant(scene: Scene, k: int) -> float:
+    """Torque per current of a motor [N m/A]."""
+    drives = scene.robot.drives
+    assert drives is not None
+    return float(drives.torque_constants[drives.torque_constant][k])

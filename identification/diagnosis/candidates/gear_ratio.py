@@ -1,0 +1,54 @@
+"""A gear whose true ratio is 1 + e times that of the robot's file.
+
+Positions from the motor's encoder are then recorded 1 + e times too large, about the encoder's zero, and torques from
+the motor's current 1 + e times too small: tau_recorded = tau(q / (1 + e)) / (1 + e), the torque on the joint of the
+gear alone. With coupled motors it is the gear on the joint's own side: column j of N is 1 + e times the file's, motor
+speeds = N joint speeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis
+from identification.diagnosis.perturbation import scaled, sensitivity
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Largest relative error: beyond it the robot would miss its targets visibly.
+_LARGEST = 0.2
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One a joint of a robot whose file has drives."""
+    if not scenes or scenes[0].robot.drives is None:
+        return []
+    return [
+        Hypothesis(
+            "gear_ratio",
+            "wrong gear ratio",
+            joint.number,
+            (Coefficient(f"gear_ratio_error{joint.number}", "1", -_LARGEST, _LARGEST),),
+            partial(_columns, k),
+            kind=DRIVE,
+            joints=(joint.number,),
+            variable="load",
+            would_show="known inertial parameters (--prior) and motion over the joint's whole range",
+            separating={
+                "torque_gain": "a known angle at the joint: a wrong ratio turns it too far, a wrong gain does not",
+                "position_offset": "positions on both sides of the encoder's zero, and a measured angle between two",
+            },
+        )
+        for k, joint in enumerate(scenes[0].robot.moving)
+    ]
+
+
+def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    result = sensitivity(scene.torque_on, scene.motion, scaled(scene, k, -1.0))
+    result[k] -= scene.torque[k]
+    return result[None]

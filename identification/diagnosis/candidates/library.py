@@ -1,0 +1,128 @@
+"""The generator's library of effects on every joint that can carry them: what it names here it can emit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from generator.effects.effect import Effect, Shape
+from generator.effects.library import library
+from generator.robot.description import Joint, Robot
+from identification.diagnosis.effect_columns import NEEDS, EffectColumns
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.orders import likely_orders
+from identification.diagnosis.scene import Scene
+
+#: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
+_WEIGHT = 0.05
+#: What an effect shows in, by what its columns are made of; the first that fits.
+_VARIABLES = (
+    ("warmth", "time"),
+    ("load", "load"),
+    ("motor", "motor phase"),
+    ("state", "time since reversal"),
+    ("qdd", "qdd"),
+)
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """Each effect of the library on each joint without it."""
+    if not scenes:
+        return []
+    robot = scenes[0].robot
+    return [
+        one
+        for effect in library().values()
+        for k, joint in enumerate(robot.moving)
+        if _possible(effect, joint, robot) and (effect.observables is None or _weighty(scenes)[k])
+        for one in _hypothesis(effect, joint, k, scenes)
+    ]
+
+
+def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
+    there = [use.effect for use in robot.effects if joint.number in use.joints]
+    if effect.id in there or joint.sigma not in effect.kinds or not set(effect.needs) <= NEEDS:
+        return False
+    if "motor" in effect.needs and robot.drives is None:
+        return False
+    if any(not shape.tried and shape.default is None for shape in effect.shapes):
+        return False
+    return not (effect.observables and any(library()[one].observables for one in there))
+
+
+def _weighty(scenes: Sequence[Scene]) -> list[bool]:
+    """Whether a joint's torque at rest changes with the position: where a balancer makes sense."""
+    swing = np.max([np.ptp(scene.resting, axis=-1) for scene in scenes], axis=0)
+    return [bool(one > _WEIGHT * swing.max()) for one in swing]
+
+
+def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -> list[Hypothesis]:
+    columns = EffectColumns(effect, joint, k, scenes[0].robot)
+    shapes: list[ShapeRange] = []
+    tries = 1
+    for shape in effect.shapes:
+        points = _points(shape, k, scenes)
+        if shape.several:
+            points = likely_orders(scenes, k, shape.several)
+            tries *= shape.several
+        elif shape.tried:
+            tries *= len(points)
+        if not points:
+            return []
+        if shape.tried:
+            unit = shape.unit_on(joint)
+            shapes.append(ShapeRange(shape.name, unit, min(points), max(points), points=points, whole=shape.whole))
+    coefficients = tuple(
+        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower) for one in effect.parameters
+    )
+    given = {one.name: float(one.default) for one in effect.shapes if not one.tried and one.default is not None}
+    return [
+        Hypothesis(
+            effect.id,
+            effect.title,
+            joint.number,
+            coefficients,
+            columns,
+            shapes=tuple(shapes),
+            given=given,
+            joints=(joint.number,),
+            variable=_variable(effect),
+            would_show=_would_show(effect),
+            tries=tries,
+        )
+    ]
+
+
+def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
+    scale = 1.0
+    if shape.relative == "speed":
+        scale = float(max(np.abs(scene.motion.qd[k]).max() for scene in scenes))
+    elif shape.relative == "range":
+        scale = float(max(np.ptp(scene.motion.q[k]) for scene in scenes))
+    return tuple(scale * one for one in shape.tried)
+
+
+def _variable(effect: Effect) -> str:
+    for need, variable in _VARIABLES:
+        if need in effect.needs:
+            return variable
+    if "q" in effect.needs:
+        return "q by direction" if "qd" in effect.needs else "q"
+    return "qd" if "qd" in effect.needs else "torque"
+
+
+def _would_show(effect: Effect) -> str:
+    """What data show an effect that a fit has taken up."""
+    shows: Mapping[str, str] = {
+        "qd": "slow and fast parts in both directions of the joint",
+        "q": "a larger range of the joint, or known inertial parameters (--prior)",
+        "qdd": "stronger accelerations, or known inertial parameters (--prior)",
+        "torque": "motion in both directions, or known parameters (--prior)",
+        "load": "the same motion with and without a payload",
+        "time": "one long run after a cold start",
+        "motor phase": "slow motion at constant speed",
+        "time since reversal": "slow reversals, sampled fast, with known friction",
+        "q by direction": "slow motion with reversals over the joint's whole range",
+    }
+    return shows[_variable(effect)]

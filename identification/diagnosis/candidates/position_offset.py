@@ -1,0 +1,57 @@
+"""Encoders whose zero is not the model's: the robot stands at q + offset, the log says q."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import PRISMATIC, Joint
+from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.perturbation import change_of, sensitivity
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Largest offset [rad, m]: beyond it the first order does not hold.
+_LARGEST = {False: 0.3, True: 0.1}
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One a joint, without those that the robot's file corrects; the coefficient is ``position_offset`` there."""
+    if not scenes:
+        return []
+    robot = scenes[0].robot
+    stated = robot.signals.position_offset
+    return [
+        _hypothesis(k, joint) for k, joint in enumerate(robot.moving) if not (stated and stated[k])
+    ]
+
+
+def _hypothesis(k: int, joint: Joint) -> Hypothesis:
+    prismatic = joint.sigma == PRISMATIC
+    largest = _LARGEST[prismatic]
+    return Hypothesis(
+        "position_offset",
+        "offset of the encoder",
+        joint.number,
+        (Coefficient(f"position_offset{joint.number}", "m" if prismatic else "rad", -largest, largest),),
+        partial(_columns, k),
+        kind=SIGNAL,
+        joints=(joint.number,),
+        variable="q",
+        would_show="known inertial parameters (--prior): in a free fit the first moments take an offset up",
+        separating={
+            "base_tilt": "a level on the base; a tilt shows on all joints whose load is weight, an offset on one",
+            "payload": "a run with another, known payload: an offset does not change with it",
+            "cable_spring": "a larger range of the joint: the torque of a spring goes on growing",
+            "spring_balancer": "a larger range of the joint",
+        },
+    )
+
+
+def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    change = change_of(scene, k, np.ones_like(scene.t))
+    return sensitivity(scene.torque_on, scene.motion, change)[None]

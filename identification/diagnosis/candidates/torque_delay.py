@@ -1,0 +1,62 @@
+"""Torques that are recorded later than positions: tau_recorded(t) = tau(t - s) = tau(t) - s dtau/dt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Longest delay [s] either way that a drive's sampling explains.
+_LONGEST = 0.1
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One delay of all torques, and one of each joint's own; none where the robot's file states one.
+
+    The coefficient is ``torque_delay`` of the file's signals; it is negative where positions come later than torques.
+    """
+    if not scenes or any(scenes[0].robot.signals.torque_delay):
+        return []
+    moving = scenes[0].robot.moving
+    all_joints = tuple(joint.number for joint in moving)
+    own = [_hypothesis(joint.number, (joint.number,), k) for k, joint in enumerate(moving)] if len(moving) > 1 else []
+    return [_hypothesis(0, all_joints, None), *own]
+
+
+def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesis:
+    name = "torque_delay" if k is None else f"torque_delay{joint}"
+    return Hypothesis(
+        "torque_delay",
+        "delay between torque and position" + (" of all joints" if k is None else ""),
+        joint,
+        (Coefficient(name, "s", -_LONGEST, _LONGEST),),
+        partial(_columns, k),
+        kind=SIGNAL,
+        joints=joints,
+        variable="frequency",
+        would_show="quick changes of torque: higher frequencies, steps of the acceleration",
+        separating={
+            "joint_elasticity": "speed steps at constant load: a delay shows at every step alike, "
+            "elasticity by the load's inertia",
+            "viscous_friction": "the same motion twice as fast: a delay of inertia's torque grows with the cube of the "
+            "speed, viscous friction with the speed",
+            "gradual_friction": "slow reversals: a delay shifts the reversal by a time, gradual friction by a speed",
+            "dahl_friction": "slow reversals: a delay shifts the reversal by a time, presliding by a way",
+        },
+    )
+
+
+def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
+    late = -scene.rate(scene.torque)
+    if k is None:
+        return late[None]
+    result = np.zeros((1, *late.shape))
+    result[0, k] = late[k]
+    return result

@@ -1,0 +1,54 @@
+"""Torques that are recorded too large or too small, motor by motor: recorded = (1 + e) true, ``torque_gain`` =
+1 / (1 + e).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.scene import Scene
+from identification.drive_train import supplied
+
+Array = NDArray[np.float64]
+
+#: Largest relative error of a torque.
+_LARGEST = 0.6
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One a motor, without those whose gain the robot's file states."""
+    if not scenes:
+        return []
+    robot = scenes[0].robot
+    stated = robot.signals.torque_gain
+    return [
+        Hypothesis(
+            "torque_gain",
+            "error of the torque's gain",
+            joint.number,
+            (Coefficient(f"torque_gain_error{joint.number}", "1", -_LARGEST, _LARGEST),),
+            partial(_columns, k),
+            kind=SIGNAL,
+            joints=(joint.number,),
+            variable="load",
+            would_show="a known payload, or known inertial parameters (--prior): a free fit scales all parameters of "
+            "the joint",
+            separating={
+                "payload": "a run with a known payload",
+                "rotor_inertia": "a run with a known payload, or at rest: a gain scales the weight's torque too",
+                "gear_ratio": "a known angle at the joint: a wrong gain does not turn it",
+                "torque_drift": "one long run: a gain does not change with time",
+            },
+        )
+        for k, joint in enumerate(robot.moving)
+        if not (stated and stated[k] != 1)
+    ]
+
+
+def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    return supplied(scene.robot, k, scene.torque)[None]

@@ -1,0 +1,85 @@
+"""Rotors that two neighbouring joints turn: the generator's ``coupled_rotor`` on the pairs of a wrist."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from generator.effects.coupled_rotor import EFFECT
+from generator.effects.effect import Site
+from generator.robot.description import Joint, Robot
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Joints, counted from the tool, that may share a rotor.
+_WRIST = 3
+#: Below this share of the other joint's speed a coupled rotor is the joint's own (report section 2.3.1).
+_WEAKEST = 0.1
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """Pairs among the last joints, by the ratio of the drives' coupling, else in the same and the opposite sense.
+
+    The later joint carries the effect; none where the robot's file has a coupled rotor on it.
+    """
+    if not scenes:
+        return []
+    robot = scenes[0].robot
+    taken = {number for use in robot.effects if use.effect == EFFECT.id for number in use.joints}
+    return [
+        _hypothesis(robot, joint, other, ratio)
+        for other, joint in pairwise(robot.moving[-_WRIST:])
+        if joint.number not in taken
+        for ratio in _ratios(robot, joint, other)
+    ]
+
+
+def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[float]:
+    """Speeds of the rotor per speed of the other joint, in units of that per speed of its own."""
+    if robot.drives is not None:
+        row = robot.drives.coupling[robot.moving.index(joint)]
+        ratio = float(row[robot.moving.index(other)] / row[robot.moving.index(joint)])
+        if abs(ratio) >= _WEAKEST:
+            return [ratio]
+    # A slide and a turn share no rotor unless the file says how.
+    return [1.0, -1.0] if joint.sigma == other.sigma else []
+
+
+def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypothesis:
+    return Hypothesis(
+        EFFECT.id,
+        EFFECT.title,
+        joint.number,
+        tuple(Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower) for one in EFFECT.parameters),
+        partial(_columns, joint),
+        given={"other": float(other.number), "ratio": ratio},
+        joints=(other.number, joint.number),
+        variable="qd",
+        would_show="both joints moving at once, with and against each other",
+        separating={
+            "rotor_inertia": "one joint moving while the other stands: a shared rotor asks torque of both motors",
+            "viscous_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
+            "coulomb_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
+        },
+    )
+
+
+def _columns(joint: Joint, scene: Scene, shape: Mapping[str, float]) -> Array:
+    numbers = [one.number for one in scene.robot.moving]
+    values = {"other": sympy.Integer(int(shape["other"])), "ratio": sympy.Float(shape["ratio"])}
+    signals = [sympy.Symbol(f"{stem}{number}", real=True) for stem in ("q", "qd", "qdd") for number in numbers]
+    motion = scene.motion
+    columns = EFFECT.columns(Site(joint, values))
+    result = np.zeros((len(columns), *motion.q.shape))
+    for p, column in enumerate(columns):
+        for number, torque in column.items():
+            law = sympy.lambdify(signals, torque, "numpy", cse=True)
+            result[p, numbers.index(number)] = law(*motion.q, *motion.qd, *motion.qdd)
+    return result

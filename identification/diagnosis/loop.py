@@ -1,0 +1,118 @@
+"""From runs to the effects that are missing: prepare, whiten, select, and once more with the model that was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.noise import colours
+from identification.diagnosis.normal import Normal, Prior
+from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.scene import Scene
+from identification.diagnosis.selection import Choice, Selection
+from identification.diagnosis.whitening import Colour, colour, stretches
+from identification.observation import Regressors
+
+Array = NDArray[np.float64]
+
+#: Times that columns which depend on the model are made anew with what was found.
+_PASSES = 2
+
+
+@dataclass(frozen=True)
+class Search:
+    """What came of it: the bank, its selection, the choices, and the base parameters with them in place."""
+
+    bank: Bank
+    selection: Selection
+    choices: tuple[Choice, ...]
+    values: Mapping[str, float]
+    covariance: Array
+    offered: tuple[Hypothesis, ...]
+    train: tuple[int, ...]
+    validate: tuple[int, ...]
+
+    @property
+    def weights(self) -> dict[int, float]:
+        """Values of all columns in use, by number."""
+        columns = [number for one in self.choices for number in one.evidence.variant.columns]
+        solution, _ = self.selection.normal.solution(columns)
+        return dict(zip([*range(len(self.bank.base)), *columns], solution.tolist(), strict=True))
+
+
+def search(
+    runs: Sequence[Prepared],
+    train: Sequence[int],
+    validate: Sequence[int],
+    regressors: Regressors,
+    prior: Prior | None = None,
+    told: Callable[[str], None] = lambda _: None,
+) -> Search:
+    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``."""
+    values = first_values(runs, train, regressors, prior)
+    chosen: list[Variant] = []
+    for turn in range(_PASSES):
+        told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
+        scenes = [Scene(run.sampled, regressors, values) for run in runs]
+        bank = Bank(runs, scenes)
+        offered = hypotheses([scenes[r] for r in train])
+        for one in offered:
+            for shape in one.variants:
+                bank.add(one, shape)
+        chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
+        told("measuring the noise")
+        bank.whiten(colours(bank))
+        selection = Selection(bank, train, validate, prior)
+        told("weighing the evidence")
+        choices = selection.search(chosen)
+        chosen = [one.evidence.variant for one in choices]
+        columns = [number for one in chosen for number in one.columns]
+        solution, covariance = selection.normal.solution(columns)
+        values = dict(zip(bank.base, solution.tolist(), strict=False))
+    return Search(
+        bank, selection, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate)
+    )
+
+
+def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:
+    """The variant of the last turn among the columns of this one."""
+    for variant in bank.variants:
+        same = (variant.hypothesis.effect, variant.hypothesis.joint) == (old.hypothesis.effect, old.hypothesis.joint)
+        if same and dict(variant.shape) == dict(old.shape):
+            return variant
+    for one in offered:
+        if (one.effect, one.joint) == (old.hypothesis.effect, old.hypothesis.joint):
+            return bank.add(one, old.shape)
+    return None
+
+
+def first_values(
+    runs: Sequence[Prepared], train: Sequence[int], regressors: Regressors, prior: Prior | None
+) -> dict[str, float]:
+    """Base parameters of the model without anything new, each joint weighted by its own residual."""
+    zero = dict.fromkeys(regressors.names, 0.0)
+    bank = Bank(runs, [Scene(run.sampled, regressors, zero) for run in runs])
+    deviations = np.ones(bank.dof)
+    solution = np.zeros(len(bank.base))
+    for _ in range(3):
+        bank.whiten([[_flat(one) for one in deviations] for _ in runs])
+        normal = Normal(np.sum([bank.grams[r] for r in train], axis=0), len(bank.base), 1, prior)
+        solution, _ = normal.solution([])
+        weights = dict(enumerate(solution.tolist()))
+        for joint in range(bank.dof):
+            parts = []
+            for r in train:
+                kept = bank.raw(r, joint)[3]
+                parts += stretches(bank.residual(r, joint, weights, white=False), kept)
+            deviations[joint] = colour(parts, order=0).deviations[0]
+    return dict(zip(bank.base, solution.tolist(), strict=True))
+
+
+def _flat(deviation: float) -> Colour:
+    return Colour((np.ones(1),), (float(deviation),))

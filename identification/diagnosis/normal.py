@@ -1,0 +1,134 @@
+"""Least squares on the Gram matrix of white rows, base parameters taken out once and for all.
+
+With G the products of base columns W, candidate columns C and torque y over the fitted runs, and a prior's rows added to
+W's, the Schur complement of W's block holds the products of what W cannot explain of C and y. Every question about
+candidates is then a question about a few of its rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Eigenvalues of W's scaled products below this part of the largest: directions that no row shows.
+_RANK = 1e-10
+#: Part of a column's square that must be left beside the chosen ones to be told from them.
+_LEFT = 1e-4
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known of the base parameters beforehand: values and standard deviations (p), infinite where nothing."""
+
+    mean: Array
+    std: Array
+
+
+@dataclass(frozen=True)
+class Normal:
+    """Products ``gram`` (c + 1 square) of ``base`` columns, candidates and torque, over ``rows`` rows."""
+
+    gram: Array
+    base: int
+    rows: int
+    prior: Prior | None = None
+
+    @cached_property
+    def whole(self) -> Array:
+        """The Gram matrix with the prior's rows."""
+        if self.prior is None:
+            return self.gram
+        known = np.flatnonzero(np.isfinite(self.prior.std))
+        weight = self.prior.std[known] ** -2.0
+        mean = self.prior.mean[known]
+        whole = self.gram.copy()
+        whole[known, known] += weight
+        whole[known, -1] += weight * mean
+        whole[-1, known] += weight * mean
+        whole[-1, -1] += float(weight @ mean**2)
+        return whole
+
+    @cached_property
+    def inverse(self) -> Array:
+        """Pseudo-inverse of W's products: covariance of the base parameters without candidates (p x p)."""
+        return inverse(self.whole[: self.base, : self.base])
+
+    @cached_property
+    def schur(self) -> Array:
+        """Products of what W cannot explain of the candidates and of the torque."""
+        G, p = self.whole, self.base
+        S = G[p:, p:] - G[p:, :p] @ self.inverse @ G[:p, p:]
+        return np.asarray((S + S.T) / 2)
+
+    @cached_property
+    def left(self) -> Array:
+        """Part of each candidate column's square that W cannot explain."""
+        size = np.diag(self.gram)[self.base : -1]
+        return np.asarray(np.diag(self.schur)[:-1] / np.maximum(size, 1e-300))
+
+    def beside(self, chosen: Sequence[int]) -> Array:
+        """The Schur complement after the columns ``chosen`` too; their own rows are zero."""
+        at = np.array(chosen, dtype=int) - self.base
+        S = self.schur
+        if not at.size:
+            return S
+        result = S - S[:, at] @ inverse(S[np.ix_(at, at)]) @ S[at]
+        result[at], result[:, at] = 0.0, 0.0
+        return np.asarray(result)
+
+    def solution(self, chosen: Sequence[int], values: Array | None = None) -> tuple[Array, Array]:
+        """Base parameters and the chosen columns' coefficients (p + k); and their covariance.
+
+        Coefficients of chosen columns that are given in ``values`` are held.
+        """
+        p, G = self.base, self.whole
+        if values is not None:
+            base = self.inverse @ (G[:p, -1] - G[:p, list(chosen)] @ values)
+            return np.concatenate([base, values]), self.inverse
+        at = [*range(p), *chosen]
+        C = inverse(G[np.ix_(at, at)])
+        return np.asarray(C @ G[at, -1]), C
+
+    def misfit(self, chosen: Sequence[int], solution: Array) -> float:
+        """Sum of the squared white residuals, without the prior's rows."""
+        at = [*range(self.base), *chosen, len(self.gram) - 1]
+        v = np.append(-solution, 1.0)
+        return float(v @ self.gram[np.ix_(at, at)] @ v)
+
+
+def inverse(A: Array, rank: float = _RANK) -> Array:
+    """Pseudo-inverse of a matrix of products, by the eigenvalues of what it is with columns of unit length."""
+    size = np.sqrt(np.maximum(np.diag(A), 0.0))
+    live = size > 1e-12 * size.max(initial=0.0)
+    scale = np.where(live, np.maximum(size, 1e-300), 1.0)
+    scaled = np.where(np.outer(live, live), A / np.outer(scale, scale), 0.0)
+    values, vectors = np.linalg.eigh(scaled)
+    seen = values > rank * max(values[-1], 1e-300)
+    V = vectors[:, seen]
+    return np.asarray((V / values[seen]) @ V.T / np.outer(scale, scale))
+
+
+def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tuple[Array, float]:
+    """Coefficients within bounds that lower the sum of squares most, and by how much: max 2 b x - x A x.
+
+    ``size`` are the squares of the whole columns: directions of which little is left are not used.
+    """
+    free = np.diag(A) > _LEFT * size
+    x = np.zeros(len(b))
+    for _ in range(len(b) + 1):
+        at = np.flatnonzero(free)
+        if not at.size:
+            return np.zeros(len(b)), 0.0
+        x = np.zeros(len(b))
+        x[at] = inverse(A[np.ix_(at, at)], 1e-8) @ b[at]
+        out = at[(x[at] < lower[at]) | (x[at] > upper[at])]
+        if not out.size:
+            break
+        free[out] = False
+    return x, max(float(2 * b @ x - x @ A @ x), 0.0)

@@ -1,0 +1,36 @@
+"""Orders of a joint's turn at which the residual repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from identification.diagnosis.scene import Scene
+
+#: Lowest order: slower ones are shared with everything that depends on the position.
+_LOWEST = 5
+#: Peaks that are returned, and neighbours that a peak is compared with.
+_PEAKS, _NEIGHBOURS = 4, 10
+#: Samples of a run that are looked at.
+_SAMPLES = 8000
+
+
+def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ...]:
+    """The whole orders up to ``last`` with the clearest peaks in the residual of coordinate k over its position."""
+    orders = np.arange(_LOWEST, last + 1)
+    power = np.zeros(len(orders))
+    for scene in scenes:
+        step = max(1, scene.motion.samples // _SAMPLES)
+        q = scene.motion.q[k, ::step]
+        e = (scene.tau[k] - scene.torque[k])[::step]
+        e = e - e.mean()
+        turn = np.exp(1j * q)
+        phase = turn**_LOWEST
+        for i in range(len(orders)):
+            power[i] += abs(phase @ e) ** 2
+            phase = phase * turn
+    around = np.array([np.median(power[max(0, i - _NEIGHBOURS) : i + _NEIGHBOURS + 1]) for i in range(len(power))])
+    peak = power / np.maximum(around, 1e-300)
+    top = [i for i in np.argsort(-peak) if peak[i] == peak[max(0, i - 2) : i + 3].max()]
+    return tuple(sorted(float(orders[i]) for i in top[:_PEAKS]))

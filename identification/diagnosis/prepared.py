@@ -1,0 +1,83 @@
+"""A run as the diagnosis looks at it: decimated less than an identification does, without rows near standstill."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+from scipy.ndimage import maximum_filter1d
+
+from identification.dataset import Run
+from identification.diagnosis.periods import period_of
+from identification.observation import Regressors
+from identification.recipe import Recipe, possible_factor
+from identification.sampling import Sampled, sampled
+
+Array = NDArray[np.float64]
+
+#: Rows a second that are looked at; the motion's filter passes up to as many hertz.
+RATE = 50.0
+#: Speed below which a joint stands, in parts of its own rms.
+_SLOW = 0.04
+#: Time before and after standing still [s] in which friction is not yet what it will be.
+_SETTLING = 0.05
+#: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.
+_NEAR = 0.35
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
+
+    ``period`` is that of the motion in rows, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s,
+    m/s] in the rows that are left out.
+    """
+
+    sampled: Sampled
+    t: Array
+    tau: Array
+    kept: NDArray[np.bool_]
+    period: int
+    slow: Array
+
+    def decimated(self, x: Array) -> Array:
+        """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
+
+        The window ends: what happens while a joint stands does not ring into the rows that are kept.
+        """
+        return windowed(x, self.sampled.filters.factor)
+
+
+def windowed(x: Array, factor: int) -> Array:
+    """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
+    window = signal.windows.hann(2 * factor + 3)[1:-1]
+    count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
+    result = signal.upfirdn(window / window.sum(), x, 1, factor, axis=-1)
+    return np.asarray(result[..., 2 : 2 + count])
+
+
+def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
+    """The run by the diagnosis' filters, which replace those of ``recipe``; raises InputError where it is too short."""
+    period = period_of(run.q, run.period)
+    wanted = run.rate / RATE
+    factor = possible_factor(wanted) if wanted > 1 else 1
+    if period:
+        divisors = [r for r in range(1, period + 1) if period % r == 0 and abs(r / wanted - 1) <= _NEAR]
+        possible = [r for r in divisors if possible_factor(r) == r]
+        factor = min(possible, key=lambda r: abs(r - wanted), default=factor)
+    changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
+    one = sampled(run, replace(changed, dropped_first=None, dropped_last=None), regressors)
+    speed = one.motion.qd
+    slow = np.maximum(_SLOW * np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
+    standing = np.abs(speed) < slow[:, None]
+    if run.unusable is not None:
+        standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
+    reach = round(_SETTLING * run.rate)
+    standing = np.stack([maximum_filter1d(row, 2 * reach + 1) for row in standing])
+    tau = windowed(one.tau, factor)
+    kept = windowed(standing.astype(float), factor) == 0
+    t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
+    rows = period // factor if period and period % factor == 0 else 0
+    return Prepared(one, t, tau, kept, rows, slow)

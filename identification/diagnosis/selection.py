@@ -1,0 +1,292 @@
+"""Which hypotheses the data ask for: evidence, the held-out gate, exchange, refinement of shapes, pairs.
+
+A hypothesis is taken when all of this holds: its drop of the white sum of squares is beyond chance for all that was
+tried; it lowers the sum of squares of a run that was not fitted; it is not tiny beside the noise, nor beside what is
+still unexplained; its coefficients are within their physical bounds and its shape not at the end of what was tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+
+from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.normal import Normal, Prior, bounded
+
+Array = NDArray[np.float64]
+
+#: Chance, over everything tried, that a name is given to nothing.
+_ALPHA = 1e-3
+#: Least drop of the validation's sum of squares, and its least part of what the fit promises.
+_VALIDATED, _TRANSFERRED = 6.0, 0.25
+#: Least size beside the noise, and least part of what is unexplained above it.
+_FLOOR, _SHARE = 0.06, 0.01
+#: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
+_BESIDE, _ALIKE = 0.03, 0.15
+_OF_SPEED = ("qd", "time since reversal")
+#: By how much a challenger must be better, and how far an equal one may be behind, as a part of the evidence.
+_BETTER, _EQUAL = 6.0, 0.01
+#: Part of a column's square that the model must leave for it to be seen.
+_VISIBLE = 1e-4
+_MOST, _ROUNDS = 8, 3
+#: Hypotheses whose pairs are tried when single ones do not do.
+_PAIRED = 30
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation."""
+
+    variant: Variant
+    coefficients: Array
+    drop: float
+    p: float
+    bic: float
+    validation: float
+    size: float
+    passes: bool
+    why_not: str = ""
+
+    @property
+    def score(self) -> float:
+        """Rank: information criterion and held-out drop together."""
+        return self.bic + self.validation
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A variant that was taken, with its evidence beside the others and what may stand in its place."""
+
+    evidence: Evidence
+    alternatives: tuple[Evidence, ...] = ()
+
+
+class Selection:
+    """The search over a bank whose runs ``train`` are fitted and ``validate`` are not."""
+
+    def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
+        self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
+        self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self.refresh()
+
+    def refresh(self) -> None:
+        """After columns have been added."""
+        p = len(self.bank.base)
+        train, held = ([self.bank.grams[r] for r in runs] for runs in (self._train, self._validate))
+        rows = sum(int(self.bank.rows(r).sum()) for r in self._train)
+        others = sum(int(self.bank.rows(r).sum()) for r in self._validate)
+        self.normal = Normal(np.sum(train, axis=0), p, rows, self._prior)
+        self.held = Normal(np.sum(held, axis=0), p, others)
+        self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
+
+    # -- evidence -------------------------------------------------------------------------------------------------
+
+    def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
+        """Of the best variant of every hypothesis that is not chosen, the best first."""
+        S = self.normal.beside(_columns(chosen))
+        taken = {_key(one) for one in chosen}
+        best: dict[tuple[str, int], tuple[float, Variant, Array]] = {}
+        for variant in self.bank.variants:
+            key = _key(variant)
+            if key in taken:
+                continue
+            x, drop = self._solve(S, variant)
+            if key not in best or drop > best[key][0]:
+                best[key] = (drop, variant, x)
+        unexplained = self.unexplained(chosen)
+        ranked = sorted(best.values(), key=lambda one: -one[0])
+        found = [self._judged(one, chosen, unexplained) for one in ranked if one[0] > 0]
+        return sorted(found, key=lambda one: -one.score)
+
+    def of(self, variant: Variant, others: Sequence[Variant]) -> Evidence:
+        """Evidence of one variant beside others."""
+        x, drop = self._solve(self.normal.beside(_columns(others)), variant)
+        return self._judged((drop, variant, x), others, self.unexplained(others))
+
+    def unexplained(self, chosen: Sequence[Variant]) -> float:
+        """What the sum of squares is above the noise."""
+        solution, _ = self.normal.solution(_columns(chosen))
+        return max(self.normal.misfit(_columns(chosen), solution) - self.normal.rows, 0.0)
+
+    def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
+        at = np.array(variant.columns) - self.normal.base
+        lower, upper = _bounds(variant.hypothesis)
+        size = np.diag(self.normal.gram)[list(variant.columns)]
+        return bounded(S[np.ix_(at, at)], S[at, -1], lower, upper, size)
+
+    def _judged(self, found: tuple[float, Variant, Array], others: Sequence[Variant], unexplained: float) -> Evidence:
+        drop, variant, x = found
+        used = int(np.count_nonzero(x))
+        tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
+        p = min(1.0, tries * float(chi2.sf(drop, max(used, 1))))
+        bic = drop - used * np.log(self.normal.rows) - 2 * np.log(tries)
+        rows = int(self._rows[list(variant.joints)].sum())
+        size = float(np.sqrt(drop / max(rows, 1)))
+        one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
+        if p * self._tried > _ALPHA:
+            return replace(one, why_not="within chance")
+        validation = self._validation(variant, others)
+        one = replace(one, validation=validation)
+        promised = drop * self.held.rows / self.normal.rows
+        if validation < max(_VALIDATED, _TRANSFERRED * promised):
+            return replace(one, why_not="does not help on a run that was not fitted")
+        if size < _FLOOR or drop < _SHARE * unexplained:
+            return replace(one, why_not="too small beside what is left")
+        if drop < self._imperfect(variant, others):
+            return replace(one, why_not="may be what another effect's law lacks")
+        if _at_end(variant):
+            return replace(one, why_not="its shape is at the end of what was tried")
+        return replace(one, passes=True)
+
+    def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What the laws of others that act on the same joints may leave although they are the right ones."""
+        least = 0.0
+        for other in others:
+            if not set(other.joints) & set(variant.joints):
+                continue
+            rest = self.normal.beside(_columns([one for one in others if one is not other]))
+            alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
+            least = max(least, (_ALIKE if alike else _BESIDE) * self._solve(rest, other)[1])
+        return least
+
+    def _validation(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """Drop of the held-out sum of squares, with parameters from the fitted runs."""
+        before = _columns(others)
+        after = [*before, *variant.columns]
+        misfits = [self.held.misfit(chosen, self.normal.solution(chosen)[0]) for chosen in (before, after)]
+        return misfits[0] - misfits[1]
+
+    # -- search ---------------------------------------------------------------------------------------------------
+
+    def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
+        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
+        chosen = list(start)
+        paired = False
+        while len(chosen) < _MOST:
+            first = next((one for one in self.evidence(chosen) if one.passes), None)
+            if first is None:
+                pair = None if paired else self._pair(chosen)
+                paired = True
+                if pair is None:
+                    break
+                chosen += pair
+            else:
+                chosen.append(self._refined(first.variant, chosen))
+            chosen = self._exchanged(chosen)
+        return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
+
+    def _exchanged(self, chosen: list[Variant]) -> list[Variant]:
+        """Each one refined and challenged with the others in place; dropped when its evidence is gone."""
+        for _ in range(_ROUNDS):
+            before = list(chosen)
+            for one in before:
+                if one not in chosen:
+                    continue
+                others = [other for other in chosen if other is not one]
+                refined = one
+                mine = self.of(one, others)
+                best = next((other for other in self.evidence(others) if other.passes), None)
+                if best is not None and (not mine.passes or best.score > mine.score + _BETTER):
+                    refined = self._refined(best.variant, others)
+                    mine = self.of(refined, others)
+                place = chosen.index(one)
+                chosen[place : place + 1] = [refined] if mine.passes else []
+            if chosen == before:
+                break
+        return chosen
+
+    def _refined(self, variant: Variant, others: Sequence[Variant]) -> Variant:
+        """With shapes between the tried ones where they explain more."""
+        best = variant
+        score = self.of(best, others).drop
+        for shape in variant.hypothesis.shapes:
+            points = shape.grid()
+            if shape.whole or len(points) < 3:
+                continue
+            log = min(points) > 0
+            scale = np.log if log else np.asarray
+            step = 0.5 * float(np.median(np.diff(np.sort(scale(points)))))
+            for _ in range(3):
+                here = float(scale(best.shape[shape.name]))
+                for x in (here - step, here + step):
+                    value = float(np.exp(x)) if log else x
+                    tried = self.bank.add(variant.hypothesis, {**best.shape, shape.name: value})
+                    if tried is None:
+                        continue
+                    self.refresh()
+                    drop = self.of(tried, others).drop
+                    if drop > score + 0.5:
+                        best, score = tried, drop
+                step /= 2
+        return best
+
+    def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
+        """Two that explain together what neither may alone."""
+        single = self.evidence(chosen)[:_PAIRED]
+        S = self.normal.beside(_columns(chosen))
+        best: tuple[float, list[Variant]] = (0.0, [])
+        for one, other in combinations([each.variant for each in single], 2):
+            at = np.array([*one.columns, *other.columns]) - self.normal.base
+            bounds = [np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)]
+            size = np.diag(self.normal.gram)[[*one.columns, *other.columns]]
+            _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
+            if drop > best[0]:
+                best = (drop, [one, other])
+        pair = best[1]
+        if pair and all(self.of(one, [*chosen, other]).passes for one, other in (pair, pair[::-1])):
+            return pair
+        return None
+
+    def _choice(self, one: Variant, others: Sequence[Variant]) -> Choice:
+        mine = self.of(one, others)
+        near = [
+            other
+            for other in self.evidence(others)
+            if _key(other.variant) != _key(one) and other.passes and other.score > mine.score - max(_EQUAL * mine.drop, 2.0)
+        ]
+        return Choice(mine, tuple(near))
+
+    # -- what cannot be seen --------------------------------------------------------------------------------------
+
+    def invisible(self) -> list[Hypothesis]:
+        """Hypotheses of which the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], float] = {}
+        whose: dict[tuple[str, int], Hypothesis] = {}
+        for variant in self.bank.variants:
+            key = _key(variant)
+            at = np.array(variant.columns) - self.normal.base
+            left[key] = max(left.get(key, 0.0), float(self.normal.left[at].max()))
+            whose[key] = variant.hypothesis
+        return [whose[key] for key, part in left.items() if part < _VISIBLE]
+
+
+def _key(variant: Variant) -> tuple[str, int]:
+    return variant.hypothesis.effect, variant.hypothesis.joint
+
+
+def _columns(chosen: Sequence[Variant]) -> list[int]:
+    return [number for one in chosen for number in one.columns]
+
+
+def _bounds(one: Hypothesis) -> tuple[Array, Array]:
+    lower = np.array([-np.inf if c.lower is None else c.lower for c in one.coefficients])
+    upper = np.array([np.inf if c.upper is None else c.upper for c in one.coefficients])
+    return lower, upper
+
+
+def _at_end(variant: Variant) -> bool:
+    """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
+    for shape in variant.hypothesis.shapes:
+        points = shape.grid()
+        if shape.whole or len(points) < 4 or min(points) <= 0:
+            continue
+        value = variant.shape[shape.name]
+        if value <= min(points) * 0.7 or value >= max(points) * 1.4:
+            return True
+    return False

@@ -1,0 +1,83 @@
+"""Noise without its colour: an autoregressive model of a joint's residual, and rows in which it is white.
+
+Without this everything looks significant. Rows are in stretches, which end where rows are left out; the first rows of a
+stretch are predicted from the few before them, so that nothing is lost and gaps do no harm (Levinson; Burg 1975).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Order of the autoregressive model.
+ORDER = 10
+
+
+@dataclass(frozen=True)
+class Colour:
+    """Prediction errors by order m = 0 .. p: ``filters[m]`` (m + 1, the first is 1), ``deviations[m]`` [N m, N]."""
+
+    filters: tuple[Array, ...]
+    deviations: tuple[float, ...]
+
+    def white(self, rows: Array, stretch: NDArray[np.bool_]) -> Array:
+        """Consecutive ``rows`` (k x N), of which ``stretch`` (N) tells the ones that are kept, white (k x kept)."""
+        place = _places(stretch)
+        result = np.empty_like(rows)
+        order = len(self.filters) - 1
+        for m in range(order + 1):
+            at = np.flatnonzero(place >= m) if m == order else np.flatnonzero(place == m)
+            total = np.zeros((len(rows), len(at)))
+            for lag, weight in enumerate(self.filters[m]):
+                total += weight * rows[:, at - lag]
+            result[:, at] = total / self.deviations[m]
+        return result[:, stretch]
+
+    def spectrum(self, frequency: Array, rate: float) -> Array:
+        """One-sided power density [unit^2/Hz] of the noise at frequencies [Hz] for rows at ``rate`` [Hz]."""
+        a = self.filters[-1]
+        z = np.exp(-2j * np.pi * np.outer(frequency, np.arange(len(a))) / rate)
+        return np.asarray(2 * self.deviations[-1] ** 2 / rate / np.abs(z @ a) ** 2)
+
+
+def colour(stretches: Sequence[Array], freedom: float = 1.0, order: int = ORDER) -> Colour:
+    """The colour of a residual in stretches, by Burg's recursion over all of them together.
+
+    ``freedom`` is the part of the residual's rows that a fit left free: the variance is divided by it.
+    """
+    parts = [e for e in stretches if len(e)]
+    count = sum(map(len, parts))
+    power = sum(float(e @ e) for e in parts) / max(count, 1) / max(freedom, 0.05)
+    power = max(power, 1e-300)
+    a = np.ones(1)
+    filters, deviations = [a], [np.sqrt(power)]
+    forward, backward = parts, parts
+    for _ in range(min(order, max((len(e) for e in parts), default=1) - 1)):
+        pairs = [(f[1:], b[:-1]) for f, b in zip(forward, backward, strict=True) if len(f) > 1]
+        above = sum(float(f @ b) for f, b in pairs)
+        below = sum(float(f @ f) + float(b @ b) for f, b in pairs)
+        k = -2 * above / below if below > 0 else 0.0
+        a = np.append(a, 0.0) + k * np.append(a, 0.0)[::-1]
+        power *= max(1 - k * k, 1e-12)
+        filters.append(a)
+        deviations.append(np.sqrt(power))
+        forward, backward = [f + k * b for f, b in pairs], [b + k * f for f, b in pairs]
+    return Colour(tuple(filters), tuple(float(x) for x in deviations))
+
+
+def stretches(rows: Array, stretch: NDArray[np.bool_]) -> list[Array]:
+    """The kept stretches of a signal (N)."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], stretch, [False]]).astype(np.int8)))
+    return [rows[start:end] for start, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _places(stretch: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Of each row, how many kept rows stand right before it; -1 where it is not kept."""
+    numbers = np.arange(len(stretch))
+    last = np.maximum.accumulate(np.where(stretch, -1, numbers))
+    return np.where(stretch, numbers - last - 1, -1)

@@ -1,0 +1,79 @@
+"""Scenes of the diagnosis from runs of the simulated robot, whose model is right but for one effect."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from generator.errors import Place
+from generator.robot.readers import read
+from identification.dataset import Run as Recorded
+from identification.diagnosis.scene import Scene
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from identification.sampling import sampled
+from tests.plant.effect import Effect
+from tests.plant.measurement import Sensors
+from tests.plant.robot import Array, Robot
+from tests.plant.robot_file import PRIOR, robot_file
+from tests.plant.run import Run
+from tests.plant.simulate import make_run
+from tests.plant.size import effect_torque
+from tests.plant.trajectory import Trajectory
+
+#: No noise, no steps: what is left between log and model is the effect.
+CLEAN = Sensors(noise=0.0, quantised=False)
+#: Cut-off of the motion's filter [Hz].
+CUTOFF = 50.0
+
+
+@dataclass(frozen=True)
+class Known:
+    """A simulated robot and its model with the true base parameters."""
+
+    robot: Robot
+    regressors: Regressors
+    values: dict[str, float]
+
+    def scene(self, run: Run) -> Scene:
+        """A run beside the model."""
+        others: dict[str, Array] = {}
+        for stem, block in (("qs", run.qs), ("temp", run.temperature)):
+            if block is not None:
+                others |= {f"{stem}{j + 1}": column for j, column in enumerate(block.T)}
+        recorded = Recorded("run", Place("run"), 0.0, 1 / run.rate, run.q.T, run.tau.T, others=others)
+        one = sampled(recorded, Recipe().changed(cutoff=CUTOFF, factor=1, standstill=0.0), self.regressors)
+        return Scene(one, self.regressors, self.values)
+
+
+def known(robot: Robot, folder: Path) -> Known:
+    """The robot by its file, with true values."""
+    path = folder / f"{robot.name}.yaml"
+    path.write_text(robot_file(robot), encoding="utf-8")
+    description = read(path)
+    regressors = Regressors(description)
+    standard = {name: one.value for name, one in description.parameter_sets[PRIOR].values.items()}
+    numeric = regressors.model.grouping.numeric()
+    values = {
+        name: sum(coefficient * standard.get(part, 0.0) for part, coefficient in terms.items())
+        for name, terms in numeric.items()
+    }
+    return Known(robot, regressors, values)
+
+
+def played(robot: Known, effect: Effect, trajectory: Trajectory, sensors: Sensors = CLEAN) -> tuple[Scene, Array]:
+    """A run with an effect, and what the effect adds to the logged torque (n x N) at the scene's samples."""
+    run = make_run(robot.robot, trajectory, [effect], sensors=sensors)
+    scene = robot.scene(run)
+    first = scene.sampled.filters.first
+    truth = effect_torque(run, effect).T[:, first : first + scene.motion.samples]
+    return scene, truth
+
+
+def moving(scene: Scene, share: float = 0.1) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Samples (N) in which every joint is faster than ``share`` of its own rms speed."""
+    speed = np.abs(scene.motion.qd)
+    rms = np.sqrt(np.mean(speed**2, axis=1, keepdims=True))
+    return np.asarray(np.all(speed > share * rms, axis=0))
