@@ -15,7 +15,6 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.diagnosis_study.baselines import named_by_baselines
-
 from benchmarks.diagnosis_study.case import KNOWN, Case
 from benchmarks.diagnosis_study.drawing import cases
 from benchmarks.diagnosis_study.making import made

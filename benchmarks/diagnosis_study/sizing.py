@@ -95,7 +95,7 @@ class Fit:
         flat = e.reshape(-1)
         left = (flat - self._W @ (self._inverse @ (self._W.T @ flat))).reshape(e.shape)
         of_joint = np.sqrt(np.sum(e**2, axis=0) / rows)
-        acts = of_joint >= _ACTS * max(of_joint.max(), 1e-300)
+        acts = of_joint >= _ACTS * float(of_joint.max(initial=0.0))
 
         def over(x: Array) -> float:
             return float(np.sqrt(np.mean(np.sum(x[:, acts] ** 2, axis=0)) / rows))
@@ -103,7 +103,7 @@ class Fit:
         strongest = int(np.argmax(of_joint))
         rms = float(np.sqrt(np.mean(np.concatenate([tau[:, strongest] for tau in torques]) ** 2)))
         raw = over(e)
-        part = float(np.linalg.norm(left) / max(np.linalg.norm(e), 1e-300))
+        part = float(np.linalg.norm(left)) / max(float(np.linalg.norm(e)), 1e-300)
         return Size(raw, over(left), part, tuple(int(j) + 1 for j in np.flatnonzero(acts)), rms)
 
 
