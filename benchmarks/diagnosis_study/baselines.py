@@ -16,6 +16,7 @@ from benchmarks.diagnosis_study.runs import FITTED, NAMES
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.selection import Selection
 from tests.plant.robot import Array
+from tests.plant.robot_file import PRIOR
 
 Name = tuple[str, int]
 
@@ -90,19 +91,15 @@ def selection_of(folder: Path, case: Case) -> Selection:
     from identification.dataset import load
     from identification.diagnosis.loop import search
     from identification.diagnosis.prepared import prepared
+    from identification.diagnosis.priors import prior_of
     from identification.observation import Regressors
     from identification.recipe import Recipe
 
     robot = read(folder / "robot.yaml")
     regressors = Regressors(robot)
     runs = [prepared(load(str(folder / f"{name}.csv"), robot), Recipe(), regressors) for name in NAMES[: FITTED + 1]]
-    return search(runs, range(FITTED), [FITTED], regressors, _prior(case, regressors)).selection
-
-
-def _prior(case: Case, regressors: Any) -> Any:
-    if case.mode != KNOWN:
-        return None
-    raise NotImplementedError
+    prior = prior_of(regressors.model, PRIOR) if case.mode == KNOWN else None
+    return search(runs, range(FITTED), [FITTED], regressors, prior).selection
 
 
 def _misfit(selection: Selection, chosen: Sequence[Variant]) -> float:

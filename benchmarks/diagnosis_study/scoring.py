@@ -14,9 +14,9 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 
 @dataclass(frozen=True)
 class Score:
-    """``found`` of the ``visible`` hidden effects are firmly named, ``first`` says that the first finding is one of
+    """``found`` of the ``visible`` hidden effects are named, ``first`` says that the first finding is one of
     them, ``listed`` counts those that are an alternative of a finding only, ``invisible_told`` those of
-    ``invisible`` that are said to be so. ``extra`` are firm findings that are no hidden effect. ``within`` is whether
+    ``invisible`` that are said to be so. ``extra`` are named effects that are not hidden. ``within`` is whether
     the named parameter is within two standard deviations of the truth, ``closed`` the share of the explainable gap
     that closed on the untouched run; None where there is nothing to say.
     """
@@ -51,7 +51,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
     inside = [one for one in truth["hidden"] if one["law"] in STUDY.laws]
     visible = [one for one in inside if not one["invisible"]]
     hidden = [one for one in inside if one["invisible"]]
-    findings = [one for one in diagnosis["findings"] if one.get("status") == "firm"]
+    findings = [one for one in diagnosis["findings"] if _told(one, diagnosis["verdict"])]
     tentative = len(diagnosis["findings"]) - len(findings)
     hits = {id(one): next((k for k, told in enumerate(findings) if _is(told, one)), None) for one in visible}
     matched = {k for k in hits.values() if k is not None}
@@ -83,6 +83,11 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
         within=within,
         closed=_closed(diagnosis, visible) if visible else None,
     )
+
+
+def _told(one: Mapping[str, Any], verdict: str) -> bool:
+    """Whether a finding is a name: firm, or tentative for its equal alternatives alone."""
+    return one["status"] == "firm" or (verdict == NAMED and bool(one.get("alternatives")))
 
 
 def _seen(truth: Mapping[str, Any]) -> bool:

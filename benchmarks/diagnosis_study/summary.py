@@ -10,7 +10,7 @@ from benchmarks.diagnosis_study.case import FREE, KNOWN
 from benchmarks.diagnosis_study.drawing import SIZES
 from benchmarks.diagnosis_study.intervals import Share, share
 from benchmarks.diagnosis_study.runner import MISMATCH
-from benchmarks.diagnosis_study.scoring import UNEXPLAINED
+from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
 
 Result = Mapping[str, Any]
@@ -180,7 +180,10 @@ _ALL: Mapping[str, Question] = {
     "all and only those named": _if_seen(lambda s: s["found"] == s["visible"] and not s["extra"]),
 }
 _QUESTIONS: Mapping[str, Mapping[str, Question]] = {
-    "null": {"nothing named": lambda s: not s["named"]},
+    "null": {
+        "nothing named": lambda s: not s["named"],
+        "answered `no_discrepancy`": lambda s: s["verdict"] == NOTHING,
+    },
     "one_3x": _ONE,
     "one_1x": _ONE,
     "two": _ALL,
