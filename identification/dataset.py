@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
-from identification import checks, readers, sidecar
+from identification import checks, corrections, readers, sidecar
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
 from identification.sidecar import Payload
@@ -40,8 +40,8 @@ class Run:
     """One run of n joints and N samples, samples along the last axis.
 
     ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``unusable``
-    marks samples whose effort was cut off. ``others`` are the file's further columns of known meaning by name (N each).
-    ``notes`` tell every repair.
+    marks samples whose effort was cut off. ``warmth`` of the drives (n x N) is there where the robot file says it.
+    ``others`` are the file's further columns of known meaning by name (N each). ``notes`` tell every repair.
     """
 
     name: str
@@ -52,6 +52,7 @@ class Run:
     tau: Array
     payload: Payload | None = None
     unusable: NDArray[np.bool_] | None = None
+    warmth: Array | None = None
     others: Mapping[str, Array] = field(default_factory=dict)
     sha256: str = ""
     notes: tuple[str, ...] = ()
@@ -78,7 +79,7 @@ def load(
 
     ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
     what they make. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
-    ``resting`` says that the robot stands on purpose.
+    ``resting`` says that the robot stands on purpose. What section ``signals`` of the robot file says is applied.
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
@@ -92,8 +93,9 @@ def load(
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
+    began = {name: float(values[0]) for name, values in recording.columns.items() if len(values)}
     recording, first = _part(recording, source, start, end)
-    return _run(source, recording, robot, beside.payload, first, efforts, resting)
+    return _run(source, recording, robot, beside.payload, _Beginning(first, began), efforts, resting)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -124,17 +126,25 @@ def _part(recording: Recording, source: str, start: float, end: float) -> tuple[
     return Recording(recording.file, columns, recording.sha256, recording.where, recording.notes), first
 
 
+@dataclass(frozen=True)
+class _Beginning:
+    """Of a run in its file: the number of its ``first`` row, and what the whole recording ``began`` with, by column."""
+
+    first: int
+    began: Mapping[str, float]
+
+
 def _run(
     source: str,
     recording: Recording,
     robot: Robot,
     payload: Payload | None,
-    first: int,
+    beginning: _Beginning,
     efforts: Sequence[str],
     resting: bool,
 ) -> Run:
     def where(row: int | None, column: str) -> Place:
-        return recording.where(None if row is None else row + first, column)
+        return recording.where(None if row is None else row + beginning.first, column)
 
     at = measured(recording, POSITIONS, robot, "positions")
     effort = measured(recording, efforts, robot, "efforts")
@@ -142,8 +152,8 @@ def _run(
     named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
     times = [("t", recording.columns["t"])] if "t" in recording.columns else []
     checks.finite([*times, *named, *others.items()], where)
-    ticks = clock(recording, first)
-    q = joint_positions(at, robot, recording)
+    ticks = clock(recording, beginning.first)
+    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     checks.positions(q, at, robot, ticks.period, where, resting)
     for stem in ("qs", "qr"):
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
@@ -164,8 +174,28 @@ def _run(
     if unusable is not None:
         unusable = _on_joints(unusable, effort, robot)
     place = where(None, "t")
-    return Run(
-        source, place, ticks.start, ticks.period, q, tau, payload, unusable, others, recording.sha256, tuple(notes)
+    run = Run(source, place, ticks.start, ticks.period, q, tau, payload, unusable, None, others, recording.sha256)
+    return replace(_corrected(run, robot, beginning.began), notes=tuple(notes))
+
+
+def _corrected(run: Run, robot: Robot, began: Mapping[str, float]) -> Run:
+    """The run with its torques and further columns as they truly were, and with the warmth of the drives."""
+    t = run.start - began["t"] + run.period * np.arange(run.samples, dtype=float)
+    rises = {name: values - began[name] for name, values in run.others.items() if name.startswith("temp")}
+    warmth = corrections.warmth(rises, t, robot, run.place)
+    marks = [one for one in (run.unusable, corrections.saturated(run.tau, robot)) if one is not None]
+    unusable = corrections.moved(np.logical_or.reduce(marks), robot, run.period) if marks else None
+    tau = corrections.true_torques(run.tau, robot, run.period, warmth)
+    others = corrections.true_links(run.others, robot, run.period)
+    kept = corrections.whole(run.samples, robot, run.period)
+    return replace(
+        run,
+        start=run.start + run.period * kept.start,
+        q=run.q[:, kept],
+        tau=tau[:, kept],
+        unusable=None if unusable is None else unusable[:, kept],
+        warmth=None if warmth is None else warmth[:, kept],
+        others={name: values[kept] for name, values in others.items()},
     )
 
 

@@ -7,7 +7,8 @@ over many samples, say) comes in here and changes nothing above.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import ModuleType
 from typing import Any
@@ -20,12 +21,14 @@ from generator.backends import numpy as numpy_backend
 from generator.derivation import derive
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
+from identification.effect_states import integrated
 
 Array = NDArray[np.float64]
 
 #: The generated functions that identification calls.
-FUNCTIONS = ("regressor_packed", "payload_regressor", "inverse_dynamics", "inertia_matrix")
+FUNCTIONS = ("regressor_packed", "payload_regressor", "inverse_dynamics", "inertia_matrix", "effect_rates")
 
 #: Samples that stay in the processor's cache while a block is computed.
 _BLOCK = 4096
@@ -33,15 +36,30 @@ _BLOCK = 4096
 
 @dataclass(frozen=True)
 class Motion:
-    """Positions, speeds and accelerations (n x N each) [rad, m, s]."""
+    """Positions, speeds and accelerations (n x N each) [rad, m, s].
+
+    ``states`` inside effects (s x N) and the drives' ``warmth`` (n x N) are zero where they are None.
+    """
 
     q: Array
     qd: Array
     qdd: Array
+    states: Array | None = None
+    warmth: Array | None = None
 
     def part(self, start: int, end: int) -> Motion:
         """Samples ``start`` to ``end``, not included."""
-        return Motion(self.q[:, start:end], self.qd[:, start:end], self.qdd[:, start:end])
+        return self.at(slice(start, end))
+
+    def at(self, samples: slice | NDArray[np.int64]) -> Motion:
+        """Some of the samples."""
+        signals = (self.q, self.qd, self.qdd, self.states, self.warmth)
+        return Motion(*(None if one is None else one[:, samples] for one in signals))  # type: ignore[arg-type]
+
+    def of_joints(self, order: Sequence[int]) -> Motion:
+        """The motion with joint k moving as joint ``order[k]`` did; the states stay what they were."""
+        k = list(order)
+        return replace(self, q=self.q[k], qd=self.qd[k], qdd=self.qdd[k])
 
     @property
     def samples(self) -> int:
@@ -50,10 +68,33 @@ class Motion:
 
 
 class Regressors:
-    """The regressors of one robot over many samples."""
+    """The regressors of one robot over many samples.
+
+    Where a column reads the static load it is that of the parameters ``values`` by name [SI], absent ones zero.
+    """
 
     def __init__(self, robot: Robot) -> None:
         self.model: Model = derive(robot, names=FUNCTIONS)
+        self.values: Mapping[str, float] = {}
+
+    def loaded_by(self, values: Mapping[str, float]) -> Regressors:
+        """The same with the static load that ``values`` make."""
+        result = copy(self)
+        result.values = dict(values)
+        return result
+
+    @property
+    def reads_load(self) -> bool:
+        """Whether a column depends on the parameters, by the load that they make."""
+        return reads(self.model.effects, "load")
+
+    def completed(self, motion: Motion, period: float) -> Motion:
+        """The motion, sampled every ``period`` [s], with the states inside effects, which start at zero."""
+        count = len(self.model.effect_states)
+        if not count:
+            return motion
+        rates = self._generated.effect_rates
+        return replace(motion, states=integrated(rates, motion.q, motion.qd, period, count))
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -82,11 +123,7 @@ class Regressors:
 
     def torques(self, parameters: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""
-        vector = self.model.default_parameters()
-        for k, parameter in enumerate(self.model.parameters):
-            vector[k] = parameters.get(parameter.name, vector[k] if k >= len(self.names) else 0.0)
-        tau: Array = self._generated.inverse_dynamics(vector, motion.q.T, motion.qd.T, motion.qdd.T)
-        return tau.T
+        return self._evaluated("inverse_dynamics", motion, parameters).T
 
     @cached_property
     def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
@@ -102,19 +139,31 @@ class Regressors:
 
     def _blocks(self, name: str, motion: Motion, rows: int) -> Array:
         """Outputs of a generated function (rows x N)."""
-        function: Any = getattr(self._generated, name)
-        needed = [self._lengths] if self.model.functions[name].uses_parameters else []
         result = np.empty((rows, motion.samples))
         for start in range(0, motion.samples, _BLOCK):
             part = motion.part(start, start + _BLOCK)
-            values = function(*needed, part.q.T, part.qd.T, part.qdd.T)
+            values = self._evaluated(name, part, self.values)
             result[:, start : start + part.samples] = values.reshape(part.samples, rows).T
         return result
 
-    @cached_property
-    def _lengths(self) -> Array:
-        """The parameter vector of a regressor, which depends on symbolic lengths alone."""
-        return self.model.default_parameters()
+    def _evaluated(self, name: str, motion: Motion, parameters: Mapping[str, float]) -> Array:
+        """A generated function along a motion (N x ...), given what it reads."""
+        function = self.model.functions[name]
+        states = np.zeros((len(self.model.effect_states), 1)) if motion.states is None else motion.states
+        warmth = np.zeros((self.model.dof, 1)) if motion.warmth is None else motion.warmth
+        signals = {"q": motion.q, "qd": motion.qd, "qdd": motion.qdd, STATES: states, WARMTH: warmth}
+        inputs = [signals[signal.name].T for signal in function.inputs]
+        if function.uses_parameters:
+            inputs.insert(0, self._vector(parameters))
+        result: Array = getattr(self._generated, name)(*inputs)
+        return result
+
+    def _vector(self, values: Mapping[str, float]) -> Array:
+        """Values by name as the generated functions take them, with nominal lengths where they are absent."""
+        vector = self.model.default_parameters()
+        for k, parameter in enumerate(self.model.parameters):
+            vector[k] = values.get(parameter.name, vector[k])
+        return vector
 
     @cached_property
     def _generated(self) -> Any:

@@ -66,7 +66,7 @@ def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
     )
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
-    motion = Motion(q[:, inner], qd[:, inner], qdd[:, inner])
+    motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
     left_out = standing(regressors.signs, motion.qd, recipe.standstill)
     left_out[list(still)] = False
     if run.unusable is not None:
@@ -85,7 +85,7 @@ def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:
             row += one.run.payload.names().values()
     times = one.times
     factor = one.filters.factor
-    keep = [_kept(one.left_out[k], factor) for k in range(len(names))]
+    keep = [kept_rows(one.left_out[k], factor) for k in range(len(names))]
     indices = kept_indices(one.motion.samples, factor)
     for part in _decimated_parts(one, regressors):
         for k, (W, Y) in enumerate(part.columns):
@@ -142,7 +142,7 @@ def _columns(one: Sampled, regressors: Regressors, start: int, end: int) -> list
     return [(W, one.tau[k, start:end]) for k, W in enumerate(base)]
 
 
-def _kept(left_out: NDArray[np.bool_], factor: int) -> NDArray[np.bool_]:
+def kept_rows(left_out: NDArray[np.bool_], factor: int) -> NDArray[np.bool_]:
     """Which decimated rows have no left-out sample in their window, ``factor`` samples to either side."""
     indices = kept_indices(len(left_out), factor)
     if not left_out.any():

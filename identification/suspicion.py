@@ -55,7 +55,7 @@ def _swapped(run: Observed, regressors: Regressors, bad: Sequence[int]) -> None:
     one = run.sampled
     tau = smoothed(one.tau, one.filters.order, one.filters.cutoff, one.filters.rate)
     thin = np.unique(np.linspace(0, one.motion.samples - 1, _THINNED).astype(int))
-    motion = Motion(*(signal[:, thin] for signal in (one.motion.q, one.motion.qd, one.motion.qdd)))
+    motion = one.motion.at(thin)
     tau, used = tau[:, thin], ~one.left_out[:, thin]
     straight = list(range(len(tau)))
     given = _Thinned(regressors, motion, tau, used)
@@ -66,7 +66,7 @@ def _swapped(run: Observed, regressors: Regressors, bad: Sequence[int]) -> None:
             continue
         order = straight.copy()
         order[i], order[k] = k, i
-        other = _Thinned(regressors, Motion(motion.q[order], motion.qd[order], motion.qdd[order]), tau, used[order])
+        other = _Thinned(regressors, motion.of_joints(order), tau, used[order])
         for name, misfit in (
             ("torques", given.misfit(order)),
             ("positions", other.misfit(straight)),

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.errors import Place
 from generator.robot.readers import read
 from identification.dataset import Run as Recorded
 from identification.diagnosis.scene import Scene
+from identification.filtering import decimated, kept_indices
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sampling import sampled
@@ -19,14 +21,14 @@ from tests.plant.measurement import Sensors
 from tests.plant.robot import Array, Robot
 from tests.plant.robot_file import PRIOR, robot_file
 from tests.plant.run import Run
-from tests.plant.simulate import make_run
+from tests.plant.simulate import make_run, own_effects
 from tests.plant.size import effect_torque
 from tests.plant.trajectory import Trajectory
 
 #: No noise, no steps: what is left between log and model is the effect.
 CLEAN = Sensors(noise=0.0, quantised=False)
-#: Cut-off of the motion's filter [Hz].
-CUTOFF = 50.0
+#: Cut-off of the motion's filter [Hz], decimation of its rows, and speed below which a joint stands, in parts of its rms.
+CUTOFF, FACTOR, SLOW = 50.0, 10, 0.04
 
 
 @dataclass(frozen=True)
@@ -63,17 +65,23 @@ def known(robot: Robot, folder: Path) -> Known:
     return Known(robot, regressors, values)
 
 
-def played(robot: Known, effect: Effect, trajectory: Trajectory, sensors: Sensors = CLEAN) -> tuple[Scene, Array]:
-    """A run with an effect, and what the effect adds to the logged torque (n x N) at the scene's samples."""
-    run = make_run(robot.robot, trajectory, [effect], sensors=sensors)
+def played(
+    robot: Known, effect: Effect, trajectory: Trajectory, sensors: Sensors = CLEAN
+) -> tuple[Scene, Array, NDArray[np.bool_]]:
+    """A run with an effect beside what the robot's file has: its scene, what the effect adds to the logged torque
+    (n x N), and rows that count (n x M, ``decimated``): those in whose window the joint moves.
+    """
+    own = [one for one in own_effects(robot.robot) if not one.law.startswith("wrist")]
+    run = make_run(robot.robot, trajectory, [effect], sensors=sensors, own=own)
     scene = robot.scene(run)
     first = scene.sampled.filters.first
     truth = effect_torque(run, effect).T[:, first : first + scene.motion.samples]
-    return scene, truth
-
-
-def moving(scene: Scene, share: float = 0.1) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Samples (N) in which every joint is faster than ``share`` of its own rms speed."""
     speed = np.abs(scene.motion.qd)
-    rms = np.sqrt(np.mean(speed**2, axis=1, keepdims=True))
-    return np.asarray(np.all(speed > share * rms, axis=0))
+    standing = speed < SLOW * np.sqrt(np.mean(speed**2, axis=1, keepdims=True))
+    windows = np.apply_along_axis(np.convolve, 1, standing.astype(float), np.ones(2 * FACTOR + 1), "same")
+    return scene, truth, windows[:, kept_indices(scene.motion.samples, FACTOR)] < 0.5
+
+
+def rows(x: Array) -> Array:
+    """Signals (... x N) as a diagnosis looks at them."""
+    return decimated(x, FACTOR)

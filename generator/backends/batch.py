@@ -49,14 +49,20 @@ class LaneFunction:
     unread: tuple[str, ...]
 
 
+def applies(model: Model) -> bool:
+    """Whether there are functions of many samples: for a model with what they are made of, of the motion alone."""
+    made_of = (_DYNAMICS, _REGRESSOR)
+    if not {*made_of} <= model.functions.keys():
+        return False
+    return all(signal.name in _INPUTS for name in made_of for signal in model.functions[name].inputs)
+
+
 def emit(model: Model) -> dict[str, str | bytes]:
     """The header and the source by their paths.
 
     Nothing for a model without the functions that they are made of, or whose effects read more than the motion.
     """
-    if not {_DYNAMICS, _REGRESSOR} <= model.functions.keys():
-        return {}
-    if any(signal.name not in _INPUTS for name in (_DYNAMICS, _REGRESSOR) for signal in model.functions[name].inputs):
+    if not applies(model):
         return {}
     prefix = model.robot.name
     prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})

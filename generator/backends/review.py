@@ -12,10 +12,14 @@ from generator.version import VERSION
 NAME = "review"
 
 
+def groupings(model: Model) -> str:
+    """The text of ``groupings.md``."""
+    return render("review/groupings.md.jinja", document=documents.markdown(model))
+
+
 def emit(model: Model) -> dict[str, str | bytes]:
     """The files of the review by their paths: ``groupings.md``, ``groupings.tex``, ``review.html``."""
     robot = model.robot
-    texts = documents.markdown(model)
     page = {
         "title": element("title", f"{robot.name}: model review"),
         "heading": element("h1", robot.name),
@@ -26,7 +30,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "version": VERSION,
     }
     return {
-        "groupings.md": render("review/groupings.md.jinja", document=texts),
-        "groupings.tex": render("review/groupings.tex.jinja", document=documents.tex(model, texts)),
+        "groupings.md": groupings(model),
+        "groupings.tex": render("review/groupings.tex.jinja", document=documents.tex(model, documents.markdown(model))),
         "review.html": render("review/page.html.jinja", **page),
     }

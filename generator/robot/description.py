@@ -100,8 +100,10 @@ class Signals:
     """How recorded signals differ from the model's, one exact value per moving joint; empty where they do not.
 
     True position = recorded + ``position_offset`` [rad, m]; true motor torque = recorded times ``torque_gain``. What is
-    recorded as motor torque or current was true ``torque_delay`` [s] before, as link-side position ``link_delay`` [s]
-    before. Currents saturate at ``current_limit`` [A] either way. Nothing of it is in the generated functions.
+    recorded as motor torque or current was true ``torque_delay`` [s] before (it will be, where that is negative), as
+    link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. A drive's warmth
+    is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K]. Nothing of it is in the
+    generated functions.
     """
 
     position_offset: tuple[sympy.Expr, ...] = ()
@@ -109,6 +111,8 @@ class Signals:
     torque_delay: tuple[sympy.Expr, ...] = ()
     link_delay: tuple[sympy.Expr, ...] = ()
     current_limit: tuple[sympy.Expr, ...] = ()
+    warm_up_time: tuple[sympy.Expr, ...] = ()
+    warm_rise: tuple[sympy.Expr, ...] = ()
 
 
 @dataclass(frozen=True)

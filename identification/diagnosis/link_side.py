@@ -7,22 +7,35 @@ turn with the motor and do not see e.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.symbolic.model import Model
-from identification.diagnosis.hypothesis import ShapeRange
-from identification.diagnosis.perturbation import change_of, sensitivity
+from identification.diagnosis.perturbation import sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
+Value: TypeAlias = float | Array
 
-#: Parts of a base parameter that are tried for a rotor's inertia that is grouped in it.
-_SHARES = (0.1, 0.9)
+#: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
+_SHARE = 0.5
+
+
+@dataclass(frozen=True)
+class Train:
+    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``damping`` the ratio d / (2 sqrt(k M)) of the link on it,
+    the motor held, ``gap`` its play [rad, m]. Arrays are many of them.
+    """
+
+    stiffness: Value
+    damping: Value
+    gap: Value = 0.0
 
 
 @dataclass(frozen=True)
@@ -48,9 +61,44 @@ class LinkSide:
         result: Array = self.torque_on(self.scene.motion)[self.k]
         return result
 
-    def torque_per(self, deflection: Array) -> Array:
-        """Change of the motors' torques (n x N) per unit of a deflection q_l - q (N) [rad, m]."""
-        return sensitivity(self.torque_on, self.scene.motion, change_of(self.scene, self.k, deflection))
+    @cached_property
+    def inertia(self) -> Array:
+        """Of the links about the joint (N) [kg m2, kg]."""
+        motion = self.scene.motion
+        quicker = motion.qdd.copy()
+        quicker[self.k] += 1.0
+        result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
+        return result
+
+    def steps(self, train: Train, end: int | None = None) -> Iterator[tuple[Value, Value, Value]]:
+        """Position, speed and acceleration of the joint's link against the motor, sample by sample up to ``end``:
+        M e'' + d e' + k z = -tau_link(q), z what e is beyond the gap, d nothing within it.
+
+        To the first order in 1/k and without a gap e is -tau_link/k, but that holds far below the resonance alone.
+        """
+        h, half, k = self.scene.period, train.gap / 2, train.stiffness
+        d = 2 * train.damping * np.sqrt(k * float(np.mean(self.inertia)))
+        e: Value = -(half * np.sign(self.load[0]) + self.load[0] / k)
+        v: Value = 0.0 * e
+        for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
+            beyond = e - (abs(e + half) - abs(e - half)) / 2
+            a = -(load + k * beyond + (abs(e) > half) * d * v) / M
+            yield e, v, a
+            v = v + h * a
+            e = e + h * v
+
+    def deflection(self, train: Train) -> Motion:
+        """The link's motion against the motor's on a drive train of plain numbers."""
+        plain = Train(float(train.stiffness), float(train.damping), float(train.gap))
+        own = np.array(list(self.steps(plain))).T
+        moved = [np.zeros_like(self.scene.motion.q) for _ in own]
+        for signal, x in zip(moved, own, strict=True):
+            signal[self.k] = x
+        return Motion(*moved)
+
+    def torque_per(self, deflection: Motion) -> Array:
+        """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
+        return sensitivity(self.torque_on, self.scene.motion, deflection)
 
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
@@ -69,14 +117,12 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     return result
 
 
-def rotor_inertia(scene: Scene, k: int) -> float | ShapeRange | None:
-    """Inertia of the joint's drive train [kg m2, kg]: as the robot's file or the fit has it, else what to search in.
-
-    None where the base parameter that holds it has no positive value, so that nothing can be said.
+def rotor_inertia(scene: Scene, k: int) -> float:
+    """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
+    half of the base parameter that it is grouped in, 0 where the model has none.
     """
     model = scene.regressors.model
-    joint = model.robot.moving[k]
-    name = f"Ia{joint.number}"
+    name = f"Ia{model.robot.moving[k].number}"
     if name in scene.values:
         return scene.values[name]
     for one in model.robot.parameter_sets.values():
@@ -84,9 +130,7 @@ def rotor_inertia(scene: Scene, k: int) -> float | ShapeRange | None:
             return one.values[name].value
     for title, terms in model.grouping.numeric().items():
         if name in terms:
-            whole = scene.values.get(title, 0.0) / terms[name]
-            unit = "kg m2" if joint.sigma == 0 else "kg"
-            return ShapeRange("Iam", unit, *(share * whole for share in _SHARES), 4, log=False) if whole > 0 else None
+            return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
     return 0.0
 
 

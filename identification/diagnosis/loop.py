@@ -75,9 +75,7 @@ def search(
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = selection.normal.solution(columns)
         values = dict(zip(bank.base, solution.tolist(), strict=False))
-    return Search(
-        bank, selection, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate)
-    )
+    return Search(bank, selection, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
 
 
 def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:

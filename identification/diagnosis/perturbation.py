@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,4 +46,6 @@ def scaled(scene: Scene, k: int, factor: float) -> Motion:
 
 
 def _moved(motion: Motion, change: Motion, step: float) -> Motion:
-    return Motion(motion.q + step * change.q, motion.qd + step * change.qd, motion.qdd + step * change.qdd)
+    return replace(
+        motion, q=motion.q + step * change.q, qd=motion.qd + step * change.qd, qdd=motion.qdd + step * change.qdd
+    )

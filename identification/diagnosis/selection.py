@@ -34,6 +34,8 @@ _OF_SPEED = ("qd", "time since reversal")
 _BETTER, _EQUAL = 6.0, 0.01
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
+#: Part of an effect by which runs may differ beyond chance: laws wander.
+_UNLIKE = 0.25
 _MOST, _ROUNDS = 8, 3
 #: Hypotheses whose pairs are tried when single ones do not do.
 _PAIRED = 30
@@ -233,7 +235,9 @@ class Selection:
         best: tuple[float, list[Variant]] = (0.0, [])
         for one, other in combinations([each.variant for each in single], 2):
             at = np.array([*one.columns, *other.columns]) - self.normal.base
-            bounds = [np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)]
+            bounds = [
+                np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)
+            ]
             size = np.diag(self.normal.gram)[[*one.columns, *other.columns]]
             _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
             if drop > best[0]:
@@ -248,9 +252,36 @@ class Selection:
         near = [
             other
             for other in self.evidence(others)
-            if _key(other.variant) != _key(one) and other.passes and other.score > mine.score - max(_EQUAL * mine.drop, 2.0)
+            if _key(other.variant) != _key(one)
+            and other.passes
+            and other.score > mine.score - max(_EQUAL * mine.drop, 2.0)
         ]
         return Choice(mine, tuple(near))
+
+    def homogeneous(self, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether the runs agree on one amplitude: each run's own along the common one, within four deviations."""
+        chosen = [*_columns(others), *variant.columns]
+        solution, _ = self.normal.solution(chosen)
+        theta = solution[-len(variant.columns) :]
+        amplitudes, variances = [], []
+        for r in self._train:
+            G = self.bank.grams[r]
+            at = list(variant.columns)
+            effect = G[:, at] @ theta
+            power = float(theta @ effect[at])
+            rest = np.zeros(len(G))
+            rest[[*range(self.normal.base), *chosen]] = -solution
+            rest[-1] = 1.0
+            if power <= 1.0:
+                continue
+            amplitudes.append(float(effect @ rest) / power)
+            variances.append(1 / power)
+        if len(amplitudes) < 2:
+            return True
+        weight = 1 / np.array(variances)
+        mean = float(weight @ amplitudes / weight.sum())
+        off = np.abs(np.array(amplitudes) - mean)
+        return bool(np.all(off < 4 * np.sqrt(variances) + _UNLIKE))
 
     # -- what cannot be seen --------------------------------------------------------------------------------------
 

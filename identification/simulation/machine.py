@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,7 +12,7 @@ from typing import Any
 from generator.backends import batch, c, python, simulation
 from generator.derivation import derive
 from generator.errors import InputError
-from generator.python_library import build_library
+from generator.python_library import build_library, load_library
 from generator.robot.description import Robot
 from generator.symbolic.model import Model
 from generator.writing import replace
@@ -68,16 +67,7 @@ def compiled(robot: Robot) -> Iterator[Machine]:
                 files[f"{name}/{path}"] = content.encode() if isinstance(content, str) else content
         replace(folder, files)
         build_library(folder, robot.name)
-        module = _loaded(folder / "python" / f"{robot.name}.py")
+        module = load_library(folder, robot.name)
         if not hasattr(module, "PLANTS"):
             raise InputError(robot.place, "an effect of this robot cannot be simulated", "effects of q and qd")
         yield Machine(model, module)
-
-
-def _loaded(path: Path) -> Any:
-    specification = importlib.util.spec_from_file_location(path.stem, path)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module

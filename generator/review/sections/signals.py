@@ -20,6 +20,8 @@ _COLUMNS = {
     "torque_delay": ("torque recorded late by", "s"),
     "link_delay": ("link position recorded late by", "s"),
     "current_limit": ("current saturates at", "A"),
+    "warm_up_time": ("drive warms up with time constant", "s"),
+    "warm_rise": ("drive is warm after a rise of", "K"),
 }
 
 

@@ -21,8 +21,8 @@ Check = Callable[[Place, str, sympy.Expr], None]
 def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
 
-    Raises InputError for another number of values, another unit, a delay that is negative or over 0.1 s, a gain that
-    is not between 1/2 and 2, a limit that is not positive.
+    Raises InputError for another number of values, another unit, a delay over 0.1 s, one of link-side positions that is
+    negative, a gain that is not between 1/2 and 2, a limit, time or rise that is not positive.
     """
     if entry is None:
         return Signals()
@@ -31,9 +31,11 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     kinds: dict[str, tuple[Sequence[str], Check]] = {
         "position_offset": (position, _any),
         "torque_gain": (["1"] * len(moving), _gain),
-        "torque_delay": (["s"] * len(moving), _delay),
+        "torque_delay": (["s"] * len(moving), _either_way),
         "link_delay": (["s"] * len(moving), _delay),
-        "current_limit": (["A"] * len(moving), _limit),
+        "current_limit": (["A"] * len(moving), _positive("A", "current")),
+        "warm_up_time": (["s"] * len(moving), _positive("s", "time")),
+        "warm_rise": (["K"] * len(moving), _positive("K", "rise of temperature")),
     }
     keys = fields.table(entry.value, "signals", (), tuple(kinds))
     found = {key: _values(one.value, key, moving, *kinds[key]) for key, one in keys.items()}
@@ -62,11 +64,19 @@ def _gain(place: Place, what: str, value: sympy.Expr) -> None:
         raise InputError(place, f"{what} is {float(value):g}", "a factor from 0.5 to 2")
 
 
+def _either_way(place: Place, what: str, value: sympy.Expr) -> None:
+    if not -_LONGEST_DELAY <= value <= _LONGEST_DELAY:
+        raise InputError(place, f"{what} is {float(value):g} s", "a time from -0.1 to 0.1 s")
+
+
 def _delay(place: Place, what: str, value: sympy.Expr) -> None:
     if not 0 <= value <= _LONGEST_DELAY:
         raise InputError(place, f"{what} is {float(value):g} s", "a time from 0 to 0.1 s")
 
 
-def _limit(place: Place, what: str, value: sympy.Expr) -> None:
-    if value <= 0:
-        raise InputError(place, f"{what} is {float(value):g} A", "a positive current")
+def _positive(unit: str, expected: str) -> Check:
+    def check(place: Place, what: str, value: sympy.Expr) -> None:
+        if value <= 0:
+            raise InputError(place, f"{what} is {float(value):g} {unit}", f"a positive {expected}")
+
+    return check

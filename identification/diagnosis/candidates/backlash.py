@@ -1,4 +1,4 @@
-"""Play of a drive train: the link hangs half the gap behind the motor, on the side that its load pushes it to."""
+"""Play of a drive train: the link falls through the gap wherever its load changes sign, and swings where it lands."""
 
 from __future__ import annotations
 
@@ -8,62 +8,82 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.robot.description import PRISMATIC, Robot
+from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, rotor_inertia
+from identification.diagnosis.link_side import LinkSide, Train
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.swings import DAMPING, best, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
 
-#: Loads within which the link crosses the gap, in parts of the load's rms.
-_QUICKEST, _SLOWEST = 0.02, 0.5
+#: Times [s] in which a link falls through the gap that are looked for.
+_QUICKEST, _SLOWEST = 0.01, 0.2
+#: Stiffnesses, damping ratios and gaps that are looked at.
+_STEPS, _DAMPINGS, _GAPS = 10, 2, 24
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint without a gap in the robot's file and without an encoder on its link; the coefficient is ``gap``.
+    """One a joint without a gap in the robot's file and without an encoder on its link.
 
-    The link crosses the gap as tanh(load / width) does: by the gap's middle at no load, smoothly, as the drive train's
-    elasticity has it.
+    The coefficient is the gap by the torque's size, the shape ``gap`` that by the times of its crossing; they agree
+    where ``Iam``, the drive train's inertia, is known. ``k`` is the stiffness beyond the gap.
     """
     if not scenes:
         return []
-    robot = scenes[0].robot
     found = []
-    for k, joint in enumerate(robot.moving):
-        rotor = rotor_inertia(scenes[0], k)
-        watched = any(f"qs{joint.number}" in scene.sampled.run.others for scene in scenes)
-        if watched or rotor is None or _has_gap(robot, joint.number):
-            continue
-        inertia = rotor.grid()[0] if isinstance(rotor, ShapeRange) else rotor
-        load = float(np.sqrt(np.mean([np.mean(LinkSide(scene, k, inertia).load ** 2) for scene in scenes])))
-        if not load:
-            continue
-        prismatic = joint.sigma == PRISMATIC
-        width = ShapeRange("width", "N" if prismatic else "N m", _QUICKEST * load, _SLOWEST * load)
-        searched = isinstance(rotor, ShapeRange)
-        found.append(
-            Hypothesis(
-                "backlash",
-                "backlash",
-                joint.number,
-                (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
-                partial(_columns, k),
-                shapes=(width, rotor) if isinstance(rotor, ShapeRange) else (width,),
-                given={} if searched else {"Iam": float(rotor)},  # type: ignore[arg-type]
-                kind=ELASTIC,
-                joints=(joint.number,),
-                variable="load",
-                would_show="a load that changes its sign while the joint moves, or an encoder on the link",
-                separating={
-                    "joint_elasticity": "the same motion with a load that never changes its sign: backlash vanishes",
-                    "dahl_friction": "reversals under a load that keeps its sign: presliding shows at each, backlash "
-                    "at none",
-                    "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at "
-                    "none",
-                },
-            )
-        )
+    for k, joint in enumerate(scenes[0].robot.moving):
+        if not _has_gap(scenes[0].robot, joint.number) and not watched(scenes, k):
+            side = liveliest(scenes, k)
+            found += [] if side is None or not _changes_sign(side) else [_hypothesis(k, joint, side)]
     return found
+
+
+def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
+    prismatic = joint.sigma == PRISMATIC
+    softest, stiffest = stiffnesses(side)
+    narrow, wide = _gaps(side)
+    stiffness, damping, gap = best(
+        side,
+        [
+            np.geomspace(softest, stiffest, _STEPS),
+            np.geomspace(*DAMPING, _DAMPINGS),
+            np.geomspace(narrow, wide, _GAPS),
+        ],
+    )
+    return Hypothesis(
+        "backlash",
+        "backlash",
+        joint.number,
+        (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
+        partial(_columns, k),
+        shapes=(
+            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, points=(gap,)),
+            ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, points=(stiffness,)),
+            ShapeRange("damping", "1", *DAMPING, points=(damping,)),
+        ),
+        given={"Iam": side.rotor},
+        kind=ELASTIC,
+        joints=(joint.number,),
+        variable="load",
+        would_show="a load that changes its sign while the joint moves, or an encoder on the link",
+        separating={
+            "joint_elasticity": "the same motion with a load that never changes its sign: backlash vanishes",
+            "dahl_friction": "reversals under a load that keeps its sign: presliding shows at each, backlash at none",
+            "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
+        },
+        tries=_STEPS * _DAMPINGS * _GAPS,
+    )
+
+
+def _changes_sign(side: LinkSide) -> bool:
+    return bool(np.any(side.load > 0) and np.any(side.load < 0))
+
+
+def _gaps(side: LinkSide) -> tuple[float, float]:
+    """The narrowest and the widest gap that is looked for: M e'' = -tau_link' t, so e = tau_link' t^3 / (6 M)."""
+    rate = float(np.sqrt(np.mean(side.scene.rate(side.load) ** 2)))
+    each = rate / (6 * float(np.mean(side.inertia)))
+    return each * _QUICKEST**3, each * _SLOWEST**3
 
 
 def _has_gap(robot: Robot, number: int) -> bool:
@@ -73,4 +93,5 @@ def _has_gap(robot: Robot, number: int) -> bool:
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     side = LinkSide(scene, k, shape["Iam"])
-    return side.torque_per(-0.5 * np.tanh(side.load / shape["width"]))[None]
+    deflection = side.deflection(Train(shape["k"], shape["damping"], shape["gap"]))
+    return side.torque_per(deflection)[None] / shape["gap"]

@@ -40,9 +40,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     robot = scenes[0].robot
     gravity = sympy.Matrix(robot.gravity)
     along = max(range(3), key=lambda axis: abs(float(gravity[axis])))
-    weights = {
-        "xyz"[axis]: Weight(robot, gravity.cross(sympy.eye(3).col(axis))) for axis in range(3) if axis != along
-    }
+    weights = {"xyz"[axis]: Weight(robot, gravity.cross(sympy.eye(3).col(axis))) for axis in range(3) if axis != along}
     model = scenes[0].regressors.model
     hidden = _hidden(weights, model, _some_positions(scenes))
     columns = _Columns(model, weights, hidden)

@@ -1,4 +1,4 @@
-"""Drive trains that give way under their load: q_link = q_motor - tau_link / k."""
+"""Drive trains that give way under their load: q_link = q_motor - tau_link / k, and swing."""
 
 from __future__ import annotations
 
@@ -8,55 +8,68 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.robot.description import PRISMATIC
+from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, rotor_inertia
+from identification.diagnosis.link_side import LinkSide, Train
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.swings import DAMPING, best, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
+
+#: Stiffnesses and damping ratios that are looked at.
+_STEPS, _DAMPINGS = 60, 3
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """One a joint whose drive train is stiff in the robot's file and whose link has no encoder of its own.
 
-    The coefficient is the compliance 1/k, of which the torque holds the first order. Where the inertia of the drive
-    train is grouped with that of the links, it is a shape: ``Iam`` of the flexible model.
+    The coefficient is the compliance 1/k by the torque's size, the shape ``k`` the stiffness by the frequency of the
+    swing; they agree where ``Iam``, the drive train's inertia, is known.
     """
     if not scenes:
         return []
-    robot = scenes[0].robot
     found = []
-    for k, joint in enumerate(robot.moving):
-        rotor = rotor_inertia(scenes[0], k)
-        watched = any(f"qs{joint.number}" in scene.sampled.run.others for scene in scenes)
-        if joint.number in robot.flexible or watched or rotor is None:
-            continue
-        searched = isinstance(rotor, ShapeRange)
-        found.append(
-            Hypothesis(
-                "joint_elasticity",
-                "elasticity of the drive train",
-                joint.number,
-                (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
-                partial(_columns, k),
-                shapes=(rotor,) if isinstance(rotor, ShapeRange) else (),
-                given={} if searched else {"Iam": float(rotor)},  # type: ignore[arg-type]
-                kind=ELASTIC,
-                joints=(joint.number,),
-                variable="frequency",
-                would_show="motion up to a third of the joint's resonance, or an encoder on the link",
-                separating={
-                    "torque_delay": "speed steps at constant load: a delay shows at every step alike, elasticity by "
-                    "the load's inertia",
-                    "backlash": "the same motion with a load that never changes its sign: backlash vanishes",
-                    "rotor_inertia": "a sweep of the frequency: inertia's torque grows with the square, elasticity's "
-                    "with the fourth power",
-                },
-            )
-        )
+    for k, joint in enumerate(scenes[0].robot.moving):
+        if joint.number not in scenes[0].robot.flexible and not watched(scenes, k):
+            side = liveliest(scenes, k)
+            found += [] if side is None else [_hypothesis(k, joint, side)]
     return found
+
+
+def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
+    prismatic = joint.sigma == PRISMATIC
+    low, high = stiffnesses(side)
+    stiffness, damping, _ = best(
+        side, [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)]
+    )
+    # The stiffest swings too fast to be seen and shows its deflection alone.
+    points = tuple(sorted({stiffness, high}))
+    return Hypothesis(
+        "joint_elasticity",
+        "elasticity of the drive train",
+        joint.number,
+        (Coefficient(f"compliance{joint.number}", "m/N" if prismatic else "rad/(N m)", 0.0),),
+        partial(_columns, k),
+        shapes=(
+            ShapeRange("k", "N/m" if prismatic else "N m/rad", low, high, points=points),
+            ShapeRange("damping", "1", *DAMPING, points=(damping,)),
+        ),
+        given={"Iam": side.rotor},
+        kind=ELASTIC,
+        joints=(joint.number,),
+        variable="frequency",
+        would_show="motion up to a third of the joint's resonance, or an encoder on the link",
+        separating={
+            "torque_delay": "speed steps at constant load: a delay shows at every step alike, elasticity by the "
+            "load's inertia",
+            "backlash": "the same motion with a load that never changes its sign: backlash vanishes",
+            "rotor_inertia": "a sweep of the frequency: inertia's torque grows with the square, elasticity's with the "
+            "fourth power",
+        },
+        tries=_STEPS * _DAMPINGS,
+    )
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     side = LinkSide(scene, k, shape["Iam"])
-    return side.torque_per(-side.load)[None]
+    return shape["k"] * side.torque_per(side.deflection(Train(shape["k"], shape["damping"])))[None]

@@ -25,9 +25,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         return []
     robot = scenes[0].robot
     stated = robot.signals.position_offset
-    return [
-        _hypothesis(k, joint) for k, joint in enumerate(robot.moving) if not (stated and stated[k])
-    ]
+    return [_hypothesis(k, joint) for k, joint in enumerate(robot.moving) if not (stated and stated[k])]
 
 
 def _hypothesis(k: int, joint: Joint) -> Hypothesis:

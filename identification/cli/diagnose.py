@@ -1,0 +1,78 @@
+"""Find where a robot's model and recorded runs disagree, name the missing effect, and add it to the robot's file.
+
+Runs are as in `counterpoise identify`; FILE@FROM:TO takes a part of one, with times in s. Periodic motion with several
+periods a run is best. RUN are fitted, --validate holds the fit to account, --test is touched by nothing before the
+report; where one is missing, runs or parts of runs take its place. DIR receives diagnosis.json, report.html, the new
+robot file and the code generated from it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import stage
+from generator.errors import InputError
+from generator.resources import find_robot
+
+if TYPE_CHECKING:
+    from identification.diagnosis.diagnosis import Diagnosis
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, RUN, --validate, --test, --prior, --dry-run, --out."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("data", metavar="RUN", nargs="+", help="runs that are fitted")
+    parser.add_argument("--validate", metavar="RUN", nargs="+", default=[], help="runs that hold the fit to account")
+    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs that stay untouched to the end")
+    parser.add_argument("--prior", metavar="SET", help="parameter set of the robot that is known beforehand")
+    parser.add_argument("--dry-run", action="store_true", help="only where they disagree; nothing is named or written")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="default: diagnosed/ROBOT")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Diagnoses, writes the results, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification.diagnosis.command import diagnosed
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise diagnose"), f"{error.name} is not installed", extra) from None
+
+    path = find_robot(arguments.robot)
+    with stage(f"deriving the model of {path.stem}"):
+        robot = read(path)
+    folder = arguments.out or Path("diagnosed") / robot.name
+    found, files = diagnosed(
+        path, robot, arguments.data, arguments.validate, arguments.test, arguments.prior, folder, arguments.dry_run
+    )
+    print("\n".join(summary(found)))
+    if files:
+        print(f"files            {', '.join(files)} in {folder}/")
+
+
+def summary(found: Diagnosis) -> list[str]:
+    """Lines for the terminal: the verdict, where, what, how sure."""
+    lines = [f"{found.robot.name}: {found.verdict} ({found.mode})"]
+    lines += [f"note: {note}" for note in found.notes]
+    where = found.before
+    if where.joint:
+        region = f", {where.region}" if where.region else ""
+        lines.append(f"where            joint {where.joint}, over {where.variable or 'nothing in particular'}{region}")
+    for one in found.findings:
+        joints = ", ".join(map(str, one.joints))
+        lines.append(f"{one.status:<16} {one.hypothesis.title} on {joints}")
+        for name, value in one.parameters.items():
+            lines.append(f"                 {name} {value.value:.6g} +- {value.std:.2g} {value.unit}")
+        for name, number in one.shape.items():
+            lines.append(f"                 {name} {number:.4g}")
+        for other in one.alternatives:
+            text = f"or {other.title} on {', '.join(map(str, other.joints))}; apart by: {other.separating_experiment}"
+            lines.append(f"                 {text}")
+    if found.after.joint and found.verdict == "unexplained":
+        region = found.after.region or "nothing orders it"
+        lines.append(f"unexplained      joint {found.after.joint}, over {found.after.variable}: {region}")
+    return lines

@@ -1,0 +1,135 @@
+"""From what was recorded to what was true, as section ``signals`` of the robot file says (docs/robot_file.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
+
+from generator.effects.library import effects_of
+from generator.errors import InputError, Place
+from generator.robot.description import Robot
+from identification.recording import Array
+
+
+def true_positions(q: Array, robot: Robot) -> Array:
+    """Recorded joint positions (n x N) [rad, m] with their offsets."""
+    offset = robot.signals.position_offset
+    return q + _column(offset) if offset else q
+
+
+def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> Array | None:
+    """How warm each joint's drive is (n x N), ``t`` (N) [s] after the recording began; None if nothing says it.
+
+    By the ``rises`` [K] of the temperatures ``temp1`` ... (N each) since then over ``warm_rise`` where both are there,
+    else 1 - exp(-t/warm_up_time).
+
+    Raises InputError where an effect or the torque constants depend on it and nothing says it.
+    """
+    signals, names = robot.signals, [f"temp{joint.number}" for joint in robot.moving]
+    if signals.warm_rise and all(name in rises for name in names):
+        return np.asarray(np.stack([rises[name] for name in names]) / _column(signals.warm_rise))
+    if signals.warm_up_time:
+        return np.asarray(1 - np.exp(-t / _column(signals.warm_up_time)))
+    if needs_warmth(robot):
+        problem = f"nothing says how warm the drives of {robot.name} are, on which its torques depend"
+        expected = "warm_up_time, or warm_rise and columns temp, in section signals of the robot file"
+        raise InputError(place, problem, expected)
+    return None
+
+
+def needs_warmth(robot: Robot) -> bool:
+    """Whether torques depend on how warm the drives are."""
+    drifts = robot.drives is not None and any(robot.drives.torque_drift)
+    return drifts or any("warmth" in one.effect.needs for one in effects_of(robot))
+
+
+def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
+    """Joint torques (n x N) [N m, N] of motors as strong as their gain, drift and warmth make them, at their own time.
+
+    A recorded torque counts as a current times the torque constant: it drifts as the constant does. Torques beyond an
+    end of the recording are those of the end.
+    """
+    signals, drives = robot.signals, robot.drives
+    drift = drives.torque_drift if drives is not None else ()
+    if not (signals.torque_gain or signals.torque_delay or drift):
+        return tau
+    N = _coupling(robot)
+    motor = np.asarray(np.linalg.solve(N.T, tau), dtype=float)
+    if signals.torque_gain:
+        motor = _column(signals.torque_gain) * motor
+    if drift and warmth is not None:
+        motor = (1 + np.array([[float(part)] for part in drift]) * warmth) * motor
+    if signals.torque_delay:
+        motor = _earlier(motor, signals.torque_delay, period)
+    return np.asarray(N.T @ motor, dtype=float)
+
+
+def saturated(tau: Array, robot: Robot) -> NDArray[np.bool_] | None:
+    """Samples (n x N) of recorded torques that hold a current at or beyond its limit; None without a limit.
+
+    Raises InputError where no torque constants tell the currents.
+    """
+    limit, drives = robot.signals.current_limit, robot.drives
+    if not limit:
+        return None
+    if drives is None or not drives.torque_constants:
+        raise InputError(robot.place, "current_limit without torque constants", "torque_constants in drives")
+    constants = np.array([[float(kt)] for kt in drives.torque_constants[drives.torque_constant]])
+    current = np.linalg.solve(_coupling(robot).T, tau) / constants
+    beyond = np.abs(current) >= _column(limit) * (1 - 1e-9)
+    return np.asarray((_coupling(robot).T != 0).astype(int) @ beyond.astype(int) > 0)
+
+
+def moved(unusable: NDArray[np.bool_], robot: Robot, period: float) -> NDArray[np.bool_]:
+    """Marks of recorded torques (n x N) where the torques are at their own time; a sample more at each end."""
+    delays = robot.signals.torque_delay
+    if not delays:
+        return unusable
+    result = np.zeros_like(unusable)
+    for delay in set(delays):
+        first = int(np.floor(float(delay) / period))
+        for steps in (first, first + 1):
+            late = unusable[:, max(steps, 0) : result.shape[1] + min(steps, 0)]
+            result[:, max(-steps, 0) :][:, : late.shape[1]] |= late
+    return result
+
+
+def true_links(columns: Mapping[str, Array], robot: Robot, period: float) -> dict[str, Array]:
+    """The recording's further columns, link-side positions ``qs1`` ... at their own time."""
+    result = dict(columns)
+    for joint, delay in zip(robot.moving, robot.signals.link_delay, strict=False):
+        if (name := f"qs{joint.number}") in result:
+            result[name] = _earlier(result[name][None], (delay,), period)[0]
+    return result
+
+
+def whole(samples: int, robot: Robot, period: float) -> slice:
+    """The samples for which what is recorded late or early was recorded."""
+    delays = [float(delay) / period for delay in (*robot.signals.torque_delay, *robot.signals.link_delay)]
+    first, last = (int(np.ceil(max([0.0, *(sign * one for one in delays)]) - 1e-9)) for sign in (-1, 1))
+    return slice(first, samples - last)
+
+
+def _earlier(x: Array, delays: Sequence[sympy.Expr], period: float) -> Array:
+    """Signals (n x N) that were recorded ``delays`` [s] late, at their own time, by a cubic spline; ends are held."""
+    t = period * np.arange(x.shape[-1])
+    rows = [
+        make_interp_spline(t, row)(np.clip(t + float(delay), t[0], t[-1])) if delay else row
+        for row, delay in zip(x, delays, strict=True)
+    ]
+    return np.stack(rows)
+
+
+def _column(values: Sequence[sympy.Expr]) -> Array:
+    return np.array([[float(value)] for value in values])
+
+
+def _coupling(robot: Robot) -> Array:
+    """N (n x n), of motors over joints; one to one where there are no drives."""
+    if robot.drives is None:
+        return np.eye(len(robot.moving))
+    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])

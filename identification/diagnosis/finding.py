@@ -1,0 +1,122 @@
+"""What is missing, said once: effect, joint, values with uncertainty, evidence, and what may stand in its place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.loop import Search
+from identification.diagnosis.selection import Choice, Evidence
+from identification.outcome import Value
+
+Array = NDArray[np.float64]
+
+FIRM, TENTATIVE = "firm", "tentative"
+#: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
+_SEPARATING: Mapping[frozenset[str], str] = {
+    frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
+    "speed",
+    frozenset(("stribeck_friction", "lugre_friction")): "slow reversals at different accelerations",
+    frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
+    frozenset(("load_friction", "position_friction")): "the same motion with another payload",
+    frozenset(
+        ("motor_ripple", "wave_generator_ripple")
+    ): "they are one column at the same order: the gear's maker tells",
+}
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another effect that this data cannot tell from the one that was named."""
+
+    effect: str
+    title: str
+    joints: tuple[int, ...]
+    score: float
+    separating_experiment: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An effect on ``joints`` that the model lacks; ``parameters`` by name, shape values among them with std None.
+
+    ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
+    """
+
+    hypothesis: Hypothesis
+    status: str
+    joints: tuple[int, ...]
+    shape: Mapping[str, float]
+    parameters: Mapping[str, Value]
+    evidence: Evidence
+    alternatives: tuple[Alternative, ...]
+    amplitude: Mapping[int, float]
+    homogeneous: bool = True
+
+
+def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
+    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``."""
+    columns = [number for one in found.choices for number in one.evidence.variant.columns]
+    solution, covariance = found.selection.normal.solution(columns)
+    std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}
+    result = []
+    for one in found.choices:
+        variant = one.evidence.variant
+        at = [place[number] for number in variant.columns]
+        hypothesis = variant.hypothesis
+        values = {
+            c.name: Value(float(solution[i]), float(std[i]), c.unit)
+            for c, i in zip(hypothesis.coefficients, at, strict=True)
+        }
+        result.append(
+            Finding(
+                hypothesis,
+                FIRM if firm and not one.alternatives else TENTATIVE,
+                hypothesis.joints or (hypothesis.joint,),
+                variant.shape,
+                values,
+                one.evidence,
+                tuple(_alternative(hypothesis, other) for other in one.alternatives),
+                _amplitude(found, one, solution[at]),
+                _homogeneous(found, one),
+            )
+        )
+    return tuple(sorted(result, key=lambda one: -one.evidence.drop))
+
+
+def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
+    one = other.variant.hypothesis
+    experiment = (
+        mine.separating.get(one.effect)
+        or one.separating.get(mine.effect)
+        or _SEPARATING.get(frozenset((mine.effect, one.effect)))
+        or (one.would_show if one.would_show else "more motion of the joint: other ranges, speeds and loads")
+    )
+    return Alternative(one.effect, one.title, one.joints or (one.joint,), other.score, experiment)
+
+
+def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
+    variant = one.evidence.variant
+    moving = found.bank.scenes[0].robot.moving
+    result = {}
+    for j in variant.joints:
+        power, rows = 0.0, 0
+        for r in found.train:
+            numbers, columns, _, kept = found.bank.raw(r, j)
+            at = [numbers.index(number) for number in variant.columns]
+            torque = values @ columns[at][:, kept]
+            power, rows = power + float(torque @ torque), rows + torque.size
+        result[moving[j].number] = float(np.sqrt(power / max(rows, 1)))
+    return result
+
+
+def _homogeneous(found: Search, one: Choice) -> bool:
+    """Whether one amplitude holds in all fitted runs: each run's own, beside the same others, within four std."""
+    variant = one.evidence.variant
+    others = [each.evidence.variant for each in found.choices if each is not one]
+    return found.selection.homogeneous(variant, others)

@@ -1,0 +1,84 @@
+"""How much of a joint's residual no noise explains: between repetitions, or beyond the noise's power; and events.
+
+Where a motion repeats, what the periods of the residual have in common is what the model lacks, and what differs is noise
+(an F test). Where nothing repeats the residual's power is compared with that of the noise, which is weaker: the noise was
+measured on the same rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2, f
+
+from identification.diagnosis.prepared import Prepared
+
+Array = NDArray[np.float64]
+
+#: Rows of a burst that is looked for.
+_BURST = 10
+
+
+@dataclass(frozen=True)
+class Lack:
+    """Of a joint: the part ``size`` of the noise's rms that the model leaves unexplained, ratio and p-value.
+
+    ``ratio`` is 1 when the model is right. ``repeats`` tells whether periods were compared. ``burst`` is the time [s]
+    and run of an event that happens once, None without one.
+    """
+
+    joint: int
+    ratio: float
+    p: float
+    size: float
+    repeats: bool
+    burst: tuple[str, float] | None = None
+
+
+def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, number: int, reference: float) -> Lack:
+    """Of coordinate k's white residuals (one a run, kept rows); ``reference`` is the power of noise."""
+    common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
+    for run, e in zip(runs, residuals, strict=True):
+        if not run.period or len(run.t) < 2 * run.period:
+            continue
+        phase = np.flatnonzero(run.kept[k]) % run.period
+        count = np.bincount(phase, minlength=run.period)
+        mean = np.bincount(phase, weights=e, minlength=run.period) / np.maximum(count, 1)
+        twice = count > 1
+        common += float(count[twice] @ mean[twice] ** 2)
+        inside = twice[phase]
+        differing += float(((e - mean[phase])[inside] ** 2).sum())
+        phases += int(twice.sum())
+        freedom += int(inside.sum()) - int(twice.sum())
+        repeats += float(count[twice].sum())
+    burst = _burst(runs, residuals, k, reference)
+    if phases and freedom > 50:
+        ratio = (common / phases) / max(differing / freedom, 1e-300)
+        size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
+        return Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
+    rows = sum(len(e) for e in residuals)
+    power = sum(float(e @ e) for e in residuals)
+    ratio = power / max(rows * reference, 1e-300)
+    p = float(chi2.sf(power / reference, rows)) if rows else 1.0
+    return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, burst)
+
+
+def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, reference: float) -> tuple[str, float] | None:
+    """Where the residual is far above the noise for a short time, once in all runs."""
+    found: list[tuple[float, str, float]] = []
+    rows = sum(map(len, residuals))
+    for run, e in zip(runs, residuals, strict=True):
+        if len(e) < 5 * _BURST:
+            continue
+        power = np.convolve(e**2, np.ones(_BURST), "valid") / reference
+        i = int(np.argmax(power))
+        found.append(
+            (float(power[i]), run.sampled.run.name, float(run.t[np.flatnonzero(run.kept[k])[i + _BURST // 2]]))
+        )
+    if not found:
+        return None
+    power_, name, t = max(found)
+    return (name, t) if chi2.logsf(power_, _BURST) < np.log(1e-12 / max(rows, 1)) else None

@@ -1,0 +1,220 @@
+"""What was found goes into the robot file: the text with every addition in its place, all the rest as it was."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+import sympy
+from scipy.spatial.transform import Rotation
+
+from generator.effects.effect import Effect
+from generator.effects.library import library
+from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.diagnosis.addition import Addition
+from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
+from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
+
+#: Time constant of the warmth [s] that effects of the library are tried with, written where the file says none.
+WARM_UP_TIME = 60.0
+#: What joints have that no motion limits or warms [A, K].
+_NEVER = 1e6
+#: What a correction is where the file says nothing, and its unit where it is not that of a position.
+_NEUTRAL = {
+    "position_offset": 0.0,
+    "torque_gain": 1.0,
+    "torque_delay": 0.0,
+    "link_delay": 0.0,
+    "current_limit": _NEVER,
+    "warm_up_time": WARM_UP_TIME,
+    "warm_rise": _NEVER,
+}
+_UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
+#: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
+_REPLACING = ("current_limit", "warm_up_time", "warm_rise")
+
+_ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
+_PRODUCT = re.compile(r"-?[\w./*]+\Z", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Repaired:
+    """The text of the new robot file, the robot that it describes, and what could not be written or needs saying."""
+
+    text: str
+    robot: Robot
+    notes: tuple[str, ...]
+
+
+def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
+    """The robot file ``text`` with all additions; an effect on several joints with the same values is one entry.
+
+    ``file`` is its name in messages. An effect that a joint has already is left as it is, and told.
+
+    Raises InputError where the text is no robot file, before or after.
+    """
+    notes: list[str] = []
+    for one in _grouped(additions):
+        text, said = _ADDING[one.kind](text, robot_of(text, file), one)
+        notes += said
+    return Repaired(text, robot_of(text, file), tuple(notes))
+
+
+def _grouped(additions: Sequence[Addition]) -> list[Addition]:
+    """Effects with the same values put together, in the order of their first."""
+
+    def key(one: Addition) -> tuple[object, ...]:
+        if one.kind != EFFECT:
+            return one.kind, one.effect, one.joints
+        return one.kind, one.effect, *sorted((name, _number(value)) for name, value in one.values.items())
+
+    first = {key(one): k for k, one in reversed([*enumerate(additions)])}
+    result = []
+    for _, group in groupby(sorted(additions, key=lambda one: first[key(one)]), key):
+        each = list(group)
+        joints = tuple(sorted({joint for one in each for joint in one.joints}))
+        evidence = "; ".join(dict.fromkeys(one.evidence for one in each if one.evidence))
+        same = each[0]
+        result.append(Addition(same.kind, same.effect, joints, same.values, same.parameters, evidence))
+    return result
+
+
+def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    effect = library()[one.effect]
+    there = [j for j in one.joints if any(u.effect == one.effect and j in u.joints for u in robot.effects)]
+    new = [j for j in one.joints if j not in there]
+    notes = [f"joint {j} has the effect {one.effect} already; the file's stays" for j in there]
+    if not new:
+        return text, notes
+    if "warmth" in effect.needs:
+        text = _with_warmth(text, robot)
+    where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
+    values = _values(effect, robot.joints[new[0] - 1], one.values)
+    entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
+    return with_item(text, "effects", entry, _plain(one.evidence)), notes
+
+
+def _values(effect: Effect, joint: Joint, shape: Mapping[str, float]) -> str:
+    parts = []
+    for name in (each for each in effect.shapes if each.name in shape):
+        unit = name.unit_on(joint)
+        parts.append(f"{name.name}: {_number(shape[name.name])}{'' if unit == '1' else f' {unit}'}")
+    return ", ".join(parts)
+
+
+def _add_signal(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    for key, value in one.values.items():
+        text = _with_signal(text, robot, key, value, one.joints)
+    return text, []
+
+
+def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequence[int]) -> str:
+    """The value of a key of ``signals`` changed for some joints."""
+    old: Sequence[sympy.Expr] = getattr(robot.signals, key)
+    now = [float(x) for x in old] or [_NEUTRAL[key]] * len(robot.moving)
+    for k, joint in enumerate(robot.moving):
+        if joint.number in joints:
+            now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
+    units = [_signal_unit(key, joint) for joint in robot.moving]
+    written = [f"{_number(x)}{f' {unit}' if unit else ''}" for x, unit in zip(now, units, strict=True)]
+    return with_value(text, ("signals", key), f"[{', '.join(written)}]")
+
+
+def _signal_unit(key: str, joint: Joint) -> str:
+    if key == "position_offset":
+        return "m" if joint.sigma == PRISMATIC else "rad"
+    return _UNITS.get(key, "")
+
+
+def _with_warmth(text: str, robot: Robot) -> str:
+    """Something that says how warm the drives are."""
+    if robot.signals.warm_up_time or robot.signals.warm_rise:
+        return text
+    return _with_signal(text, robot, "warm_up_time", WARM_UP_TIME, ())
+
+
+def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    drives = robot.drives
+    if drives is None or (one.effect == "torque_drift" and not drives.torque_constants):
+        lack = "drives" if drives is None else "torque constants"
+        return text, [f"{one.effect} cannot be written: {robot.name} has no {lack}"]
+    if one.effect == "gear_ratio":
+        for number in one.joints:
+            text = _with_ratio(text, robot, number, one.values["gear_ratio"])
+        return text, []
+    drift = [float(part) for part in drives.torque_drift] or [0.0] * len(robot.moving)
+    for k, joint in enumerate(robot.moving):
+        drift[k] += one.values["torque_drift"] if joint.number in one.joints else 0.0
+    text = with_value(text, ("drives", "torque_drift"), f"[{', '.join(map(_number, drift))}]")
+    for key, value in one.values.items():
+        if key != "torque_drift":
+            text = _with_signal(text, robot, key, value, one.joints)
+    return text, []
+
+
+def _with_ratio(text: str, robot: Robot, joint: int, factor: float) -> str:
+    """Column ``joint`` of N times ``factor``, by its ratio and what the file's convention makes of the coupling."""
+    k = [one.number for one in robot.moving].index(joint)
+    text = _times(text, ("drives", "gear_ratios", k), f"*{factor:.9g}")
+    entries = keys_of(text, ("drives", "coupling"))
+    convention = "row"
+    if "convention" in entries:
+        convention = value_of(text, ("drives", "coupling", "convention"))
+    for key in entries:
+        if (match := _ELEMENT.match(key)) is None or convention == "as_printed":
+            continue
+        row, column = (int(one or other) for one, other in ((match[1], match[3]), (match[2], match[4])))
+        if column == joint:
+            text = _times(text, ("drives", "coupling", key), f"*{factor:.9g}")
+        elif row == joint and convention == "row":
+            text = _times(text, ("drives", "coupling", key), f"/{factor:.9g}")
+    return text
+
+
+def _times(text: str, path: Sequence[str | int], factor: str) -> str:
+    old = value_of(text, path)
+    return with_value(text, path, f"{old if _PRODUCT.match(old) else f'({old})'}{factor}")
+
+
+def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    turn = Rotation.from_rotvec([one.values.get(f"tilt_{axis}", 0.0) for axis in "xyz"])
+    pose = Rotation.from_matrix(np.array(robot.base[:3, :3].evalf(), dtype=float))
+    angles = ", ".join(f"{angle:.9g} rad" for angle in (turn * pose).as_euler("xyz").tolist())
+    return with_value(text, ("base", "rotation"), f"[{angles}]"), []
+
+
+def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    joints = sorted({*robot.flexible, *one.joints})
+    if joints != sorted(robot.flexible):
+        text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
+    if not one.values.get("gap"):
+        return text, []
+    return _add_effect(text, robot, Addition(EFFECT, "joint_elasticity", one.joints, one.values, evidence=one.evidence))
+
+
+def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    return text, ["the payload is held by base parameters of the new set; the robot file gets no body for it"]
+
+
+_ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] = {
+    EFFECT: _add_effect,
+    SIGNAL: _add_signal,
+    DRIVE: _add_drive,
+    BASE: _add_base,
+    ELASTIC: _add_elastic,
+    BODY: _add_body,
+}
+
+
+def _number(value: float) -> str:
+    """Six significant digits."""
+    mantissa, _, exponent = f"{value:.6g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def _plain(text: str) -> str:
+    """One line."""
+    return " ".join(text.split())

@@ -1,0 +1,129 @@
+"""Where a residual is: its means over position, speed, load, time, motor phase, with the band that noise would fill."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.colour import inflation
+from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Bins over the range of a variable.
+BINS = 24
+
+
+@dataclass(frozen=True)
+class View:
+    """Means of joint ``joint``'s residual [N m, N] over ``variable`` (unit ``unit``): B bins.
+
+    ``centre``, ``mean``, half ``band`` of two standard deviations of a mean of noise, ``count`` of rows (B each).
+    ``direction`` is -1 or 1 where only rows of that direction of motion count, 0 for all. ``share`` is the part of the
+    residual's variance that the means explain beyond chance, over both directions of one variable together.
+    """
+
+    joint: int
+    variable: str
+    unit: str
+    direction: int
+    centre: Array
+    mean: Array
+    band: Array
+    count: NDArray[np.int64]
+    share: float
+
+
+def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array]]:
+    """What the residual of coordinate k is looked at against, by name: unit and values (N rows)."""
+    motion, robot = scene.motion, scene.robot
+    unit = "m" if robot.moving[k].sigma == 1 else "rad"
+    signals = np.stack([motion.q[k], motion.qd[k], motion.qdd[k], scene.load[k], scene.t, _since_reversal(scene, k)])
+    q, qd, qdd, load, t, since = run.decimated(signals)
+    result = {
+        "q": (unit, q),
+        "q by direction": (unit, q),
+        "qd": (f"{unit}/s", qd),
+        "qdd": (f"{unit}/s2", qdd),
+        "load": ("N" if unit == "m" else "N m", load),
+        "time": ("s", t),
+        "time since reversal": ("s", since),
+    }
+    if robot.drives is not None:
+        ratios = np.array([float(x) for x in robot.drives.coupling[k]])
+        result["motor phase"] = ("rad", np.mod(ratios @ run.decimated(motion.q), 2 * np.pi))
+    return result
+
+
+def views(runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int) -> tuple[View, ...]:
+    """All views of coordinate k's residuals, one (N rows) a run, the strongest variable first."""
+    kept = [run.kept[k] for run in runs]
+    e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
+    if len(e) < 4 * BINS:
+        return ()
+    factor = inflation(e)
+    every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
+    forward = np.concatenate(
+        [run.decimated(scene.motion.qd[k])[rows] for run, scene, rows in zip(runs, scenes, kept, strict=True)]
+    )
+    number = scenes[0].robot.moving[k].number
+    found: list[View] = []
+    for name, (unit, _) in every[0].items():
+        x = np.concatenate([mine[name][1][rows] for mine, rows in zip(every, kept, strict=True)])
+        if np.ptp(x) <= 1e-12 * max(np.abs(x).max(), 1e-300):
+            continue
+        sides = (-1, 1) if name in ("q by direction", "load") else (0,)
+        found += _view(number, name, unit, x, e, forward, sides, factor)
+    return tuple(sorted(found, key=lambda one: (-one.share, one.variable, one.direction)))
+
+
+def _view(
+    number: int, name: str, unit: str, x: Array, e: Array, qd: Array, sides: Sequence[int], factor: float
+) -> list[View]:
+    edges = np.linspace(x.min(), x.max(), BINS + 1)
+    at = np.clip(np.digitize(x, edges) - 1, 0, BINS - 1)
+    parts, explained, bins = [], 0.0, 0
+    variance = float(e.var())
+    for side in sides:
+        rows = np.ones(len(e), dtype=bool) if side == 0 else side * qd > 0
+        count = np.bincount(at[rows], minlength=BINS)
+        total = np.bincount(at[rows], weights=e[rows] - e.mean(), minlength=BINS)
+        used = count > 3
+        mean = np.where(used, total / np.maximum(count, 1), 0.0)
+        band = np.where(used, 2 * np.sqrt(variance * factor / np.maximum(count, 1)), np.inf)
+        explained += float(count[used] @ mean[used] ** 2)
+        bins += int(used.sum())
+        parts.append((side, used, mean + e.mean(), band, count))
+    # What bins of coloured noise would explain by chance.
+    chance = factor * variance * max(bins - 1, 0)
+    share = max(explained - chance, 0.0) / max(variance * len(e), 1e-300)
+    centre = (edges[1:] + edges[:-1]) / 2
+    return [
+        View(number, name, unit, side, centre[used], mean[used], band[used], count[used], share)
+        for side, used, mean, band, count in parts
+    ]
+
+
+def _since_reversal(scene: Scene, k: int) -> Array:
+    """Time since the joint's speed last changed its sign [s] (N)."""
+    sign = np.sign(scene.motion.qd[k])
+    turned = np.concatenate([[True], sign[1:] * sign[:-1] < 0])
+    last = np.maximum.accumulate(np.where(turned, np.arange(len(sign)), 0))
+    return np.asarray((np.arange(len(sign)) - last) * scene.period)
+
+
+def strongest(found: Sequence[View]) -> tuple[str, Mapping[str, float]]:
+    """The variable that explains most, a simpler one where it does nearly as well, and all shares by variable."""
+    shares: dict[str, float] = {}
+    for one in found:
+        shares[one.variable] = one.share
+    if not shares:
+        return "", shares
+    order = ("q", "qd", "load", "time", "motor phase", "q by direction", "time since reversal", "qdd")
+    best = max(shares.values())
+    near = [name for name in order if shares.get(name, 0.0) >= 0.85 * best and best > 0]
+    return (near[0] if near else ""), shares

@@ -1,0 +1,80 @@
+"""States inside effects along a recorded motion: the deflection of bristles, the built-up part of a hysteresis.
+
+Their rates are stiff: a joint in motion wears a bristle's deflection down within one sample. So a step is that of an
+exponential method, exact where the rate is linear in the state (Hochbruck and Ostermann, Exponential integrators, Acta
+Numerica 19, 2010). All samples are computed at once: the rates are linearised about a guess of the states' whole
+course, which leaves a recursion z[i+1] = a[i] z[i] + b[i]; its result is the next guess. Where rates are linear in the
+state the first result is the last one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import accumulate
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Rates of the states (N x s) for positions, speeds (N x n) and states (N x s).
+Rates = Callable[[Array, Array, Array], Array]
+
+#: Part of a state's decay that a step may hold, and steps a sample at most: what decays faster has no past.
+_DECAY, _STEPS = 0.25, 16
+#: Change of the states between two guesses that ends the iteration, and guesses at most.
+_SAME, _GUESSES = 1e-9, 100
+#: States are of the order of one: rates are not linearised beyond.
+_FAR = 10.0
+#: Difference of states that slopes are taken over.
+_APART = 1e-6
+
+
+def integrated(rates: Rates, q: Array, qd: Array, period: float, states: int) -> Array:
+    """The ``states`` (s x N) from zero along positions and speeds (n x N) [rad, m; rad/s, m/s].
+
+    ``period`` [s] is that of the samples. A rate may depend on its own state alone, not on another one.
+
+    Raises ArithmeticError where the states do not settle.
+    """
+    count = q.shape[-1]
+    if count < 2:
+        return np.zeros((states, count))
+    steps = _steps(rates, q.T, qd.T, period, states)
+    t, fine = np.arange(count), np.arange((count - 1) * steps) / steps + 0.5 / steps
+    middle_q, middle_qd = (np.stack([np.interp(fine, t, row) for row in x], axis=-1) for x in (q, qd))
+    h = period / steps
+    z = np.zeros((len(fine) + 1, states))
+    for _ in range(_GUESSES):
+        about = np.clip((z[1:] + z[:-1]) / 2, -_FAR, _FAR)
+        rate, slope = _linearised(rates, middle_q, middle_qd, about)
+        x = h * slope
+        small = np.abs(x) < 1e-9
+        phi = np.where(small, 1.0, np.expm1(x) / np.where(small, 1.0, x))
+        new = _recursion(np.exp(x), h * phi * (rate - slope * about))
+        change = np.abs(new - z).max()
+        z = new
+        if change < _SAME:
+            return z[::steps].T.copy()
+    raise ArithmeticError("states inside effects do not settle")
+
+
+def _steps(rates: Rates, q: Array, qd: Array, period: float, states: int) -> int:
+    """Steps a sample, for states of the order of one."""
+    fastest = max(np.abs(_linearised(rates, q, qd, np.full((len(q), states), sign))[1]).max() for sign in (-1.0, 1.0))
+    return int(np.clip(np.ceil(fastest * period / _DECAY), 1, _STEPS))
+
+
+def _linearised(rates: Rates, q: Array, qd: Array, z: Array) -> tuple[Array, Array]:
+    """Rates at the states and their slopes (N x s each); each rate is moved by its own state only."""
+    above, below = rates(q, qd, z + _APART), rates(q, qd, z - _APART)
+    return rates(q, qd, z), (above - below) / (2 * _APART)
+
+
+def _recursion(a: Array, b: Array) -> Array:
+    """z[0] = 0, z[i + 1] = a[i] z[i] + b[i], each column for itself ((N + 1) x s)."""
+    columns = []
+    for factors, summands in zip(a.T.tolist(), b.T.tolist(), strict=True):
+        pairs = zip(factors, summands, strict=True)
+        columns.append(list(accumulate(pairs, lambda z, one: one[0] * z + one[1], initial=0.0)))
+    return np.array(columns).T

@@ -1,0 +1,122 @@
+"""Edits of a robot file's text: a value, a key, an item of a list; comments and layout of all the rest stay."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from generator.robot.content import robot_from
+from generator.robot.description import Robot
+from generator.robot.readers import yaml
+
+#: Sections in the order in which a new one finds its place.
+_SECTIONS = (
+    "name", "description", "source", "gravity", "base", "geometry", "joints", "drives", "effects", "flexible",
+    "signals", "parameters",
+)  # fmt: skip
+
+#: Steps to a value: keys of tables, numbers of items.
+Path = Sequence[str | int]
+
+
+def robot_of(text: str, file: str) -> Robot:
+    """The robot that the text of a robot file describes; ``file`` is its name in messages.
+
+    Raises InputError as reading a file does.
+    """
+    return robot_from(yaml.read(text, file))
+
+
+def value_of(text: str, path: Path) -> str:
+    """What stands at ``path``, as it is written; raises KeyError where nothing does."""
+    node = _find(text, path)
+    if node is None:
+        raise KeyError("/".join(map(str, path)))
+    return text[node.start_mark.index : _end(text, node)]
+
+
+def keys_of(text: str, path: Path) -> tuple[str, ...]:
+    """The keys of the table at ``path``; none where there is none."""
+    node = _find(text, path)
+    return () if node is None else tuple(key.value for key, _ in node.value)
+
+
+def with_value(text: str, path: Path, value: str) -> str:
+    """``text`` with ``value``, written in YAML on one line, at ``path``; a key that is missing is the last one after.
+
+    Raises KeyError where nothing is above it.
+    """
+    above, last = path[:-1], path[-1]
+    if not above and _find(text, path) is None:
+        return _with_section(text, str(last), f" {value}")
+    node = _find(text, path)
+    if node is not None:
+        return text[: node.start_mark.index] + value + text[_end(text, node) :]
+    table = _find(text, above)
+    if table is None and len(above) == 1:
+        return _with_section(text, str(above[0]), f"\n  {last}: {value}")
+    if table is None or not isinstance(table.value, list):
+        raise KeyError(f"{'/'.join(map(str, path))} has nothing above it")
+    return _appended(text, table, f"{last}: {value}", "")
+
+
+def with_item(text: str, section: str, item: str, comment: str = "") -> str:
+    """``text`` with ``item``, written in YAML on one line, as the last of the list ``section``.
+
+    ``comment`` stands above it, where the list has a line for each item.
+    """
+    node = _find(text, (section,))
+    above = f"  # {comment}\n" if comment else ""
+    if node is None:
+        return _with_section(text, section, f"\n{above}  - {item}")
+    if not node.value:
+        start, end = node.start_mark.index, _end(text, node)
+        return text[:start].rstrip() + f"\n{above}  - {item}" + text[end:]
+    return _appended(text, node, item if node.flow_style else f"- {item}", comment)
+
+
+def _appended(text: str, node: Any, entry: str, comment: str) -> str:
+    """One more entry of a list or table that has some."""
+    last = node.value[-1][1] if isinstance(node.value[-1], tuple) else node.value[-1]
+    end = _end(text, last)
+    if node.flow_style:
+        return text[:end] + f", {entry}" + text[end:]
+    indent = " " * node.start_mark.column
+    line = text.find("\n", end)
+    line = len(text) if line < 0 else line
+    above = f"{indent}# {comment}\n" if comment else ""
+    return text[:line] + f"\n{above}{indent}{entry}" + text[line:]
+
+
+def _with_section(text: str, name: str, content: str) -> str:
+    """A section of its own after those that come before it."""
+    before = _SECTIONS[: _SECTIONS.index(name)]
+    ends = [_end(text, node) for one in before if (node := _find(text, (one,))) is not None]
+    line = text.find("\n", max(ends))
+    head, tail = (text, "") if line < 0 else (text[:line], text[line + 1 :])
+    return f"{head}\n\n{name}:{content}\n{tail}"
+
+
+def _find(text: str, path: Path) -> Any:
+    """The node at ``path``; None without one."""
+    node: Any = YAML(typ="safe", pure=True).compose(text)
+    for step in path:
+        if isinstance(step, int):
+            node = node.value[step]
+            continue
+        node = next((value for key, value in node.value if key.value == step), None)
+        if node is None:
+            return None
+    return node
+
+
+def _end(text: str, node: Any) -> int:
+    """Where a node's text ends, blank lines and comments after it left aside."""
+    if isinstance(node.value, str) or node.flow_style or not node.value:
+        end: int = node.end_mark.index
+        return len(re.sub(r"\s+\Z", "", text[:end])) if isinstance(node.value, str) else end
+    last = node.value[-1]
+    return _end(text, last[1] if isinstance(last, tuple) else last)

@@ -1,0 +1,208 @@
+"""Findings written into robot files: read back, derived, and nothing else of the text touched."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from generator.derivation import derive
+from generator.effects.library import effects_of
+from generator.resources import find_robot
+from generator.robot.description import Robot
+from identification.diagnosis.addition import Addition
+from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
+from identification.diagnosis.repair import Repaired, repaired
+from identification.robot_text import robot_of, with_item, with_value
+
+ROBOTS = ("kr500", "lbr_iiwa14", "scara", "stanford", "emps", "kr300")
+
+
+def text_of(name: str) -> str:
+    return find_robot(name).read_text(encoding="utf-8")
+
+
+def repair(name: str, *additions: Addition) -> Repaired:
+    return repaired(text_of(name), f"{name}.yaml", additions)
+
+
+def added(old: str, new: str) -> list[str]:
+    """Lines that are new; no line may have gone."""
+    diff = list(difflib.ndiff(old.splitlines(), new.splitlines()))
+    assert not [line for line in diff if line.startswith("- ")]
+    return [line[2:] for line in diff if line.startswith("+ ")]
+
+
+def uses(robot: Robot) -> set[tuple[str, int]]:
+    return {(use.effect, joint) for use in robot.effects for joint in use.joints}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_an_effect_is_one_line_with_its_evidence(name: str) -> None:
+    found = repair(
+        name, Addition(EFFECT, "stribeck_friction", (1,), {"vs": 0.0123456789, "exponent": 2}, evidence="bic 99")
+    )
+    comment, line = added(text_of(name), found.text)
+    assert comment == "  # bic 99"
+    assert line.startswith("  - {effect: stribeck_friction, joint: 1, values: {vs: 0.0123457 ")
+    (use,) = [use for use in found.robot.effects if use.effect == "stribeck_friction"]
+    assert float(use.values["vs"].value) == 0.0123457
+    assert "Fst1" in {p.name for p in derive(found.robot, names=(), check=False).parameters}
+
+
+def test_an_effect_with_the_same_values_on_several_joints_is_one_entry() -> None:
+    found = repair(
+        "kr500",
+        Addition(EFFECT, "asymmetric_viscous", (3,)),
+        Addition(EFFECT, "dahl_friction", (2,), {"xs": 1e-3}),
+        Addition(EFFECT, "asymmetric_viscous", (1,)),
+        Addition(EFFECT, "dahl_friction", (1,), {"xs": 2e-3}),
+        Addition(EFFECT, "dahl_friction", (4,), {"xs": 1e-3}),
+    )
+    assert added(text_of("kr500"), found.text) == [
+        "  - {effect: asymmetric_viscous, joints: [1, 3]}",
+        "  - {effect: dahl_friction, joints: [2, 4], values: {xs: 0.001 rad}}",
+        "  - {effect: dahl_friction, joint: 1, values: {xs: 0.002 rad}}",
+    ]
+    assert len(effects_of(found.robot)) == len(effects_of(robot_of(text_of("kr500"), "x"))) + 5
+
+
+def test_an_effect_that_is_there_is_not_written_twice() -> None:
+    found = repair("kr500", Addition(EFFECT, "gas_balancer", (2,), {"l0": 1.0}), Addition(EFFECT, "offset", (1, 3)))
+    assert found.text == text_of("kr500")
+    assert len(found.notes) == 3
+    again = repaired(found.text, "x", [Addition(EFFECT, "cable_spring", (1,), {"neutral": 0.1})] * 2)
+    twice = repaired(again.text, "x", [Addition(EFFECT, "cable_spring", (1,), {"neutral": 0.2})])
+    assert twice.text == again.text
+    assert twice.text.count("cable_spring") == 1
+
+
+def test_a_coupled_rotor_names_its_other_joint() -> None:
+    found = repair("tx40", Addition(EFFECT, "coupled_rotor", (6,), {"other": 5.0, "ratio": 1.0}))
+    assert "{effect: coupled_rotor, joint: 6, values: {other: 5, ratio: 1}}" in found.text
+    derive(found.robot, names=(), check=False)
+
+
+def test_signals_add_up_and_a_gain_multiplies() -> None:
+    first = repair(
+        "stanford",
+        Addition(SIGNAL, "position_offset", (3,), values={"position_offset": 2e-3}),
+        Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 1.05}),
+        Addition(SIGNAL, "torque_delay", (1, 2, 3, 4, 5, 6), values={"torque_delay": 8e-4}),
+    )
+    assert added(text_of("stanford"), first.text) == [
+        "",
+        "signals:",
+        "  position_offset: [0 rad, 0 rad, 0.002 m, 0 rad, 0 rad, 0 rad]",
+        "  torque_gain: [1, 1.05, 1, 1, 1, 1]",
+        "  torque_delay: [0.0008 s, 0.0008 s, 0.0008 s, 0.0008 s, 0.0008 s, 0.0008 s]",
+    ]
+    second = repaired(
+        first.text,
+        "x",
+        [
+            Addition(SIGNAL, "position_offset", (3,), values={"position_offset": 1e-3}),
+            Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 0.9}),
+            Addition(SIGNAL, "current_limit", (1,), values={"current_limit": 12.0}),
+        ],
+    )
+    signals = second.robot.signals
+    assert float(signals.position_offset[2]) == pytest.approx(3e-3)
+    assert float(signals.torque_gain[1]) == pytest.approx(0.945)
+    assert float(signals.current_limit[0]) == 12
+    assert all(float(one) > 1e5 for one in signals.current_limit[1:])
+
+
+def coupling(robot: Robot) -> np.ndarray:
+    assert robot.drives is not None
+    return np.array([[float(one) for one in row] for row in robot.drives.coupling])
+
+
+@pytest.mark.parametrize("convention", ["row", "as_printed", "direct"])
+def test_a_gears_ratio_scales_its_column_of_the_coupling(convention: str) -> None:
+    text = text_of("kr500").replace("convention: row", f"convention: {convention}")
+    new = repaired(text, "x", [Addition(DRIVE, "gear_ratio", (5,), {"gear_ratio": 1.01})])
+    expected = coupling(robot_of(text, "x")) * [1, 1, 1, 1, 1.01, 1]
+    np.testing.assert_allclose(coupling(new.robot), expected, rtol=1e-12)
+
+
+def test_the_torque_constant_drifts_from_where_it_starts() -> None:
+    found = repair(
+        "kr500",
+        Addition(DRIVE, "torque_drift", (2,), {"torque_drift": -0.06, "torque_gain": 1.02, "warm_up_time": 30.0}),
+    )
+    assert found.robot.drives is not None
+    assert [float(part) for part in found.robot.drives.torque_drift] == [0, -0.06, 0, 0, 0, 0]
+    assert [float(one) for one in found.robot.signals.torque_gain] == [1, 1.02, 1, 1, 1, 1]
+    assert [float(one) for one in found.robot.signals.warm_up_time] == [60, 30, 60, 60, 60, 60]
+    refused = repair("emps", Addition(DRIVE, "torque_drift", (1,), {"torque_drift": -0.06}))
+    assert refused.text == text_of("emps")
+    assert "cannot be written: emps has no drives" in refused.notes[0]
+
+
+@pytest.mark.parametrize("name", ["kr500", "tilted_two_link"])
+def test_the_base_turns_about_the_worlds_axes(name: str) -> None:
+    found = repair(name, Addition(BASE, "base_tilt", (), values={"tilt_x": 0.02, "tilt_y": -0.03}))
+    before = np.array(robot_of(text_of(name), "x").base.evalf(), dtype=float)
+    after = np.array(found.robot.base.evalf(), dtype=float)
+    turn = after[:3, :3] @ before[:3, :3].T
+    spin = np.array([[0, 0, -0.03], [0, 0, -0.02], [0.03, 0.02, 0]])
+    np.testing.assert_allclose(turn, scipy.linalg.expm(spin), atol=1e-8)
+    np.testing.assert_array_equal(after[:3, 3], before[:3, 3])
+
+
+def test_elastic_joints_and_backlash() -> None:
+    found = repair("kr300", Addition(ELASTIC, "joint_elasticity", (2,), {"gap": 1e-3}, {"k2": 1e6}))
+    assert found.robot.flexible == (2,)
+    assert ("joint_elasticity", 2) in uses(found.robot)
+    more = repaired(found.text, "x", [Addition(ELASTIC, "joint_elasticity", (1,), {}, {"k1": 1e6})])
+    assert more.robot.flexible == (1, 2)
+    names = {p.name for p in derive(more.robot, names=("flexible_regressor",), check=False).parameters}
+    assert {"k1", "k2", "Iam1"} <= names
+    assert repair("kr500", Addition(ELASTIC, "joint_elasticity", (2,), {}, {"k2": 1e6})).text == text_of("kr500")
+
+
+def test_warm_friction_comes_with_a_word_on_the_warmth() -> None:
+    found = repair("emps", Addition(EFFECT, "warm_friction", (1,)))
+    assert [float(one) for one in found.robot.signals.warm_up_time] == [60.0]
+
+
+def test_a_payload_leaves_the_text() -> None:
+    found = repair("kr500", Addition(BODY, "payload", (6,), values={"M": 150.0}))
+    assert found.text == text_of("kr500")
+    assert "payload" in found.notes[0]
+
+
+LAYOUTS = {
+    "no section": ("gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\n", "parameters: {}\n# the end\n"),
+    "empty list": ("effects: []   # nothing yet\n", ""),
+    "one line": ("effects: [{effect: offset, joint: 1}]  # one\n", "flexible: [1]\n"),
+    "lines with comments": (
+        "effects:\n    # first\n    - effect: offset   # simple\n      joints: all\n\n    # last words\n",
+        "flexible: [1]\n",
+    ),
+    "no end of line": ("effects:\n- effect: offset\n  joints: [1]", ""),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_the_layout_stays(layout: str, tmp_path: Path) -> None:
+    middle, end = LAYOUTS[layout]
+    gravity = "" if "gravity" in middle else "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\n"
+    text = f"name: one\n{gravity}joints:\n  - {{j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}}\n{middle}{end}"
+    found = with_item(text, "effects", "{effect: viscous_friction, joint: 1}", "why")
+    assert ("viscous_friction", 1) in uses(robot_of(found, "x"))
+    assert {one for one in text.split() if one.strip("[]}")} - set(found.split()) <= {"[{effect:", "1}]"}
+    assert found.count("#") == text.count("#") + (layout != "one line")
+    once = with_value(found, ("signals", "torque_delay"), "[1 ms]")
+    twice = with_value(once, ("signals", "torque_delay"), "2 ms")
+    assert float(robot_of(twice, "x").signals.torque_delay[0]) == 2e-3
+    assert twice.replace("2 ms", "[1 ms]") == once
+
+
+def test_a_value_in_nothing_is_refused() -> None:
+    with pytest.raises(KeyError):
+        with_value(text_of("emps"), ("drives", "torque_constants", "unit"), "N m/A")
