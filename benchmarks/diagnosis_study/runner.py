@@ -9,6 +9,8 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from hashlib import sha256
 from itertools import islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,14 +25,20 @@ from benchmarks.diagnosis_study.scoring import scored
 from benchmarks.diagnosis_study.sizing import OutOfReach
 from tests.plant.robot_file import PRIOR
 
-#: Where results of cases are kept.
-RESULTS = Path(__file__).parents[2] / "build" / "diagnosis_study"
+ROOT = Path(__file__).parents[2]
+#: Where results of cases are kept, by the code that they came from.
+RESULTS = ROOT / "build" / "diagnosis_study"
+#: What a result depends on.
+_SOURCES = ("generator", "identification", "tests/plant", "benchmarks/diagnosis_study")
 #: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
 MISMATCH = 0.05
 #: Seconds after which a diagnosis counts as broken.
 _PATIENCE = 600
 #: Draws for each case that is wanted: not every law reaches every size on every joint.
 _DRAWS = 6
+
+#: Cells in which simpler ways are asked as well.
+BASELINES = ("null", "one_3x", "one_1x", "outside")
 
 Command = Callable[[Path, Case], dict[str, Any]]
 
@@ -71,19 +79,30 @@ def result(case: Case, command: Command = diagnose, keep: Path | None = None) ->
         if "failed" in answer:
             return {**record, "failed": answer["failed"]}
         record["score"] = scored(done.truth, answer).record()
-        if case.cell in ("null", "one_3x", "one_1x", "outside"):
+        if case.cell in BASELINES:
             record["baselines"] = named_by_baselines(folder, case)
         if keep is None:
             shutil.rmtree(folder / "out", ignore_errors=True)
         return record
 
 
+def folder_of_results() -> Path:
+    """The folder of RESULTS for the code as it is: what another code answered does not count."""
+    digest = sha256()
+    for source in _SOURCES:
+        for file in sorted((ROOT / source).rglob("*")):
+            if file.suffix in (".py", ".c", ".in", ".h", ".json"):
+                digest.update(file.read_bytes())
+    return RESULTS / digest.hexdigest()[:16]
+
+
 def run(cells: list[tuple[str, str]], count: int, reserved: bool, processes: int = 1) -> Iterator[dict[str, Any]]:
-    """Results of ``count`` cases of each cell and mode, made or read from RESULTS, as they come.
+    """Results of ``count`` cases of each cell and mode, made or read from earlier runs, as they come.
 
     Cells take turns, so that a study that is stopped has some of each.
     """
-    RESULTS.mkdir(parents=True, exist_ok=True)
+    kept = folder_of_results()
+    kept.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(processes) as pool:
         drawn = {key: list(islice(cases(*key, reserved), _DRAWS * count)) for key in cells}
         counted = dict.fromkeys(cells, 0)
@@ -91,14 +110,14 @@ def run(cells: list[tuple[str, str]], count: int, reserved: bool, processes: int
             wanted = [drawn[key][attempt] for key in cells if counted[key] < count]
             if not wanted:
                 return
-            for one in pool.map(_kept, wanted):
+            for one in pool.map(partial(_kept, kept), wanted):
                 if "skipped" not in one:
                     counted[one["case"]["cell"], one["case"]["mode"]] += 1
                 yield one
 
 
-def _kept(case: Case) -> dict[str, Any]:
-    file = RESULTS / f"{case.name}.json"
+def _kept(folder: Path, case: Case) -> dict[str, Any]:
+    file = folder / f"{case.name}.json"
     if file.exists():
         return dict(json.loads(file.read_text(encoding="utf-8")))
     try:

@@ -9,7 +9,7 @@ from typing import Any
 from benchmarks.diagnosis_study.case import FREE, KNOWN
 from benchmarks.diagnosis_study.drawing import SIZES
 from benchmarks.diagnosis_study.intervals import Share, share
-from benchmarks.diagnosis_study.runner import MISMATCH
+from benchmarks.diagnosis_study.runner import BASELINES, MISMATCH
 from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
 
@@ -81,7 +81,7 @@ def rows_of_numbers(results: Sequence[Result]) -> list[Row]:
 def rows_of_baselines(results: Sequence[Result]) -> list[Row]:
     """The diagnosis and simpler ways on the same runs."""
     rows: list[Row] = []
-    for cell in ("null", "one_3x", "one_1x", "outside"):
+    for cell in BASELINES:
         cases = [one for mode in _MODES for one in _of(results, cell, mode) if "baselines" in one]
         if not cases:
             continue
