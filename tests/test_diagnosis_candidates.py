@@ -16,6 +16,7 @@ import sympy
 
 from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
+from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.link_side import LinkSide
@@ -187,25 +188,24 @@ def test_an_elastic_drive_train_gives_way_and_swings(
 @pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), (HEAVY, 2), (SCARA, 1)])
 def test_a_link_falls_through_its_gap(name: str, joint: int, robots: Callable[[str], Known]) -> None:
     """Looser than the others: each landing depends on the speed of the one before, which the log's motor, sampled and
-    filtered, does not tell to the last digit.
+    filtered, does not tell to the last digit. On some motions a landing goes the other way and leaves 0.85.
     """
     effect = Effect("backlash", joint, 4e-4)
-    scene, truth, kept = played(robots(name), effect, WAY)
+    way = fourier(2, period=10.0, periods=1, before=2.0)
+    scene, truth, kept = played(robots(name), effect, way)
     (hypothesis,) = offered([scene], "backlash", joint)
     stiffness = effect.value("stiffer", ROBOTS[name]) * ROBOTS[name].chain[joint - 1].stiffness
     shape = {**drive_train(name, effect, scene, stiffness), "gap": 4e-4}
     (found,), likeness = fitted(hypothesis.columns(scene, shape), truth, kept, scene)
-    print(found, likeness)
     assert likeness > 0.95
     assert found == pytest.approx(4e-4, rel=0.1)
     (tried,) = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
-    print(tried, hypothesis.variants)
     assert tried > 0.85
     assert hypothesis.variants[0]["gap"] == pytest.approx(4e-4, rel=0.25)
 
 
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:
-    """Nor what a link's encoder tells apart, nor a second rotor on a joint that has one."""
+    """Nor a second rotor on a joint that has one."""
     scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
     robot, n = scene.robot, len(scene.robot.moving)
     one = [sympy.Integer(int(k == 1)) for k in range(n)]
@@ -217,20 +217,27 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
         signals=signals,
         drives=replace(robot.drives, torque_drift=tuple(Fraction(int(k == 1)) for k in range(n))),
         effects=(*robot.effects, EffectUse("coupled_rotor", (2,))),
-        flexible=(2,),
     )
     for candidate in ("position_offset", "torque_gain", "torque_delay", "current_limit", "torque_drift"):
         assert offered([scene], candidate, 2), candidate
         assert not offered([_with(scene, changed)], candidate, 2), candidate
     for candidate in ("position_offset", "torque_gain", "torque_drift"):
         assert offered([_with(scene, changed)], candidate, 1), candidate
-    assert not offered([_with(scene, changed)], "joint_elasticity", 2)
     assert offered([scene], "coupled_rotor", 6)
     there = replace(robot, effects=(*robot.effects, EffectUse("coupled_rotor", (6,))))
     assert not offered([_with(scene, there)], "coupled_rotor", 6)
-    watched = replace(scene.sampled.run, others={"qs2": scene.t})
-    assert not offered([replace(scene, sampled=replace(scene.sampled, run=watched))], "joint_elasticity", 2)
-    assert not offered([replace(scene, sampled=replace(scene.sampled, run=watched))], "backlash", 2)
+
+
+def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    run = replace(scene.sampled.run, others={"qs2": scene.t})
+    watched = replace(scene, sampled=replace(scene.sampled, run=run))
+    gap = EffectUse("joint_elasticity", (2,), {"gap": Quantity(sympy.Rational(1, 1000), "rad")})
+    elastic = _with(scene, replace(scene.robot, flexible=(2,), effects=(*scene.robot.effects, gap)))
+    for candidate in ("joint_elasticity", "backlash"):
+        assert offered([scene], candidate, 2), candidate
+        assert not offered([watched], candidate, 2), candidate
+        assert not offered([elastic], candidate, 2), candidate
 
 
 def _with(scene: Scene, robot: Robot) -> Scene:

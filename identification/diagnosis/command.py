@@ -42,8 +42,9 @@ def diagnosed(
     with stage(f"reading {len(data) + len(validate) + len(test)} runs"):
         first = [load(source, robot, recipe.columns) for source in data]
         chosen = roles(first, validate, test)
+        # A part of a run that is good as a whole may stand still.
         runs = [
-            prepared(load(source, robot, recipe.columns), recipe, regressors)
+            prepared(load(source, robot, recipe.columns, resting=source not in data), recipe, regressors)
             for source in (*chosen.train, *chosen.validate)
         ]
 

@@ -1,8 +1,8 @@
 """The robot on the link side of one joint's drive train, where the log has the motor's motion.
 
 With q_l = q + e the link's position and q the motor's over the gear, what the motor must supply changes by
-(dtau_link/dq) e + (dtau_link/dqd) e' + (dtau_link/dqdd) e'' (report eq. 7, 8). The drive train's own inertia and friction
-turn with the motor and do not see e.
+(dtau_link/dq) e + (dtau_link/dqd) e' + (dtau_link/dqdd) e'' (report eq. 7, 8). The drive train's own inertia and
+friction turn with the motor and do not see e.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
-Value: TypeAlias = float | Array
+#: A number, or an array of as many as are played at once.
+Value: TypeAlias = Any
 
 #: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
 _SHARE = 0.5
@@ -29,8 +30,8 @@ _SHARE = 0.5
 
 @dataclass(frozen=True)
 class Train:
-    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``damping`` the ratio d / (2 sqrt(k M)) of the link on it,
-    the motor held, ``gap`` its play [rad, m]. Arrays are many of them.
+    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``gap`` its play [rad, m], and ``damping`` the ratio
+    d / (2 sqrt(k M)) of the link on it, the motor held. Arrays are many of them.
     """
 
     stiffness: Value
@@ -78,13 +79,16 @@ class LinkSide:
         """
         h, half, k = self.scene.period, train.gap / 2, train.stiffness
         d = 2 * train.damping * np.sqrt(k * float(np.mean(self.inertia)))
+        # The log does not tell how the link swings when it begins: it hangs still on its spring.
         e: Value = -(half * np.sign(self.load[0]) + self.load[0] / k)
-        v: Value = 0.0 * e
+        v: Value = (self.load[0] - self.load[1]) / (h * k)
+        # Speeds are those between samples, damping is centred: the frequency of a swing is right to the second order.
         for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
             beyond = e - (abs(e + half) - abs(e - half)) / 2
-            a = -(load + k * beyond + (abs(e) > half) * d * v) / M
-            yield e, v, a
-            v = v + h * a
+            c = (abs(e) > half) * d * (h / (2 * M))
+            after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
+            yield e, (v + after) / 2, (after - v) / h
+            v = after
             e = e + h * v
 
     def deflection(self, train: Train) -> Motion:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import EFFECT, Hypothesis
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
 from identification.diagnosis.prepared import Prepared
@@ -75,6 +75,8 @@ def search(
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = selection.normal.solution(columns)
         values = dict(zip(bank.base, solution.tolist(), strict=False))
+        if all(one.hypothesis.kind == EFFECT for one in chosen):
+            break
     return Search(bank, selection, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
 
 

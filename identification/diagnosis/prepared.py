@@ -72,6 +72,9 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     speed = one.motion.qd
     slow = np.maximum(_SLOW * np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     standing = np.abs(speed) < slow[:, None]
+    for joint, weights in regressors.signs:
+        along = sum(weight * speed[k] for k, weight in weights)
+        standing[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
     reach = round(_SETTLING * run.rate)

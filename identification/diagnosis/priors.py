@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import sympy
 
 from generator.errors import InputError
 from generator.robot.fields import nearest
@@ -35,7 +36,7 @@ def prior_of(model: Model, name: str) -> Prior:
         )
         for key, one in given.items()
     }
-    lengths = {str(length.name): length.value for length in model.robot.lengths}
+    lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
     std = []
     for base, parameter in zip(model.grouping.base, model.base_parameters, strict=True):
         if parameter.name in given:

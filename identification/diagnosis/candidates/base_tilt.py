@@ -1,9 +1,9 @@
 """A base that leans against the pose in the robot's file.
 
-Turned by small angles phi about the world's axes, the robot feels the weight of gravity g - phi x g in its old pose: the
-measured torque holds the torque of gravity g x e_k per radian about axis k. It is linear in the bodies' first moments
-and masses, some of which an upright base does not show at all, such as the first moments about a vertical first axis.
-For these the base parameters tell nothing: their products with the angles are coefficients of their own.
+Turned by small angles phi about the world's axes, the robot feels the weight of gravity g - phi x g in its old pose:
+the measured torque holds the torque of gravity g x e_k per radian about axis k. It is linear in the bodies' first
+moments and masses, some of which an upright base does not show at all, such as the first moments about a vertical first
+axis. For these the base parameters tell nothing: their products with the angles are coefficients of their own.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ _POSITIONS, _NOTHING = 200, 1e-6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One for the robot: angles [rad] about the two of the world's axes that are not along gravity, by which the base is
-    turned beyond its pose in the file (rotation vector, in the world); none without gravity or weight.
+    """One for the robot: angles [rad] about the two of the world's axes that are not along gravity, by which the base
+    is turned beyond its pose in the file (rotation vector, in the world); none without gravity or weight.
     """
     if not scenes or not any(scenes[0].robot.gravity):
         return []
@@ -73,17 +73,18 @@ class Weight:
     """Torques of the bodies' weight under another ``gravity`` [m/s2] in the world, per standard parameter."""
 
     def __init__(self, robot: Robot, gravity: sympy.Matrix) -> None:
-        model = derive(replace(robot, gravity=tuple(gravity)), names=("regressor_standard",), check=False)
-        names = [one.name for one in model.standard_parameters]
-        effects = {name for instance in model.effects for name in instance.names}
-        self._bodies = {name: p for p, name in enumerate(names) if name not in effects}
+        bare = replace(robot, gravity=tuple(gravity), effects=(), flexible=(), parameter_sets={})
+        model = derive(bare, names=("regressor_standard",), check=False)
+        uses_lengths = model.functions["regressor_standard"].uses_parameters
+        self._lengths = [model.default_parameters()] if uses_lengths else []
+        self._bodies = {one.name: p for p, one in enumerate(model.standard_parameters)}
         self._function: Any = generated_module(model).regressor_standard
 
     def __call__(self, q: Array, standard: Mapping[str, float]) -> Array:
         """Torques (n x N) at rest in q (n x N), of values of the bodies' standard parameters; absent ones are zero."""
         still = np.zeros_like(q.T)
         columns = [(p, standard[name]) for name, p in self._bodies.items() if standard.get(name)]
-        w = self._function(q.T, still, still)
+        w = self._function(*self._lengths, q.T, still, still)
         return np.asarray(sum((x * w[..., p] for p, x in columns), start=still).T)
 
 

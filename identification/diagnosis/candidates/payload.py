@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One for the robot; the coefficients are those of the generator's input ``payload``, I in the place of XX, YY, ZZ."""
+    """One for the robot; coefficients as in the generator's input ``payload``, I in the place of XX, YY, ZZ."""
     if not scenes:
         return []
     return [

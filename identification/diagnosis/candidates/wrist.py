@@ -36,7 +36,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [
         _hypothesis(robot, joint, other, ratio)
         for other, joint in pairwise(robot.moving[-_WRIST:])
-        if joint.number not in taken
+        if joint.number not in taken and joint.antecedent == other.number
         for ratio in _ratios(robot, joint, other)
     ]
 
