@@ -17,6 +17,7 @@ from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
 from benchmarks.diagnosis_study.drawing import cases, cells
 from benchmarks.diagnosis_study.intervals import Share
 from benchmarks.diagnosis_study.making import invisible, made
+from benchmarks.diagnosis_study.page import JSON, PAGE, page, tables
 from benchmarks.diagnosis_study.power_curve import power_curve
 from benchmarks.diagnosis_study.runner import MISMATCH, result
 from benchmarks.diagnosis_study.scoring import NAMED, NOTHING, UNEXPLAINED, scored
@@ -147,6 +148,47 @@ def test_a_clear_effect_is_found(hidden: Hidden, tmp_path: Path) -> None:
     assert found["score"]["first"], found["answer"]["findings"]
     assert found["score"]["extra"] == 0
     assert found["score"]["joint_right"]
+
+
+def record(cell: str, named: list[dict[str, Any]], hidden: list[Hidden], verdict: str = NAMED) -> dict[str, Any]:
+    """A result as the runner makes it."""
+    drawn = Case(cell, "three_axis", FREE, 1, tuple(hidden))
+    acting = [
+        {"law": one.law, "joint": one.joint, "joints": [one.joint], "size": 30.0, "invisible": False} for one in hidden
+    ]
+    truth = {"case": drawn.record(), "mismatch": 0.0, "hidden": acting}
+    score = scored(truth, answer(*named, verdict=verdict)).record()
+    return {
+        "case": drawn.record(),
+        "truth": truth,
+        "seconds": 1.0,
+        "score": score,
+        "baselines": {"way": [["offset", 2]]},
+    }
+
+
+def test_the_page_says_what_the_results_say() -> None:
+    stribeck = [Hidden("stribeck", 2, 3.0)]
+    right, wrong = [told("stribeck_friction", [2])], [told("dahl_friction", [2])]
+    results = [
+        *(record("one_3x", right, stribeck) for _ in range(3)),
+        record("one_3x", wrong, stribeck),
+        record("null", [], [], NOTHING),
+        record("power_1x", right, stribeck),
+        {"case": Case("null", "three_axis", FREE, 2).record(), "skipped": "no size"},
+        {"case": Case("null", "three_axis", FREE, 3).record(), "failed": "exit status 1"},
+    ]
+    found = tables(results)
+    assert found["counts"] == {"scored": 6, "out of reach": 1, "failed": 1, "scored apart": 0}
+    text = page(found)
+    assert f"| one effect, 3 x noise | free fit | right effect and joint first | {Share(3, 4)} |" in text
+    assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
+    assert "| dahl_friction |" in text
+    assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}
+
+
+def test_the_committed_page_is_of_the_committed_results() -> None:
+    assert PAGE.read_text(encoding="utf-8") == page(json.loads(JSON.read_text(encoding="utf-8")))
 
 
 def test_the_power_curve_is_drawn() -> None:

@@ -1,6 +1,7 @@
 """What simpler ways name on the same runs: stepwise BIC, a held-out gate alone, sparse regression (STLSQ).
 
-They see the rows, the whitening and the candidates that the diagnosis made. Their names are ``(effect, joint)``.
+They see the rows and the candidates that the diagnosis made, each joint weighted by its noise, as weighted least
+squares has it; BIC is asked on the white rows of the diagnosis as well. Their names are ``(effect, joint)``.
 """
 
 from __future__ import annotations
@@ -13,8 +14,16 @@ import numpy as np
 
 from benchmarks.diagnosis_study.case import KNOWN, Case
 from benchmarks.diagnosis_study.runs import FITTED, NAMES
+from generator.robot.readers import read
+from identification.dataset import load
 from identification.diagnosis.bank import Variant
+from identification.diagnosis.loop import Search, search
+from identification.diagnosis.prepared import prepared
+from identification.diagnosis.priors import prior_of
 from identification.diagnosis.selection import Selection
+from identification.diagnosis.whitening import Colour
+from identification.observation import Regressors
+from identification.recipe import Recipe
 from tests.plant.robot import Array
 from tests.plant.robot_file import PRIOR
 
@@ -76,30 +85,38 @@ def sparse(selection: Selection) -> list[Name]:
 
 def named_by_baselines(folder: Path, case: Case) -> dict[str, list[list[Any]]]:
     """Their names on a case's files, by the baseline."""
-    selection = selection_of(folder, case)
-    found = {
-        "stepwise BIC": stepwise(selection, information),
-        "held-out gate": stepwise(selection, held_out),
-        "STLSQ": sparse(selection),
+    found = _search(folder, case)
+    plain = weighted(found)
+    names = {
+        "stepwise BIC, white rows": stepwise(found.selection, information),
+        "stepwise BIC": stepwise(plain, information),
+        "held-out gate": stepwise(plain, held_out),
+        "STLSQ": sparse(plain),
     }
-    return {name: [list(one) for one in names] for name, names in found.items()}
+    return {way: [list(one) for one in named] for way, named in names.items()}
 
 
-def selection_of(folder: Path, case: Case) -> Selection:
-    """Rows and candidates of a case's fitted runs, white, beside its validation run."""
-    from generator.robot.readers import read
-    from identification.dataset import load
-    from identification.diagnosis.loop import search
-    from identification.diagnosis.prepared import prepared
-    from identification.diagnosis.priors import prior_of
-    from identification.observation import Regressors
-    from identification.recipe import Recipe
+def weighted(found: Search) -> Selection:
+    """The same rows and candidates, each joint weighted by its residual's standard deviation alone.
 
+    The bank of the search is what is weighted: its own selection is of no use afterwards.
+    """
+    bank, weights = found.bank, found.weights
+    colours = []
+    for run in range(len(bank.runs)):
+        left = [bank.residual(run, joint, weights, white=False) for joint in range(bank.dof)]
+        kept = [bank.raw(run, joint)[3] for joint in range(bank.dof)]
+        colours.append([Colour((np.ones(1),), (float(np.std(e[k])),)) for e, k in zip(left, kept, strict=True)])
+    bank.whiten(colours)
+    return Selection(bank, found.train, found.validate, found.selection.normal.prior)
+
+
+def _search(folder: Path, case: Case) -> Search:
     robot = read(folder / "robot.yaml")
     regressors = Regressors(robot)
     runs = [prepared(load(str(folder / f"{name}.csv"), robot), Recipe(), regressors) for name in NAMES[: FITTED + 1]]
     prior = prior_of(regressors.model, PRIOR) if case.mode == KNOWN else None
-    return search(runs, range(FITTED), [FITTED], regressors, prior).selection
+    return search(runs, range(FITTED), [FITTED], regressors, prior)
 
 
 def _misfit(selection: Selection, chosen: Sequence[Variant]) -> float:

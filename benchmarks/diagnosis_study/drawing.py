@@ -33,10 +33,11 @@ def cases(cell: str, mode: str, reserved: bool = True) -> Iterator[Case]:
         robot = str(rng.choice(STUDY.robots))
         hidden = _hidden(cell, robot, laws, outside, rng)
         motion = str(rng.choice(_MOTIONS))
+        beside = _beside(robot, hidden or (), rng)
         seed = int(rng.integers(1, 1_000_000))
         number += 1
         if hidden is not None:
-            yield Case(cell, robot, mode, seed, hidden, motion)
+            yield Case(cell, robot, mode, seed, hidden, motion, beside)
 
 
 def _hidden(
@@ -62,6 +63,13 @@ def _hidden(
     drawn = [_somewhere(name, robot, size, rng) for name in names]
     places = {(one.joint, STUDY.laws[one.law].named if one.law in STUDY.laws else one.law) for one in drawn if one}
     return tuple(one for one in drawn if one) if len(places) == len(names) else None
+
+
+def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) -> tuple[Hidden, ...]:
+    """In every other case one more effect that the robot file holds, on a joint without a hidden one."""
+    law, joint = str(rng.choice(STUDY.beside)), int(rng.integers(1, ROBOTS[robot].joints + 1))
+    taken = {one.joint for one in hidden}
+    return (Hidden(law, joint),) if rng.random() < 0.5 and joint not in taken else ()
 
 
 def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> Hidden | None:

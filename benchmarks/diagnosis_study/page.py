@@ -24,6 +24,7 @@ def tables(results: Sequence[summary.Result]) -> dict[str, Any]:
     return {
         "counts": summary.counts(results),
         "cells": summary.rows_of_cells(results),
+        "apart": summary.rows_apart(results),
         "laws": summary.rows_of_laws(results),
         "numbers": summary.rows_of_numbers(results),
         "baselines": summary.rows_of_baselines(results),
@@ -44,6 +45,7 @@ def page(found: Mapping[str, Any]) -> str:
         f"{counts['out of reach']} draws were left out, since no plausible size of the law was as large as wanted.",
         "## What was asked, and what came out",
         table(found["cells"]),
+        *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",
         "What counts as right is in `study.json`. `named instead`: what was first where the law was not found.",
         table(found["laws"]),
@@ -74,7 +76,8 @@ _INTRODUCTION = f"""\
 `make study-diagnosis` hides effects in simulated robots and asks `counterpoise diagnose` what is missing. The robots
 of `tests/plant` share no code with the diagnosis: their rigid bodies, friction, control loop and sensors are their
 own, and many of their laws are not the formula of any candidate. The robot file that the command gets holds every
-effect that the robot has but the hidden one; its values are wrong by draws of the standard deviations that it states,
+effect that the robot has but the hidden one, among them, in every other case, one more of a law that is only nearly
+the textbook's ({", ".join(STUDY.beside)}); its values are wrong by draws of the standard deviations that it states,
 2 % of inertial values and 5 % of friction. There are three runs of 30 s to fit, one of 20 s to validate, one of 20 s
 to test, at 500 Hz, with 2 % coloured noise of the currents. Robot, law, joint and motion are drawn at random from the
 seed in `study.json`. Kept from all development were the laws {", ".join(STUDY.reserved)}.

@@ -32,6 +32,25 @@ def rows_of_cells(results: Sequence[Result]) -> list[Row]:
     return rows
 
 
+def rows_apart(results: Sequence[Result]) -> list[Row]:
+    """Cases whose robot file's laws are further from the robot's own: names beside the hidden ones are no mistake."""
+    cases = [one for one in results if "score" in one and _apart(one)]
+    rows: list[Row] = []
+    for cell, title in _TITLES.items():
+        scores = [one["score"] for one in cases if one["case"]["cell"] == cell]
+        if scores:
+            found = [score["found"] == score["visible"] for score in scores if score["visible"]]
+            rows.append(
+                {
+                    "cell": title,
+                    "all hidden ones named": str(share(found)),
+                    "something else named": str(share([score["extra"] > 0 for score in scores])),
+                    "called unexplained": str(share([score["verdict"] == UNEXPLAINED for score in scores])),
+                }
+            )
+    return rows
+
+
 def rows_of_laws(results: Sequence[Result]) -> list[Row]:
     """Each law of one hidden effect at three times the noise, both modes together."""
     rows: list[Row] = []

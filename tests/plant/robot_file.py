@@ -60,7 +60,9 @@ def robot_file(
     for one in _entries(robot.own if known is None else known, robot):
         if one.effect not in leave_out and (one.effect, one.joint) not in leave_out:
             uses.append(one.line)
-            values |= {f"{stem}{one.joint}": value for stem, value in one.parameters.items()}
+            for stem, (value, unit) in one.parameters.items():
+                name = f"{stem}{one.joint}"
+                values[name] = (values.get(name, (0.0, unit))[0] + value, unit)
     lines += ["effects:", *uses] if uses else ["effects: []"]
     lines += ["parameters:", f"  {PRIOR}:", "    description: values of the simulation", "    values:"]
     for name, (value, unit) in values.items():
