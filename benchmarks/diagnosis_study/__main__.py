@@ -6,11 +6,12 @@ import argparse
 import json
 import sys
 from collections.abc import Mapping
+from math import inf
 from typing import Any
 
 from benchmarks.diagnosis_study.drawing import MODES, cells
 from benchmarks.diagnosis_study.page import JSON, tables, write
-from benchmarks.diagnosis_study.runner import run
+from benchmarks.diagnosis_study.runner import Plan, run
 
 
 def main() -> int:
@@ -19,12 +20,15 @@ def main() -> int:
     parser.add_argument("--cases", type=int, default=200, help="of each cell and mode")
     parser.add_argument("--cells", nargs="+", choices=cells(), default=list(cells()))
     parser.add_argument("--modes", nargs="+", choices=MODES, default=list(MODES))
+    parser.add_argument("--baselines", type=int, default=20, help="cases of each that simpler ways are asked as well")
+    parser.add_argument("--minutes", type=float, default=inf, help="after which no case begins")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--development", action="store_true", help="without the reserved laws, and nothing is written")
     told = parser.parse_args()
-    wanted = [(cell, mode) for cell in told.cells for mode in told.modes]
+    wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
+    plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
     results = []
-    for one in run(wanted, told.cases, not told.development, told.processes):
+    for one in run(plan):
         results.append(one)
         print(_line(one), flush=True)
     found = tables(results)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
-import shutil
+import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
 from itertools import islice
+from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -34,6 +36,8 @@ _SOURCES = ("generator", "identification", "tests/plant", "benchmarks/diagnosis_
 MISMATCH = 0.05
 #: Seconds after which a diagnosis counts as broken.
 _PATIENCE = 600
+#: Processes share the cores by cases.
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 #: Draws for each case that is wanted: not every law reaches every size on every joint.
 _DRAWS = 6
 
@@ -53,6 +57,7 @@ def diagnose(folder: Path, case: Case) -> dict[str, Any]:
     done = subprocess.run(
         [sys.executable, "-m", "generator", *words, "--out", str(out)],
         capture_output=True,
+        env={**os.environ, **_ONE_THREAD},
         text=True,
         timeout=_PATIENCE,
         check=False,
@@ -63,7 +68,9 @@ def diagnose(folder: Path, case: Case) -> dict[str, Any]:
     return dict(json.loads((out / "diagnosis.json").read_text(encoding="utf-8")))
 
 
-def result(case: Case, command: Command = diagnose, keep: Path | None = None) -> dict[str, Any]:
+def result(
+    case: Case, command: Command = diagnose, keep: Path | None = None, baselines: bool = False
+) -> dict[str, Any]:
     """Truth, answer and score of a case; its files go to ``keep``, if given."""
     with TemporaryDirectory() as temporary:
         folder = keep or Path(temporary)
@@ -79,10 +86,8 @@ def result(case: Case, command: Command = diagnose, keep: Path | None = None) ->
         if "failed" in answer:
             return {**record, "failed": answer["failed"]}
         record["score"] = scored(done.truth, answer).record()
-        if case.cell in BASELINES:
+        if baselines:
             record["baselines"] = named_by_baselines(folder, case)
-        if keep is None:
-            shutil.rmtree(folder / "out", ignore_errors=True)
         return record
 
 
@@ -96,32 +101,55 @@ def folder_of_results() -> Path:
     return RESULTS / digest.hexdigest()[:16]
 
 
-def run(cells: list[tuple[str, str]], count: int, reserved: bool, processes: int = 1) -> Iterator[dict[str, Any]]:
-    """Results of ``count`` cases of each cell and mode, made or read from earlier runs, as they come.
+@dataclass(frozen=True)
+class Plan:
+    """``count`` cases of each of ``cells`` (with its mode), of which ``baselines`` are given to simpler ways too.
+
+    No case begins after ``minutes``. Without ``reserved`` laws that are kept from the development are left out.
+    """
+
+    cells: tuple[tuple[str, str], ...]
+    count: int
+    baselines: int
+    minutes: float = inf
+    reserved: bool = True
+    processes: int = 1
+
+
+def run(plan: Plan) -> Iterator[dict[str, Any]]:
+    """Results of the plan's cases, made or read from earlier runs, as they come.
 
     Cells take turns, so that a study that is stopped has some of each.
     """
-    kept = folder_of_results()
-    kept.mkdir(parents=True, exist_ok=True)
-    with ProcessPoolExecutor(processes) as pool:
-        drawn = {key: list(islice(cases(*key, reserved), _DRAWS * count)) for key in cells}
-        counted = dict.fromkeys(cells, 0)
-        for attempt in range(_DRAWS * count):
-            wanted = [drawn[key][attempt] for key in cells if counted[key] < count]
-            if not wanted:
-                return
-            for one in pool.map(partial(_kept, kept), wanted):
-                if "skipped" not in one:
-                    counted[one["case"]["cell"], one["case"]["mode"]] += 1
-                yield one
+    folder = folder_of_results()
+    folder.mkdir(parents=True, exist_ok=True)
+    end = time.monotonic() + 60 * plan.minutes
+    draws = _DRAWS * plan.count
+    drawn = {key: list(islice(cases(*key, plan.reserved), draws)) for key in plan.cells}
+    counted = dict.fromkeys(plan.cells, 0)
+    with ProcessPoolExecutor(plan.processes) as pool:
+        for attempt in range(draws):
+            left = [key for key in plan.cells if counted[key] < plan.count]
+            wanted = [(drawn[key][attempt], counted[key] < plan.baselines) for key in left]
+            for some in _batched(wanted, plan.processes):
+                if time.monotonic() > end:
+                    return
+                for one in pool.map(partial(_kept, folder), *zip(*some, strict=True)):
+                    if "skipped" not in one:
+                        counted[one["case"]["cell"], one["case"]["mode"]] += 1
+                    yield one
 
 
-def _kept(folder: Path, case: Case) -> dict[str, Any]:
+def _batched(items: list[Any], size: int) -> Iterator[list[Any]]:
+    return (items[at : at + size] for at in range(0, len(items), size))
+
+
+def _kept(folder: Path, case: Case, baselines: bool) -> dict[str, Any]:
     file = folder / f"{case.name}.json"
     if file.exists():
         return dict(json.loads(file.read_text(encoding="utf-8")))
     try:
-        done = result(case)
+        done = result(case, baselines=baselines and case.cell in BASELINES)
     except subprocess.TimeoutExpired:
         done = {"case": case.record(), "failed": f"no answer within {_PATIENCE} s"}
     half = file.with_suffix(".part")
