@@ -18,6 +18,7 @@ from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observation import Regressors
 from identification.observed import Observed
+from identification.own_load import under_own_load
 from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
@@ -27,8 +28,6 @@ from identification.suspicion import suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0
-#: Fits with the load of the last one, at most, and standard deviations by which a parameter still moves at the end.
-_REPEATS, _SETTLED = 20, 0.01
 
 
 @dataclass(frozen=True)
@@ -96,17 +95,21 @@ def identify(
     """
     options = options or Options()
     recipe = options.recipe or recipes.recipe_of(robot.name)
-    regressors = regressors or Regressors(robot)
+    given = regressors or Regressors(robot)
     trained, tried = (
-        tuple(_observed(_loaded(str(source), robot, recipe, options), recipe, regressors) for source in sources)
+        tuple(_observed(_loaded(str(source), robot, recipe, options), recipe, given) for source in sources)
         for sources in (data, test)
     )
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
-    if regressors.reads_load:
-        regressors, aside = _under_load(trained, regressors, payloads, recipe, options)
+    regressors, aside = under_own_load(
+        [one.sampled for one in trained],
+        given,
+        lambda factors: _problem(factors, given, payloads, recipe, options).solve(),
+    )
+    if regressors is not given:
         trained, tried = (tuple(Observed(one.sampled, regressors) for one in runs) for runs in (trained, tried))
-        notes += aside
+    notes += aside
     factors = _added(trained)
     problem = _problem(factors, regressors, payloads, recipe, options)
     problem, aside = _separable(problem, _payloads(trained))
@@ -182,33 +185,6 @@ def _problem(
     free = tuple(name for name in names if name not in fixed)
     weighted = recipe.weights == recipes.JOINT
     return Problem(factors, free, fixed, weighted, recipe.freedom == recipes.SAMPLES)
-
-
-def _under_load(
-    trained: Sequence[Observed],
-    regressors: Regressors,
-    payloads: Mapping[str, Payload],
-    recipe: Recipe,
-    options: Options,
-) -> tuple[Regressors, list[str]]:
-    """The regressors with the static load that the parameters make which they give themselves, and what is to tell."""
-    notes = ["friction by load counts the robot's own weight, not that of payloads"] if payloads else []
-    before: Solution | None = None
-    for _ in range(_REPEATS):
-        observed = [Observed(one.sampled, regressors) for one in trained]
-        after = _problem(_added(observed), regressors, payloads, recipe, options).solve()
-        if before is not None and _moved(before, after) < _SETTLED:
-            return regressors, notes
-        before, regressors = after, regressors.loaded_by(after.values)
-    return regressors, [*notes, f"friction by load has not settled after {_REPEATS} fits"]
-
-
-def _moved(before: Solution, after: Solution) -> float:
-    """By how many standard deviations a parameter moved that both fits show, at most; infinite if one shows more."""
-    if before.hidden != after.hidden:
-        return float("inf")
-    seen = [name for name in after.names if name not in after.hidden and after.std(name) > 0]
-    return max((abs(after.values[name] - before.values[name]) / after.std(name) for name in seen), default=0.0)
 
 
 def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Problem, list[str]]:

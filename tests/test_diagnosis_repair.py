@@ -18,7 +18,7 @@ from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELAST
 from identification.diagnosis.repair import Repaired, repaired
 from identification.robot_text import robot_of, with_item, with_value
 
-ROBOTS = ("kr500", "lbr_iiwa14", "scara", "stanford", "emps", "kr300")
+ROBOTS = ("kr500", "lbr_iiwa14", "scara", "emps")
 
 
 def text_of(name: str) -> str:

@@ -157,17 +157,19 @@ def prior() -> dict[str, float]:
     return resolved_sets(derive(read(find_robot("kr500")), names=(), check=False))["report_table_13"]
 
 
-@pytest.mark.parametrize("effect", EFFECTS)
-def test_the_effect_is_identified(effect: str, tmp_path: Path, prior: dict[str, float]) -> None:
-    warm = "\nsignals: {warm_up_time: 10 s}\n" if effect == "warm_friction" else ""
-    path = with_effects((effect,), tmp_path, warm)
-    truth = prior | EFFECTS[effect][1]
-    runs = [recorded(path, tmp_path / "run.csv", 1, truth, 10.0 if warm else None)]
+@pytest.mark.parametrize(
+    "effects", [("dahl_friction", "hysteresis", "lugre_friction"), ("load_friction", "warm_friction")]
+)
+def test_the_effects_are_identified(effects: tuple[str, ...], tmp_path: Path, prior: dict[str, float]) -> None:
+    warm = "\nsignals: {warm_up_time: 10 s}\n" if "warm_friction" in effects else ""
+    path = with_effects(effects, tmp_path, warm)
+    sought = {name: value for effect in effects for name, value in EFFECTS[effect][1].items()}
+    run = recorded(path, tmp_path / "run.csv", 1, prior | sought, 10.0 if warm else None)
     robot, regressors = derived(path)
-    found = identify(robot, runs, regressors=regressors)
+    found = identify(robot, [run], regressors=regressors)
     solution = found.full.solution
     assert not [note for note in found.notes if "settled" in note]
-    for name, value in EFFECTS[effect][1].items():
+    for name, value in sought.items():
         assert abs(solution.values[name] - value) < max(0.02 * abs(value), 5 * solution.std(name)), name
         # Bristles that a sliding joint bends show their force, not their damping.
         assert name == "Dz3" or solution.std(name) < 0.1 * abs(value), name

@@ -9,6 +9,7 @@ from math import ceil
 from generator.backends.printing.c_functions import MATHEMATICS
 from generator.backends.printing.identifiers import C_RESERVED, Identifiers
 from generator.backends.printing.language import LINE, Language
+from generator.backends.printing.many_samples import DYNAMICS, INPUTS, REGRESSOR, of_many_samples
 from generator.backends.printing.observation import layout
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare, signal_of
 from generator.backends.printing.signals import paragraph
@@ -22,9 +23,6 @@ from generator.version import VERSION
 
 NAME = "batch"
 
-#: What the batch functions are made of.
-_DYNAMICS, _REGRESSOR = "inverse_dynamics", "regressor_packed"
-_INPUTS = ("q", "qd", "qdd")
 _TRIGONOMETRY = ("sin", "cos")
 
 #: Operations on lanes, under the names that the template gives them.
@@ -32,7 +30,7 @@ _LANGUAGE = Language(
     calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign")},
     statement="const lanes {name} = {value};",
     literal="R({value})",
-    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "PITCH", *_INPUTS},
+    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "PITCH", *INPUTS},
 )
 
 
@@ -49,26 +47,18 @@ class LaneFunction:
     unread: tuple[str, ...]
 
 
-def applies(model: Model) -> bool:
-    """Whether there are functions of many samples: for a model with what they are made of, of the motion alone."""
-    made_of = (_DYNAMICS, _REGRESSOR)
-    if not {*made_of} <= model.functions.keys():
-        return False
-    return all(signal.name in _INPUTS for name in made_of for signal in model.functions[name].inputs)
-
-
 def emit(model: Model) -> dict[str, str | bytes]:
     """The header and the source by their paths.
 
     Nothing for a model without the functions that they are made of, or whose effects read more than the motion.
     """
-    if not applies(model):
+    if not of_many_samples(model):
         return {}
     prefix = model.robot.name
     prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})
-    dynamics, regressor = model.functions[_DYNAMICS], model.functions[_REGRESSOR]
+    dynamics, regressor = model.functions[DYNAMICS], model.functions[REGRESSOR]
     assert regressor.sparsity is not None
-    used = {node.operation for name in (_DYNAMICS, _REGRESSOR) for node in prepared.moving[name]}
+    used = {node.operation for name in (DYNAMICS, REGRESSOR) for node in prepared.moving[name]}
     context = {
         "prefix": prefix,
         "macro": prefix.upper(),
@@ -81,7 +71,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "trigonometry": [name for name in _TRIGONOMETRY if name in used],
         "uses_sign": "sign" in used,
-        "spread": _spread([*prepared.moving[_DYNAMICS], *prepared.moving[_REGRESSOR]]),
+        "spread": _spread([*prepared.moving[DYNAMICS], *prepared.moving[REGRESSOR]]),
     }
     return {
         f"{prefix}_batch.h": render("batch/header.h.jinja", **context),
@@ -110,7 +100,7 @@ def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
         block.statements,
         tuple(results),
         _reads(nodes, function.roots, fields),
-        tuple(name for name in _INPUTS if name not in read),
+        tuple(name for name in INPUTS if name not in read),
     )
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from generator.backends import batch
 from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED, Identifiers
 from generator.backends.printing.language import LINE
+from generator.backends.printing.many_samples import of_many_samples
 from generator.backends.printing.observation import layout
 from generator.backends.printing.plants import plants
 from generator.backends.printing.prepared import prepare
@@ -51,7 +51,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "methods": [_method(function) for function in model.functions.values()],
         "prefix": model.robot.name,
         "plants": plants(model),
-        "many": batch.applies(model),
+        "many": of_many_samples(model),
         "width": len(model.base_parameters),
         "work": layout(structure).work,
         "parameter_count": len(model.parameters),

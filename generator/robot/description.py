@@ -101,8 +101,8 @@ class Signals:
 
     True position = recorded + ``position_offset`` [rad, m]; true motor torque = recorded times ``torque_gain``. What is
     recorded as motor torque or current was true ``torque_delay`` [s] before (it will be, where that is negative), as
-    link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. A drive's warmth
-    is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K]. Nothing of it is in the
+    link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. The warmth of a
+    drive is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K]. Nothing of it is in the
     generated functions.
     """
 

@@ -24,10 +24,12 @@ _LEFT = 1e-4
 
 @dataclass(frozen=True)
 class Prior:
-    """What is known of the base parameters beforehand: values and standard deviations (p), infinite where nothing."""
+    """What is known of the base parameters beforehand: ``mean`` (p) and ``precision``, the inverse of its covariance
+    (p x p), with zero rows for parameters of which nothing is known.
+    """
 
     mean: Array
-    std: Array
+    precision: Array
 
 
 @dataclass(frozen=True)
@@ -44,14 +46,12 @@ class Normal:
         """The Gram matrix with the prior's rows."""
         if self.prior is None:
             return self.gram
-        known = np.flatnonzero(np.isfinite(self.prior.std))
-        weight = self.prior.std[known] ** -2.0
-        mean = self.prior.mean[known]
+        weighted = self.prior.precision @ self.prior.mean
         whole = self.gram.copy()
-        whole[known, known] += weight
-        whole[known, -1] += weight * mean
-        whole[-1, known] += weight * mean
-        whole[-1, -1] += float(weight @ mean**2)
+        whole[: self.base, : self.base] += self.prior.precision
+        whole[: self.base, -1] += weighted
+        whole[-1, : self.base] += weighted
+        whole[-1, -1] += float(weighted @ self.prior.mean)
         return whole
 
     @cached_property

@@ -37,7 +37,7 @@ class Player:
         return self._module is not None
 
     def torques(self, values: Mapping[str, float], motion: Motion) -> Array:
-        """Joint torques (n x N) [N m, N] along a motion, for values of the base parameters by name, absent ones zero."""
+        """Joint torques (n x N) [N m, N] along a motion, for values of the base parameters by name, or zero."""
         if self._module is None:
             return self.regressors.torques(values, motion)
         known = {name: value for name, value in values.items() if name in self._module.PARAMETERS}
@@ -79,7 +79,7 @@ def compiled(robot_file: Path, out: Path, regressors: Regressors, stage: Stage =
 
 @dataclass(frozen=True)
 class Played:
-    """A run's rows: times ``t`` (N) [s], ``measured`` and ``model`` torques (n x N) [N m, N], which rows are ``kept``."""
+    """Rows of a run: times ``t`` (N) [s], ``measured`` and ``model`` torques (n x N) [N m, N], which are ``kept``."""
 
     t: Array
     measured: Array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.fields import nearest
@@ -11,8 +12,12 @@ from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved_sets
 from identification.diagnosis.normal import Prior
 
+Array = NDArray[np.float64]
+
 #: Relative standard deviation of a value whose set tells none, and of what is zero, in parts of the largest of its unit.
-_UNTOLD, _ZERO = 0.02, 1e-3
+_UNTOLD, _ZERO = 0.05, 1e-3
+#: Part of a variance by which parameters that are the same sums may differ.
+_EXACT = 1e-6
 
 
 def prior_of(model: Model, name: str) -> Prior:
@@ -36,17 +41,26 @@ def prior_of(model: Model, name: str) -> Prior:
         )
         for key, one in given.items()
     }
+    keys = list(deviation)
+    map_ = np.zeros((len(model.base_parameters), len(keys)))
     lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
-    std = []
-    for base, parameter in zip(model.grouping.base, model.base_parameters, strict=True):
-        if parameter.name in given:
-            std.append(deviation[parameter.name])
+    for row, (base, parameter) in enumerate(zip(model.grouping.base, model.base_parameters, strict=True)):
+        if parameter.name in deviation:
+            map_[row, keys.index(parameter.name)] = 1.0
             continue
-        terms = [(float(coefficient.subs(lengths)), key) for coefficient, key in base.terms]
-        found = [abs(weight) * deviation[key] for weight, key in terms if key in deviation]
-        std.append(float(np.linalg.norm(found)) if found else np.inf)
+        for coefficient, key in base.terms:
+            if key in deviation:
+                map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
-    # A parameter that is known exactly would make the sums of squares infinite.
-    deviations = np.array(std)
-    smallest = 1e-6 * max(float(np.max(deviations[np.isfinite(deviations)], initial=0.0)), 1e-12)
-    return Prior(mean, np.maximum(deviations, smallest))
+    return Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
+
+
+def _precision(root: Array) -> Array:
+    """Inverse of root root^T (p x p) over the rows that are not zero; what is known exactly gets a small deviation."""
+    known = np.flatnonzero(np.any(root != 0, axis=1))
+    covariance = root[known] @ root[known].T
+    size = np.sqrt(np.diag(covariance))
+    scaled = covariance / np.outer(size, size) + _EXACT * np.eye(len(known))
+    result = np.zeros((len(root), len(root)))
+    result[np.ix_(known, known)] = np.linalg.inv(scaled) / np.outer(size, size)
+    return result

@@ -68,7 +68,7 @@ class Scene:
     def load(self) -> Array:
         """Static loads of the transmissions (n x N): weight, springs and balancers, without the drives' offsets."""
         offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
-        return self.resting - np.array(offsets)[:, None]
+        return np.asarray(self.resting - np.array(offsets)[:, None])
 
     def rate(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, central differences."""

@@ -27,6 +27,16 @@ _ALPHA = 1e-3
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it.
 _FLOOR, _SHARE = 0.06, 0.01
+#: What nearly every robot has: taken first, then challenged by everything else.
+_COMMON = (
+    "rotor_inertia",
+    "viscous_friction",
+    "coulomb_friction",
+    "offset",
+    "payload",
+    "gas_balancer",
+    "spring_balancer",
+)
 #: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
 _BESIDE, _ALIKE = 0.03, 0.15
 _OF_SPEED = ("qd", "time since reversal")
@@ -36,7 +46,7 @@ _BETTER, _EQUAL = 6.0, 0.01
 _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
 _UNLIKE = 0.25
-_MOST, _ROUNDS = 8, 3
+_MOST, _ROUNDS = 18, 3
 #: Hypotheses whose pairs are tried when single ones do not do.
 _PAIRED = 30
 
@@ -75,6 +85,7 @@ class Selection:
     def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
         self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self._known_drops: dict[tuple[int, ...], list[float]] = {}
         self.refresh()
 
     def refresh(self) -> None:
@@ -135,7 +146,8 @@ class Selection:
             return replace(one, why_not="within chance")
         validation = self._validation(variant, others)
         one = replace(one, validation=validation)
-        promised = drop * self.held.rows / self.normal.rows
+        # While much is missing, the missing rest decides what a part of it does to another run.
+        promised = drop * self.held.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         if size < _FLOOR or drop < _SHARE * unexplained:
@@ -149,13 +161,21 @@ class Selection:
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""
         least = 0.0
-        for other in others:
-            if not set(other.joints) & set(variant.joints):
-                continue
-            rest = self.normal.beside(_columns([one for one in others if one is not other]))
-            alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
-            least = max(least, (_ALIKE if alike else _BESIDE) * self._solve(rest, other)[1])
+        for other, drop in zip(others, self._drops(others), strict=True):
+            if set(other.joints) & set(variant.joints):
+                alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
+                least = max(least, (_ALIKE if alike else _BESIDE) * drop)
         return least
+
+    def _drops(self, chosen: Sequence[Variant]) -> list[float]:
+        """What each of the chosen explains beside the rest of them."""
+        key = tuple(_columns(chosen))
+        if key not in self._known_drops:
+            self._known_drops[key] = [
+                self._solve(self.normal.beside(_columns([one for one in chosen if one is not other])), other)[1]
+                for other in chosen
+            ]
+        return self._known_drops[key]
 
     def _validation(self, variant: Variant, others: Sequence[Variant]) -> float:
         """Drop of the held-out sum of squares, with parameters from the fitted runs."""
@@ -171,7 +191,9 @@ class Selection:
         chosen = list(start)
         paired = False
         while len(chosen) < _MOST:
-            first = next((one for one in self.evidence(chosen) if one.passes), None)
+            passing = [one for one in self.evidence(chosen) if one.passes]
+            common = [one for one in passing if one.variant.hypothesis.effect in _COMMON]
+            first = next(iter([*common, *passing]), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
                 paired = True

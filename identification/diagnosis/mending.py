@@ -1,0 +1,121 @@
+"""From what was found to a robot file that holds it: written, refitted, regenerated, played against untouched runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from generator.generation import Stage, silent
+from generator.robot.description import Robot
+from generator.writing import replace
+from identification import recipe as recipes
+from identification.dataset import load
+from identification.diagnosis.addition import Addition, addition
+from identification.diagnosis.changes import difference, groupings_difference
+from identification.diagnosis.diagnosis import Diagnosis
+from identification.diagnosis.finding import Finding
+from identification.diagnosis.hypothesis import BODY
+from identification.diagnosis.normal import Prior
+from identification.diagnosis.played import Played, Player, compiled, play
+from identification.diagnosis.priors import prior_of
+from identification.diagnosis.refit import Refit, refit, with_payload
+from identification.diagnosis.repair import repaired
+from identification.observation import Regressors
+from identification.robot_file import with_parameter_set
+from identification.sampling import Sampled, sampled
+
+#: Folder of the regenerated code, beside the new robot file.
+GENERATED = "generated"
+
+
+@dataclass(frozen=True)
+class Mended:
+    """The new robot file's ``text``, its ``robot`` and parameters, and where its code went (``generated``).
+
+    ``before`` and ``after`` are the test runs as the old and the new model play them; ``file_difference`` and
+    ``groupings_difference`` are unified diffs.
+    """
+
+    text: str
+    robot: Robot
+    additions: tuple[Addition, ...]
+    fit: Refit
+    before: tuple[Played, ...]
+    after: tuple[Played, ...]
+    file_difference: str
+    groupings_difference: str
+    generated: Path
+    notes: tuple[str, ...]
+
+
+def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage: Stage = silent) -> Mended:
+    """The robot file ``path`` with the findings of a diagnosis in it, written to ``folder``, its code beside it.
+
+    With a ``prior`` set the old model plays with that set and the new parameters stay near it; without, both are
+    fitted to the runs that the diagnosis fitted.
+
+    Raises InputError where ``folder`` cannot be written.
+    """
+    name = f"{found.robot.name}.yaml"
+    old_text = path.read_text(encoding="utf-8-sig")
+    new = repaired(old_text, name, additions := [_addition(one) for one in found.findings])
+    old_regressors, regressors = found.found.bank.scenes[0].regressors, Regressors(new.robot)
+    with stage("fitting the parameters with what was found"):
+        known = None if prior is None else _prior(prior, regressors, found.findings)
+        more = {key: value for one in additions for key, value in one.parameters.items()}
+        fit = refit(_sampled(found.roles.train, regressors), regressors, known, more, _description(found.findings))
+        if prior is None:
+            values = refit(_sampled(found.roles.train, old_regressors), old_regressors).values
+        else:
+            mean = prior_of(old_regressors.model, prior).mean.tolist()
+            values = dict(zip(old_regressors.names, mean, strict=True))
+    text = with_parameter_set(new.text, fit.parameter_set)
+    replace(folder, {name: text.encode()})
+    player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
+    with stage("playing the untouched runs"):
+        before = _played(found.roles.test, Player(old_regressors), values)
+        after = _played(found.roles.test, player, fit.values)
+    return Mended(
+        text,
+        new.robot,
+        tuple(additions),
+        fit,
+        before,
+        after,
+        difference(old_text, text, name),
+        groupings_difference(old_regressors.model, regressors.model),
+        folder / GENERATED / found.robot.name,
+        (*new.notes, *fit.notes, *notes),
+    )
+
+
+def _addition(one: Finding) -> Addition:
+    values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
+    size = ", ".join(f"{rms:.3g} on joint {joint}" for joint, rms in sorted(one.amplitude.items()))
+    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}: rms torque {size}")
+
+
+def _description(found: Sequence[Finding]) -> str:
+    titles = ", ".join(dict.fromkeys(one.hypothesis.title for one in found))
+    return f"base parameters with {titles}" if titles else "base parameters, nothing missing"
+
+
+def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior:
+    """What the set says of the new model's base parameters, with a payload that was found."""
+    prior = prior_of(regressors.model, name)
+    for one in found:
+        if one.hypothesis.kind == BODY:
+            values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
+            prior = with_payload(prior, regressors, values, {key: one.parameters[key].std for key in values})
+    return prior
+
+
+def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
+    robot = regressors.model.robot
+    recipe = recipes.recipe_of(robot.name)
+    return [sampled(load(source, robot, recipe.columns), recipe, regressors) for source in sources]
+
+
+def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
+    return tuple(play(one, player, values) for one in _sampled(sources, player.regressors))

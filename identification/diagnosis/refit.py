@@ -1,0 +1,154 @@
+"""The parameters of the repaired robot: all base parameters anew from the fitted runs, near what was known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import ParameterSet, ParameterValue
+from generator.symbolic.bodies import INERTIAL
+from identification.diagnosis.normal import Normal, Prior
+from identification.factors import Factor, added
+from identification.least_squares import Problem, Solution
+from identification.observation import Motion, Regressors
+from identification.observed import Observed
+from identification.own_load import under_own_load
+from identification.sampling import Sampled
+
+Array = NDArray[np.float64]
+
+#: Name of the set in the robot file.
+SET = "diagnosed"
+#: Times that the rows are weighed by what the last fit left of them.
+_PASSES = 3
+#: Samples at which a payload is compared with base parameters.
+_SAMPLES = 80
+
+
+@dataclass(frozen=True)
+class Refit:
+    """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
+
+    ``regressors`` are those with the load that the parameters make.
+    """
+
+    values: Mapping[str, float]
+    std: Mapping[str, float]
+    parameter_set: ParameterSet
+    regressors: Regressors
+    notes: tuple[str, ...]
+
+
+def refit(
+    runs: Sequence[Sampled],
+    regressors: Regressors,
+    prior: Prior | None = None,
+    more: Mapping[str, float] | None = None,
+    description: str = "",
+) -> Refit:
+    """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
+
+    ``more`` are values of further parameters of the model, which go into the set as they are.
+    """
+    known = {
+        one.run.payload.names()[stem]: value
+        for one in runs
+        if one.run.payload is not None
+        for stem, value in one.run.payload.known.items()
+    }
+    payloads = [name for one in runs if one.run.payload is not None for name in one.run.payload.names().values()]
+    free = tuple(dict.fromkeys([*regressors.names, *(name for name in payloads if name not in known)]))
+
+    def fit(factors: tuple[Factor, ...]) -> Solution:
+        solution = Problem(factors, free, known, weighted=True).solve()
+        return solution if prior is None else _near(prior, factors, solution)
+
+    regressors, notes = under_own_load(runs, regressors, fit)
+    solution = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))
+    values = {name: solution.values[name] for name in regressors.names}
+    std = {name: solution.std(name) for name in regressors.names}
+    hidden = [name for name in regressors.names if name in solution.hidden]
+    if hidden:
+        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out")
+    names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
+    how = "least squares" if prior is None else "least squares near what was known"
+    written = ParameterSet(
+        SET,
+        description or "base parameters with what the diagnosis found",
+        f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
+        _values(regressors, values, std, solution, more or {}),
+    )
+    return Refit(values, std, written, regressors, tuple(notes))
+
+
+def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, float], std: Mapping[str, float]) -> Prior:
+    """What is known of the base parameters once the last body carries a payload, and how well.
+
+    ``payload`` holds M, MX, MY, MZ [kg, kg m] in the tool frame and I [kg m2], the same about all axes.
+    """
+    names = {"I": ("XX", "YY", "ZZ")}
+    to_base = _payload_in_base(regressors)
+    mean, variance = np.array(prior.mean), np.array(prior.std**2)
+    for name, value in payload.items():
+        column = sum(to_base[:, INERTIAL.index(stem)] for stem in names.get(name, (name,)))
+        mean = mean + column * value
+        variance = np.asarray(variance + (column * std.get(name, 0.0)) ** 2)
+    return replace(prior, mean=mean, std=np.sqrt(variance))
+
+
+def _payload_in_base(regressors: Regressors) -> Array:
+    """Base parameters per inertial parameter of a body in the tool frame (p x 10), by their torques."""
+    shape = (regressors.model.dof, _SAMPLES)
+    rng = np.random.default_rng(1)
+    motion = Motion(*(rng.uniform(-1.5, 1.5, shape) for _ in range(3)))
+    place = {name: k for k, name in enumerate(regressors.names)}
+    W = np.zeros((*shape, len(place)))
+    for row, names, columns in zip(W, regressors.structure, regressors.base(motion), strict=True):
+        row[:, [place[name] for name in names]] = columns.T
+    body = np.stack([columns.T for columns in regressors.payload(motion)])
+    solution = np.linalg.lstsq(W.reshape(-1, len(place)), body.reshape(-1, len(INERTIAL)), rcond=None)[0]
+    return np.asarray(solution, dtype=float)
+
+
+def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
+    """The solution with the prior's rows, each joint's rows weighed by what is left of them."""
+    count = len(start.names) - len(prior.mean)
+    whole = Prior(np.append(prior.mean, np.zeros(count)), np.append(prior.std, np.full(count, np.inf)))
+    given = {name: value for name, value in start.values.items() if name not in start.names}
+    result, sigma = start, dict(start.sigma)
+    for _ in range(_PASSES):
+        gram = np.zeros((len(start.names) + 1,) * 2)
+        for one in factors:
+            R = one.on(start.names)
+            R[:, -1] -= one.on(tuple(given))[:, :-1] @ np.array(list(given.values()))
+            gram += R.T @ R / sigma[one.joint] ** 2
+        rows = sum(one.rows for one in factors)
+        chi, covariance = Normal(gram, len(start.names), rows, whole).solution([])
+        values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
+        sigma = {one.joint: max(one.residual(values) / np.sqrt(max(one.rows, 1)), 1e-300) for one in factors}
+        unknown = tuple(name for name, std in zip(start.names, whole.std, strict=True) if not np.isfinite(std))
+        hidden = tuple(name for name in start.hidden if name in unknown)
+        result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
+    return result
+
+
+def _values(
+    regressors: Regressors,
+    values: Mapping[str, float],
+    std: Mapping[str, float],
+    solution: Solution,
+    more: Mapping[str, float],
+) -> dict[str, ParameterValue]:
+    result = {}
+    for parameter in regressors.model.parameters:
+        name = parameter.name
+        if name in values and name not in solution.hidden:
+            relative = 100 * std[name] / abs(values[name]) if values[name] else None
+            result[name] = ParameterValue(values[name], parameter.unit, relative)
+        elif name in more:
+            result[name] = ParameterValue(more[name], parameter.unit, note="found with the effect, not refitted")
+    return result

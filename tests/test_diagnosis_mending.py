@@ -1,0 +1,72 @@
+"""From runs of the simulated robot over the diagnosis to new code that explains a run that nothing has touched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from generator.robot.readers import read
+from identification import recipe as recipes
+from identification.dataset import load
+from identification.diagnosis.diagnosis import NAMED, diagnose
+from identification.diagnosis.mending import Mended, mended
+from identification.diagnosis.prepared import prepared
+from identification.diagnosis.roles import roles
+from identification.observation import Regressors
+from tests.plant.effect import Effect
+from tests.plant.robot_file import robot_file
+from tests.plant.robots import ROBOTS
+from tests.plant.run import write_csv
+from tests.plant.simulate import make_run
+from tests.plant.trajectories.fourier import fourier
+
+ARM = ROBOTS["three_axis"]
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Mended]:
+    folder = tmp_path_factory.mktemp("mending")
+    path = folder / f"{ARM.name}.yaml"
+    path.write_text(f"# Kept as it is.\n{robot_file(ARM)}", encoding="utf-8")
+    hidden = Effect("position_friction", 2, 1.0 * ARM.chain[1].coulomb)
+    sources = []
+    for seed in (1, 2, 3):
+        write_csv(make_run(ARM, fourier(seed, period=5.0, periods=3), [hidden], seed=seed), folder / f"{seed}.csv")
+        sources.append(str(folder / f"{seed}.csv"))
+    robot = read(path)
+    regressors, recipe = Regressors(robot), recipes.recipe_of(robot.name)
+    first = [load(source, robot, recipe.columns) for source in sources]
+    chosen = roles(first[:1], sources[1:2], sources[2:])
+    runs = [prepared(one, recipe, regressors) for one in first[:-1]]
+    found = diagnose(regressors, runs, chosen)
+    assert found.verdict == NAMED
+    return folder, mended(path, found, None, folder / "out")
+
+
+def test_the_new_file_holds_the_effect_and_the_rest_of_the_old_one(case: tuple[Path, Mended]) -> None:
+    folder, done = case
+    written = folder / "out" / f"{ARM.name}.yaml"
+    assert written.read_text(encoding="utf-8") == done.text
+    robot = read(written)
+    assert any(use.effect == "position_friction" and use.joints == (2,) for use in robot.effects)
+    assert "diagnosed" in robot.parameter_sets
+    assert done.text.startswith("# Kept as it is.\n")
+    gone = [line for line in done.file_difference.splitlines() if line.startswith("-") and not line.startswith("---")]
+    assert not gone
+    assert "position_friction" in done.file_difference
+    for name in ("Fqc2", "Fqs2"):
+        assert name in done.groupings_difference
+
+
+def test_the_code_is_generated_and_the_gap_closes_on_the_untouched_run(case: tuple[Path, Mended]) -> None:
+    folder, done = case
+    assert done.generated == folder / "out" / "generated" / ARM.name
+    assert (done.generated / "c" / f"{ARM.name}.c").is_file()
+    assert (done.generated / "python" / f"lib{ARM.name}.so").is_file()
+    (before,), (after,) = done.before, done.after
+    was, now = (one.residuals.per_joint[1] for one in (before, after))
+    assert now.rows == was.rows
+    assert now.norm < 0.6 * was.norm
+    assert now.relative_to_mean < was.relative_to_mean
+    assert not done.notes
