@@ -9,6 +9,7 @@ from typing import Any
 from benchmarks.diagnosis_study import summary
 from benchmarks.diagnosis_study.power_curve import power_curve
 from benchmarks.diagnosis_study.runner import MISMATCH
+from benchmarks.diagnosis_study.simpler_ways import rows_of_simpler_ways
 from benchmarks.diagnosis_study.sizing import INVISIBLE, LIMIT
 from benchmarks.diagnosis_study.study import STUDY
 from benchmarks.table import table
@@ -27,7 +28,7 @@ def tables(results: Sequence[summary.Result]) -> dict[str, Any]:
         "apart": summary.rows_apart(results),
         "laws": summary.rows_of_laws(results),
         "numbers": summary.rows_of_numbers(results),
-        "baselines": summary.rows_of_baselines(results),
+        "baselines": rows_of_simpler_ways(results),
         "power": {
             law: [{"size": size, "hits": one.hits, "count": one.count} for size, one in curve]
             for law, curve in summary.power(results).items()
@@ -47,13 +48,14 @@ def page(found: Mapping[str, Any]) -> str:
         table(found["cells"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",
-        "What counts as right is in `study.json`. `named instead`: what was first where the law was not found.",
+        "What counts as right is in `benchmarks/diagnosis_study/study.json`. `named instead`: what was first where the "
+        "law was not found.",
         table(found["laws"]),
         "## Parameters and the gap",
         table(found["numbers"]),
         "## Simpler ways on the same runs",
-        "Stepwise BIC, a held-out gate alone and sequentially thresholded least squares see the same white rows and "
-        "candidates as the diagnosis.",
+        "Stepwise BIC, a held-out gate alone and sequentially thresholded least squares (STLSQ) see the rows and "
+        "candidates of the diagnosis, each joint weighted by its noise; BIC is asked on white rows as well.",
         table(found["baselines"]),
     ]
     if found["power"]:
@@ -80,7 +82,7 @@ effect that the robot has but the hidden one, among them, in every other case, o
 the textbook's ({", ".join(STUDY.beside)}); its values are wrong by draws of the standard deviations that it states,
 2 % of inertial values and 5 % of friction. There are three runs of 30 s to fit, one of 20 s to validate, one of 20 s
 to test, at 500 Hz, with 2 % coloured noise of the currents. Robot, law, joint and motion are drawn at random from the
-seed in `study.json`. Kept from all development were the laws {", ".join(STUDY.reserved)}.
+seed in `benchmarks/diagnosis_study/study.json`. Kept from all development were the laws {", ".join(STUDY.reserved)}.
 
 The size of an effect is the rms of what it adds to the torque over that of the noise, both white, up to {LIMIT:g} Hz,
 on the fitted runs and the joints on which it acts, after projection on all that the mode can fit. Joints act whose

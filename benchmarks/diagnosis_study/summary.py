@@ -9,26 +9,26 @@ from typing import Any
 from benchmarks.diagnosis_study.case import FREE, KNOWN
 from benchmarks.diagnosis_study.drawing import SIZES
 from benchmarks.diagnosis_study.intervals import Share, share
-from benchmarks.diagnosis_study.runner import BASELINES, MISMATCH
+from benchmarks.diagnosis_study.runner import MISMATCH
 from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
 
 Result = Mapping[str, Any]
 Row = dict[str, object]
 
-_MODES = {FREE: "free fit", KNOWN: "known parameters"}
+MODES = {FREE: "free fit", KNOWN: "known parameters"}
 
 
 def rows_of_cells(results: Sequence[Result]) -> list[Row]:
     """What is asked of each cell, by mode."""
     rows: list[Row] = []
     for cell, questions in _QUESTIONS.items():
-        for mode, title in _MODES.items():
-            scores = [one["score"] for one in _of(results, cell, mode)]
+        for mode, title in MODES.items():
+            scores = [one["score"] for one in of(results, cell, mode)]
             for question, answer in questions.items():
                 flags = [flag for flag in map(answer, scores) if flag is not None]
                 if flags:
-                    rows.append({"cell": _TITLES[cell], "mode": title, "": question, "cases": str(share(flags))})
+                    rows.append({"cell": TITLES[cell], "mode": title, "": question, "cases": str(share(flags))})
     return rows
 
 
@@ -36,7 +36,7 @@ def rows_apart(results: Sequence[Result]) -> list[Row]:
     """Cases whose robot file's laws are further from the robot's own: names beside the hidden ones are no mistake."""
     cases = [one for one in results if "score" in one and _apart(one)]
     rows: list[Row] = []
-    for cell, title in _TITLES.items():
+    for cell, title in TITLES.items():
         scores = [one["score"] for one in cases if one["case"]["cell"] == cell]
         if scores:
             found = [score["found"] == score["visible"] for score in scores if score["visible"]]
@@ -54,7 +54,7 @@ def rows_apart(results: Sequence[Result]) -> list[Row]:
 def rows_of_laws(results: Sequence[Result]) -> list[Row]:
     """Each law of one hidden effect at three times the noise, both modes together."""
     rows: list[Row] = []
-    cases = [one for mode in _MODES for one in _of(results, "one_3x", mode)]
+    cases = [one for mode in MODES for one in of(results, "one_3x", mode)]
     for law in STUDY.laws:
         mine = [one for one in cases if one["truth"]["hidden"][0]["law"] == law]
         if not mine:
@@ -81,8 +81,8 @@ def rows_of_laws(results: Sequence[Result]) -> list[Row]:
 def rows_of_numbers(results: Sequence[Result]) -> list[Row]:
     """Parameters within two deviations, and the gap that closed, of correct cases with one effect at three times."""
     rows: list[Row] = []
-    for mode, title in _MODES.items():
-        scores = [one["score"] for one in _of(results, "one_3x", mode) if one["score"]["found"]]
+    for mode, title in MODES.items():
+        scores = [one["score"] for one in of(results, "one_3x", mode) if one["score"]["found"]]
         within, closed = _said(scores, "within"), _said(scores, "closed")
         rows.append(
             {
@@ -97,35 +97,12 @@ def rows_of_numbers(results: Sequence[Result]) -> list[Row]:
     return rows
 
 
-def rows_of_baselines(results: Sequence[Result]) -> list[Row]:
-    """The diagnosis and simpler ways on the same runs."""
-    rows: list[Row] = []
-    for cell in BASELINES:
-        cases = [one for mode in _MODES for one in _of(results, cell, mode) if "baselines" in one]
-        if not cases:
-            continue
-        ways = {"the diagnosis": [_pairs(one["score"]["named"]) for one in cases]}
-        for way in cases[0]["baselines"]:
-            ways[way] = [[(name, int(joint)) for name, joint in one["baselines"][way]] for one in cases]
-        for way, named in ways.items():
-            truths = [one["truth"]["hidden"] for one in cases]
-            named_any = share([bool(names) for names in named])
-            row: Row = {"cell": _TITLES[cell], "way": way, "named something": str(named_any)}
-            row["names a case"] = f"{sum(map(len, named)) / len(named):.1f}"
-            if cell.startswith("one"):
-                there = [any(_right(name, truth) for name in names) for names, truth in zip(named, truths, strict=True)]
-                only = [hit and len(names) == 1 for hit, names in zip(there, named, strict=True)]
-                row |= {"truth among them": str(share(there)), "and nothing else": str(share(only))}
-            rows.append(row)
-    return rows
-
-
 def power(results: Sequence[Result]) -> dict[str, list[tuple[float, Share]]]:
     """For each law of the power curve the share of cases in which it is firmly named, over the size."""
     curves: dict[str, list[tuple[float, Share]]] = {}
     for law in STUDY.power:
         for size in SIZES:
-            cases = [one for mode in _MODES for one in _of(results, f"power_{size:g}x", mode)]
+            cases = [one for mode in MODES for one in of(results, f"power_{size:g}x", mode)]
             flags = [one["score"]["found"] > 0 for one in cases if one["truth"]["hidden"][0]["law"] == law]
             if flags:
                 curves.setdefault(law, []).append((size, share(flags)))
@@ -150,7 +127,8 @@ def _apart(one: Result) -> bool:
     return bool(one["truth"]["mismatch"] > MISMATCH)
 
 
-def _of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
+def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
+    """Scored cases of a cell and mode, without those that are scored apart."""
     return [
         one
         for one in results
@@ -160,23 +138,6 @@ def _of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
 
 def _first(score: Mapping[str, Any]) -> bool:
     return bool(score["first"])
-
-
-def _pairs(named: Sequence[str]) -> list[tuple[str, int]]:
-    found = []
-    for one in named:
-        effect, _, joints = one.partition(" ")
-        numbers = [int(x) for x in joints.strip("[]").split(",") if x.strip()]
-        found.append((effect, numbers[0] if numbers else 0))
-    return found
-
-
-def _right(name: tuple[str, int], truth: Sequence[Mapping[str, Any]]) -> bool:
-    for one in truth:
-        expected = STUDY.laws.get(one["law"])
-        if expected and name[0] in expected.named and (expected.anywhere or name[1] == one["joint"]):
-            return True
-    return False
 
 
 Question = Callable[[Mapping[str, Any]], bool | None]
@@ -214,7 +175,7 @@ _QUESTIONS: Mapping[str, Mapping[str, Question]] = {
         "the right joint in `where`": lambda s: s["joint_right"],
     },
 }
-_TITLES = {
+TITLES = {
     "null": "nothing hidden",
     "one_3x": "one effect, 3 x noise",
     "one_1x": "one effect, 1 x noise",
