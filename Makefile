@@ -27,7 +27,8 @@ export CALLER := $(PWD)
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
-.PHONY: help generate all-robots list study-diagnosis identify test test-extra format lock bench twins clean distclean
+.PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
+    example-diagnosis study-diagnosis test test-extra format lock bench twins clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -49,8 +50,33 @@ all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
 list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list
 
+# These run where make was called, so that files beside the caller are found and results stay there.
+IN_CALLER := @cd "$${CALLER:-.}" && $(COUNTERPOISE)
+
+excite: $(TESTING) ## robot=NAME: a motion that shows the parameters, before the robot moves; options="..."
+	$(IN_CALLER) excite "$$robot" $(options)
+
+simulate: $(TESTING) ## robot=NAME: a run of the simulated robot; options="--noise 0.3 ..."
+	$(IN_CALLER) simulate "$$robot" $(options)
+
 identify: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters from recorded runs
-	@cd "$${CALLER:-.}" && $(COUNTERPOISE) identify "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
+	$(IN_CALLER) identify "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
+
+gains: $(TESTING) ## robot=NAME empty=A.csv loaded=B.csv: drive gains from runs without and with a payload
+	$(IN_CALLER) gains "$$robot" --empty $(empty) --loaded $(loaded) $(options)
+
+stiffness: $(TESTING) ## robot=NAME data=A.csv options="--locked 2": stiffness of drive trains
+	$(IN_CALLER) stiffness "$$robot" --data $(data) $(options)
+
+compare: $(TESTING) ## a=A/results.json b=NAME:SET: where two results differ, and whether it can be noise
+	$(IN_CALLER) compare $(a) $(b) $(options)
+
+output-error: $(TESTING) ## robot=NAME data="A.csv B.csv" test=C.csv: parameters by simulation in open loop
+	$(IN_CALLER) output-error "$$robot" --data $(data) $(if $(test),--test $(test)) $(options)
+
+diagnose: $(TESTING) ## robot=NAME data="A.csv B.csv" validate=C.csv test=D.csv prior=SET: what the model lacks
+	$(IN_CALLER) diagnose "$$robot" $(data) $(if $(validate),--validate $(validate)) $(if $(test),--test $(test)) \
+	    $(if $(prior),--prior $(prior)) $(options)
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests

@@ -1,7 +1,8 @@
 """Time and memory of an identification from ten minutes at 1 kHz: ``python -m benchmarks.long_run [ROBOT]``.
 
 The run is made of the robot's twin, or of unit parameters where the file has none: sums of sines within the limits,
-2 % of noise, encoder steps of a microradian.
+2 % of noise, encoder steps of a microradian. Then what parts of the work take: the regressor by NumPy, its decimation,
+and the same regressor by the compiled library with the time to make it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +22,14 @@ from numpy.typing import NDArray
 from generator.resources import find_robot
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
+from identification.filtering import Stage
 from identification.observation import Motion, Regressors
+from identification.simulation.machine import compiled
 
 _RATE, _DURATION, _NOISE, _STEP = 1000.0, 600.0, 0.02, 1e-6
 _PART = 1 << 16
+#: Samples that the parts of the work are timed on, and the decimation's first stage.
+_SHORT, _STAGE = 1 << 15, Stage(10)
 
 
 def main(robot: str = "kr500") -> None:
@@ -39,6 +46,32 @@ def main(robot: str = "kr500") -> None:
     print(
         f"{seconds:.1f} s, {used.ru_utime + used.ru_stime:.1f} s of processors, {used.ru_maxrss / 1e6:.2f} GB at most"
     )
+
+
+def parts(robot: str = "kr500") -> None:
+    """Prints processor seconds of the parts of the work, for the same number of samples."""
+    description = read(find_robot(robot))
+    regressors = Regressors(description)
+    motion = _motion(regressors, np.arange(_SHORT) / _RATE, np.random.default_rng(1))
+    times = _RATE * _DURATION / _SHORT
+    regressors.base(motion.part(0, 8))
+    columns, numerical = _timed(lambda: regressors.base(motion))
+    _, filtering = _timed(lambda: [_STAGE.filtered(one) for one in columns])
+    print(f"regressor by NumPy {times * numerical:.2f} s, first stage of the decimation {times * filtering:.2f} s")
+    start = time.perf_counter()
+    with compiled(description) as machine:
+        made = time.perf_counter() - start
+        model = machine.module.Robot()
+        signals = [np.ascontiguousarray(one.T) for one in motion.signals]
+        model.observation_matrix(*signals, layout="columns")
+        _, written = _timed(lambda: model.observation_matrix(*signals, layout="columns"))
+    print(f"regressor by the compiled library {times * written:.2f} s, to make the library {made:.1f} s")
+
+
+def _timed(work: Callable[[], Any]) -> tuple[Any, float]:
+    """What the work returns, and the processor time [s] that it took."""
+    start = time.process_time()
+    return work(), time.process_time() - start
 
 
 def _write(name: str, path: Path) -> None:
@@ -74,3 +107,4 @@ def _motion(regressors: Regressors, t: NDArray[np.float64], draw: np.random.Gene
 
 if __name__ == "__main__":
     main(*sys.argv[1:])
+    parts(*sys.argv[1:])

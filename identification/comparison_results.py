@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -28,10 +29,14 @@ def document(found: Comparison) -> dict[str, Any]:
     }
 
 
-def save(found: Comparison, folder: Path) -> list[str]:
-    """Writes comparison.json into ``folder``; raises InputError where that cannot be written."""
-    replace(folder, {COMPARISON: written(document(found)).encode()})
-    return [COMPARISON]
+def save(found: Comparison, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
+    """Writes comparison.json and the files ``beside`` into ``folder``; returns their names.
+
+    Raises InputError where the folder cannot be written.
+    """
+    files = {COMPARISON: written(document(found)).encode(), **(beside or {})}
+    replace(folder, files)
+    return sorted(files)
 
 
 def _source(one: Parameters) -> dict[str, Any]:

@@ -36,12 +36,23 @@ _DOUBTFUL = 50.0
 
 
 @dataclass(frozen=True)
+class MotorTorque:
+    """Rows of a motor (from 0) in a run: times [s], kt i as measured and as estimated [N m] (rows each)."""
+
+    run: str
+    motor: int
+    t: Array
+    measured: Array
+    estimated: Array
+
+
+@dataclass(frozen=True)
 class DriveGains:
     """Torque constants and parameters with their standard deviations, by motor (from 0) and by name.
 
     ``constants`` [N m/A] lack the ``refused`` motors, for each of which the reason is told. ``payload_share`` is the
     part of each relative standard deviation that comes from the payload's. Parameters that nothing shows have an
-    infinite standard deviation. ``residuals`` are on the motor side [N m], by motor.
+    infinite standard deviation. ``torques`` and ``residuals`` are on the motor side [N m].
     """
 
     regressors: Regressors
@@ -53,6 +64,7 @@ class DriveGains:
     payload_share: Mapping[int, float]
     payload_std: Mapping[str, float]
     parameters: Mapping[str, tuple[float, float]]
+    torques: tuple[MotorTorque, ...]
     residuals: Residuals
     separation: float
     notes: tuple[str, ...]
@@ -119,9 +131,9 @@ def drive_gains(
     residuals = _residuals(fit, parts)
     notes = [note for run in runs for note in run.notes] + _doubts(residuals, constants, robot)
     ends = tuple(seen[: len(empty)]), tuple(seen[len(empty) :])
-    return DriveGains(
-        regressors, recipe, *ends, constants, refused, share, stds, parameters, residuals, fit.separation, tuple(notes)
-    )
+    torques = _torques(fit, rows, refused, parts)
+    told = fit.separation, tuple(notes)
+    return DriveGains(regressors, recipe, *ends, constants, refused, share, stds, parameters, torques, residuals, *told)
 
 
 Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]
@@ -242,6 +254,18 @@ def _of_payload(
             square += (change / (2 * _STEP)) ** 2
     result: Array = np.sqrt(square)
     return result
+
+
+def _torques(
+    fit: Fit, rows: Observations, refused: Mapping[int, str], parts: Sequence[Part]
+) -> tuple[MotorTorque, ...]:
+    """Of all motors that are not refused, in the order of ``parts``."""
+    origins = [(one.run.name, motor) for one, each in rows for motor in each if motor.motor not in refused]
+    return tuple(
+        MotorTorque(run, motor.motor, motor.t, measured, measured - fit.errors(part))
+        for (run, motor), part in zip(origins, parts, strict=True)
+        for measured in [fit.k[motor.motor] * part.i]
+    )
 
 
 def _residuals(fit: Fit, parts: Sequence[Part]) -> Residuals:

@@ -48,6 +48,12 @@ class Factor:
         chi = np.array([values[name] for name in self.names])
         return float(np.linalg.norm(self.R[:, -1] - self.R[:, :-1] @ chi))
 
+    def with_torques(self, values: Mapping[str, float]) -> Factor:
+        """The factor of the same rows with Y = W chi for ``values``; the sum of Y is lost."""
+        W = self.R[:, :-1]
+        Y = W @ np.array([values[name] for name in self.names])
+        return Factor(self.joint, self.names, np.column_stack([W, Y]), self.rows, 0.0)
+
     @property
     def norm(self) -> float:
         """||Y||."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -95,13 +96,13 @@ def refusals(found: DriveGains) -> list[str]:
     return [f"g_tau{numbers[m]} is not observable: {why}" for m, why in sorted(found.refused.items())]
 
 
-def save(found: DriveGains, robot_file: Path, folder: Path) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+def save(found: DriveGains, robot_file: Path, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), _set(found))
-    files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode()}
+    files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode(), **(beside or {})}
     replace(folder, files)
     return sorted(files)
 

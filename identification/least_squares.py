@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,6 +84,21 @@ class Problem:
                 sigma = self._sigma(solved.chi, stacked, freedom)
             variance = 1.0
         return self._solution(solved, ordinary, sigma, variance)
+
+    def foreseen(self, truth: Mapping[str, float], sigma: Mapping[int, float]) -> Solution:
+        """What ``solve`` tells of rows whose torques are those of ``truth`` with residuals of std ``sigma`` by joint.
+
+        The torques of the factors themselves do not count.
+        """
+        exact = replace(self, factors=tuple(one.with_torques(truth) for one in self.factors))
+        stacked = {one.joint: exact._reduced(one) for one in exact.factors}
+        ordinary = solved = _Solved.of(np.concatenate(list(stacked.values())))
+        rows = {one.joint: one.rows for one in self.factors}
+        variance = sum(rows[joint] * sigma[joint] ** 2 for joint in rows) / max(sum(rows.values()), 1)
+        if self.weighted:
+            solved = _Solved.of(np.concatenate([R / sigma[joint] for joint, R in stacked.items()]))
+            variance = 1.0
+        return replace(exact._solution(solved, ordinary, sigma, variance), values=truth)
 
     def _reduced(self, one: Factor) -> Array:
         """[R z] of the free parameters, the fixed ones' part taken from z."""

@@ -43,7 +43,10 @@ _STEMS = (
 
 @dataclass(frozen=True)
 class LockedOutput:
-    """Parameters of eq. 70 by name, all and ``essential`` ones, of the joint's runs; ``removed`` is tau_sb [N m]."""
+    """Parameters of eq. 70 by name, all and ``essential`` ones, of the joint's runs; ``removed`` is tau_sb [N m].
+
+    ``rows`` hold [qdd qd sign(qd) q 1 Y] of each run (rows x 6).
+    """
 
     robot: Robot
     joint: Joint
@@ -53,6 +56,7 @@ class LockedOutput:
     residual: Residual
     essential_residual: Residual
     removed: tuple[float, ...]
+    rows: tuple[Array, ...]
     notes: tuple[str, ...]
 
 
@@ -97,7 +101,8 @@ def locked_output(
     if joint.number not in robot.flexible:
         notes.append(f"the file of {robot.name} does not list joint {number} as flexible")
     whole, small = _residual(factor, solution), _residual(factor, best)
-    return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, tuple(removed), tuple(notes))
+    ends = tuple(removed), tuple(stacked), tuple(notes)
+    return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, *ends)
 
 
 def _joint(robot: Robot, number: int, sources: Sequence[str]) -> tuple[int, Joint]:

@@ -21,12 +21,13 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True)
 class MotorRows:
     """Rows of motor ``motor`` (from 0) in time order: ``B`` (rows x p) [N m on the motor side per unit of a parameter],
-    ``i`` (rows) [A].
+    ``i`` (rows) [A], times ``t`` (rows) [s].
     """
 
     motor: int
     B: Array
     i: Array
+    t: Array
 
 
 def motor_rows(sampled: Sampled, regressors: Regressors, N: Array, names: Sequence[str]) -> list[MotorRows]:
@@ -47,7 +48,7 @@ def motor_rows(sampled: Sampled, regressors: Regressors, N: Array, names: Sequen
         B = np.tensordot(row[needed], W[needed], axes=1)
         i = row[needed] @ Y[needed]
         valid = np.isfinite(i)
-        result.append(MotorRows(m, B[valid], i[valid]))
+        result.append(MotorRows(m, B[valid], i[valid], times[valid]))
     return result
 
 

@@ -66,6 +66,11 @@ class Motion:
         """N."""
         return int(self.q.shape[-1])
 
+    @property
+    def signals(self) -> tuple[Array, Array, Array]:
+        """Positions, speeds, accelerations."""
+        return self.q, self.qd, self.qdd
+
 
 class Regressors:
     """The regressors of one robot over many samples.
@@ -124,6 +129,11 @@ class Regressors:
     def torques(self, parameters: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""
         return self._evaluated("inverse_dynamics", motion, parameters).T
+
+    def inertia(self, parameters: Mapping[str, float], q: Array) -> Array:
+        """M (N x n x n) at positions ``q`` (n x N) for values of the base parameters by name, absent ones zero."""
+        still = np.zeros_like(q)
+        return self._evaluated("inertia_matrix", Motion(q, still, still), parameters)
 
     @cached_property
     def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
@@ -185,11 +195,11 @@ def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[in
 
 
 def standing(
-    signs: Sequence[tuple[int, tuple[tuple[int, float], ...]]], qd: Array, threshold: float
+    signs: Sequence[tuple[int, tuple[tuple[int, float], ...]]], qd: Array, thresholds: Array
 ) -> NDArray[np.bool_]:
-    """Samples (n x N) in which a joint's torque follows the sign of a speed below ``threshold`` [rad/s, m/s]."""
+    """Samples (n x N) in which a joint's torque follows the sign of a speed below its threshold (n) [rad/s, m/s]."""
     result = np.zeros(qd.shape, dtype=bool)
     for joint, weights in signs:
         speed = sum(weight * qd[k] for k, weight in weights)
-        result[joint] |= np.abs(speed) < threshold
+        result[joint] |= np.abs(speed) < thresholds[joint]
     return result

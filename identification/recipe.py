@@ -11,19 +11,27 @@ from dataclasses import dataclass, field, replace
 from dataclasses import fields as of_class
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from generator.errors import InputError, Place
 from generator.resources import data_folder
 from generator.robot import fields
+from generator.robot.description import PRISMATIC, REVOLUTE, Robot
 from generator.robot.document import Entry
 from generator.robot.readers import text_of, yaml
 from identification.filtering import stages
 from identification.formula import Formula, formulas
+
+Array = NDArray[np.float64]
 
 #: Cut-off of the Butterworth filter and new sampling rate, in frequencies of the dynamics. MATLAB's decimation by r
 #: passes 0.4 of the new rate, which makes twice the dynamics.
 _CUTOFF, _RATE = 5.0, 5.0
 #: Periods of the cut-off that the filter's ends are given.
 _ENDS = 5.0
+#: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
+_STANDSTILL = {REVOLUTE: 0.03, PRISMATIC: 0.005}
 JOINT, NONE = "joint", "none"
 PARAMETERS, SAMPLES = "parameters", "samples"
 
@@ -34,7 +42,8 @@ class Recipe:
 
     ``dynamics`` [Hz] is the highest frequency of the motion's dynamics. ``cutoff`` [Hz] and ``order`` are those of the
     Butterworth filter, ``factor`` is that of the decimation. ``dropped_first`` and ``dropped_last`` samples are left
-    out before it. Where a joint is slower than ``standstill`` [rad/s, m/s] its rows are left out. ``weights`` is
+    out before it. Where a joint is slower than ``standstill`` [rad/s, m/s] its rows are left out; None is 0.03 rad/s or
+    0.005 m/s. ``weights`` is
     "joint" or "none". The residual's variance divides by rows minus estimated ``parameters``, or, as MATLAB's std, by
     rows minus one (``freedom`` = "samples"). ``columns`` are formulas for files with names of their own.
     """
@@ -45,7 +54,7 @@ class Recipe:
     factor: int | None = None
     dropped_first: int | None = None
     dropped_last: int | None = None
-    standstill: float = 0.03
+    standstill: float | None = None
     weights: str = JOINT
     freedom: str = PARAMETERS
     columns: Mapping[str, Formula] = field(default_factory=dict)
@@ -53,6 +62,12 @@ class Recipe:
     def changed(self, **values: object) -> Recipe:
         """The recipe with the ``values`` that are not None in place of its own."""
         return replace(self, **{name: value for name, value in values.items() if value is not None})  # type: ignore[arg-type]
+
+    def standstills(self, robot: Robot) -> Array:
+        """Speeds (n) [rad/s, m/s] below which the joints' rows are left out."""
+        return np.array(
+            [_STANDSTILL[joint.sigma] if self.standstill is None else self.standstill for joint in robot.moving]
+        )
 
     def at(self, rate: float) -> Filters:
         """The filters for runs sampled at ``rate`` [Hz]."""

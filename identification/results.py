@@ -75,8 +75,9 @@ def save(
     folder: Path,
     consistent: ConsistentFit | None = None,
     variations: Sequence[Variation] = (),
+    beside: Mapping[str, bytes] | None = None,
 ) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
@@ -86,6 +87,7 @@ def save(
     files = {
         RESULTS: written(document(found, consistent, variations)).encode(),
         f"{found.robot.name}.yaml": text.encode(),
+        **(beside or {}),
     }
     replace(folder, files)
     return sorted(files)
@@ -131,7 +133,7 @@ def _method(found: Identification) -> dict[str, Any]:
         "robust": options.robust,
         "residual_variance": "rows minus one" if found.problem.by_samples else "rows minus parameters",
         "std": _std_of(options.draws),
-        "standstill": recipe.standstill,
+        "standstill": recipe.standstills(found.robot).tolist(),
         "fixed": {name: found.problem.fixed[name] for name in sorted(options.fixed)},
     }
 

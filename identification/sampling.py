@@ -61,13 +61,12 @@ def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)
     inner = slice(filters.first, run.samples - filters.last)
-    still = tuple(
-        k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= recipe.standstill
-    )
+    slow = recipe.standstills(regressors.model.robot)
+    still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= slow[k])
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
     motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
-    left_out = standing(regressors.signs, motion.qd, recipe.standstill)
+    left_out = standing(regressors.signs, motion.qd, slow)
     left_out[list(still)] = False
     if run.unusable is not None:
         left_out |= run.unusable[:, inner]

@@ -9,8 +9,9 @@ from typing import Any
 from generator.robot.description import ParameterSet, Robot
 from generator.version import VERSION
 from generator.writing import replace
-from identification import force_steps, locked_output, outcome
+from identification import force_steps, link_encoders, locked_output, outcome
 from identification.force_steps import ForceSteps
+from identification.link_encoders import LinkEncoders
 from identification.locked_output import LockedOutput
 from identification.outcome import Value
 from identification.residuals import Residuals
@@ -71,15 +72,49 @@ def of_steps(found: ForceSteps) -> dict[str, Any]:
     }
 
 
+def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
+    """The content of results.json, see docs/identification.md."""
+    numbers = [joint.number for joint in found.robot.moving]
+    values = {**found.stiffness, **found.latency}
+    each = {numbers[k]: one for k, one in found.residuals.items()}
+    return {
+        **_head(found.robot),
+        "method": {
+            "name": "latency and stiffness by link-side encoders",
+            "std": _STD,
+            "refused_above_relative_std_percent": 100 * link_encoders.LIMIT,
+        },
+        "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
+        "parameters": outcome.parameters(values),
+        "taken_for_elasticity": outcome.parameters(found.mistaken),
+        "residual": {"train": outcome.norms(each, Residuals(each).total), "test": None},
+        "notes": [*found.notes, *mistakes(found), *refusals(values)],
+    }
+
+
+def mistakes(found: LinkEncoders) -> list[str]:
+    """One line for each stiffness that the latency would have been taken for."""
+    return [
+        f"were latency elasticity, {name} would be {one.value:.4g} {one.unit}, relative std {one.relative_std:.3g} %"
+        for name, one in found.mistaken.items()
+        if one.value is not None
+    ]
+
+
 def refusals(values: Mapping[str, Value]) -> list[str]:
     """One line for each value that cannot be told."""
     return [f"{name} cannot be told: {one.refused}" for name, one in values.items() if one.refused]
 
 
 def save(
-    document: Mapping[str, Any], values: Mapping[str, Value], robot: Robot, robot_file: Path, folder: Path
+    document: Mapping[str, Any],
+    values: Mapping[str, Value],
+    robot: Robot,
+    robot_file: Path,
+    folder: Path,
+    beside: Mapping[str, bytes] | None = None,
 ) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
@@ -88,11 +123,12 @@ def save(
     elastic = {f"k{number}" for number in robot.flexible}
     own = {name: one for name, one in values.items() if name in elastic}
     others = {name: one for name, one in values.items() if name not in elastic}
-    kept, beside = outcome.values_of_set(own), outcome.values_of_set(others)
-    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, beside)
+    kept, further = outcome.values_of_set(own), outcome.values_of_set(others)
+    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, further)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
-    replace(folder, {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode()})
-    return sorted([RESULTS, f"{robot.name}.yaml"])
+    files = {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode(), **(beside or {})}
+    replace(folder, files)
+    return sorted(files)
 
 
 def _head(robot: Robot) -> dict[str, Any]:

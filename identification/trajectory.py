@@ -23,7 +23,8 @@ _MARGIN = 0.05
 class Setting:
     """A setting of a trajectory: its ``default``, what it means with its unit, and what it may be.
 
-    A number is more than ``above``, less than ``below``, and ``whole`` if it counts; a word is one of ``choices``.
+    A number is more than ``above``, less than ``below``, and ``whole`` if it counts; a word is one of ``choices``, or
+    the name of a ``file``.
     """
 
     default: Value
@@ -32,9 +33,12 @@ class Setting:
     below: float = np.inf
     whole: bool = False
     choices: tuple[str, ...] = ()
+    file: bool = False
 
     def allows(self, value: Value) -> bool:
         """Whether the setting may have a value."""
+        if self.file:
+            return isinstance(value, str)
         if self.choices or isinstance(value, str):
             return value in self.choices
         return self.above < value < self.below and not (self.whole and value % 1)
@@ -42,6 +46,8 @@ class Setting:
     @property
     def range(self) -> str:
         """What the setting may be, in words."""
+        if self.file:
+            return f"the name of {self.meaning}"
         if self.choices:
             return f"one of {', '.join(self.choices)}"
         ends = f"above {self.above:g}" + (f" and below {self.below:g}" if self.below < np.inf else "")
@@ -85,9 +91,7 @@ class Task:
     @property
     def room(self) -> tuple[Array, Array]:
         """Lowest and highest positions (n each) [rad, m] that a trajectory may use."""
-        ends = np.array([ends_of(self.robot, k) for k in range(len(self.robot.moving))])
-        free = _MARGIN * (ends[:, 1] - ends[:, 0])
-        return ends[:, 0] + free, ends[:, 1] - free
+        return room(self.robot)
 
 
 @dataclass(frozen=True)
@@ -137,3 +141,10 @@ def ends_of(robot: Robot, coordinate: int) -> tuple[float, float]:
         return float(joint.lower), float(joint.upper)
     reach = _REACH[joint.sigma == PRISMATIC]
     return -reach, reach
+
+
+def room(robot: Robot) -> tuple[Array, Array]:
+    """Lowest and highest positions (n each) [rad, m] that a motion may use: a little is kept free at the limits."""
+    ends = np.array([ends_of(robot, k) for k in range(len(robot.moving))])
+    free = _MARGIN * (ends[:, 1] - ends[:, 0])
+    return ends[:, 0] + free, ends[:, 1] - free

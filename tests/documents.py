@@ -28,6 +28,7 @@ SESSIONS = {
     "docs/batch.md": False,
     "docs/conventions.md": False,
     "docs/extending.md": True,
+    "docs/output_error.md": False,
     "docs/simulation.md": False,
 }
 
@@ -86,7 +87,8 @@ class Workshop:
         self._shim("counterpoise", f'exec {python} -m generator "$@"')
         self._shim("python", f'exec {python} "$@"')
         if with_tree:
-            shutil.copytree(ROOT / "generator", folder / "generator", ignore=shutil.ignore_patterns("__pycache__"))
+            for package in ("generator", "identification"):
+                shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
             shutil.copy(ROOT / "pyproject.toml", folder)
             for name in ("robots", "templates"):
                 (folder / name).symlink_to(ROOT / name)

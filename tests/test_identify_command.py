@@ -37,7 +37,7 @@ def results(folder: Path) -> dict[str, Any]:
 
 def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = identified(folder, capsys, "--dynamics", "4")
-    assert (done.status, done.err.splitlines()[-1]) == (0, "making the parameters physically consistent")
+    assert (done.status, done.err.splitlines()[-1]) == (0, "writing the report")
     assert done.out.startswith("two_links: 13 parameters, ")
     found = results(folder)
     assert set(found["parameters"]) == set(TRUTH)

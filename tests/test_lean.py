@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -14,8 +15,13 @@ from generator.derivation import derive
 from generator.resources import find_robot, robots
 from generator.robot.description import Robot
 from generator.robot.readers import read
+from generator.symbolic import lean_motion, regressor
 from generator.symbolic.function import PARAMETERS
+from generator.symbolic.gauge import slid_origins
 from generator.symbolic.interpret import evaluate
+from generator.symbolic.lean_screws import screws_beside
+from generator.symbolic.model import Model
+from generator.symbolic.statements import Node
 
 #: Multiplications, additions and divisions that a function of a robot of the report's structure may cost at most, in
 #: base parameters with numeric geometry: with all its effects, with rotor inertias, with rotor inertias and friction.
@@ -110,6 +116,41 @@ def test_inverse_dynamics_with_motor_inertias_saves_a_fifth(name: str) -> None:
         for plain in (False, True)
     )
     assert short <= 0.8 * textbook
+
+
+#: What docs/performance.md says of regressors: operations of the textbook's and of the short one's columns of the
+#: bodies, of motion and screws among the latter; distinct entries, and those of them that are products.
+REGRESSORS = {"puma560": (718, 670, 276, 121, 89), "lbr_iiwa14": (1111, 1063, 351, 188, 145)}
+
+
+@pytest.mark.parametrize("name", REGRESSORS)
+def test_regressors_are_products_of_screws_and_wrenches(name: str) -> None:
+    model = Model(_robot(name))
+    chain, names, way = model.chain, tuple(model.kept), model.strategies.regressor
+
+    def operations(nodes: Iterable[Node]) -> int:
+        return chain.program.count(node for node in nodes if not node.parameter_only).total
+
+    textbook, short = (
+        [e for column in columns.values() for e in column.values() if e is not chain.program.zero]
+        for columns in (regressor.columns(chain, names, model.qd, model.qdd, one) for one in (None, way))
+    )
+    origins = slid_origins(chain, way.slide if way else ())
+    factors: list[Node] = []
+    for motion in lean_motion.own_motions(chain, origins, model.qd, model.qdd).values():
+        factors += [*motion.u.ravel(), *motion.a, *motion.w, *motion.wd, *motion.differences]
+    for carried in screws_beside(chain, origins.positions).values():
+        factors += [node for screw in carried.values() for node in (*getattr(screw, "w", ()), *screw.v)]
+    needed, known = chain.program.reachable(short), set(chain.program.reachable(factors))
+    entries = {e.arguments[0] if e.operation == "neg" else e for e in short}
+    found = (
+        operations(chain.program.reachable(textbook)),
+        operations(needed),
+        operations(node for node in needed if node in known),
+        len(set(short)),
+        len(entries - known),
+    )
+    assert found == REGRESSORS[name]
 
 
 @pytest.mark.parametrize("path", robots(), ids=lambda path: path.stem)

@@ -72,7 +72,7 @@ def test_a_new_file_is_a_new_section(tmp_path: Path, monkeypatch: pytest.MonkeyP
     )
     monkeypatch.setattr(generator.review.sections, "__path__", [*generator.review.sections.__path__, str(tmp_path)])
     try:
-        found = sections(model("scara"))
+        found = sections(generator.review.sections, model("scara"))
     finally:
         sys.modules.pop("generator.review.sections.zz_told_by_a_file", None)
     told = next(section for section in found if section.title == "Told by a file")

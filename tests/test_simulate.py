@@ -317,7 +317,7 @@ REFUSED = {
     ("--duration", "1e9"): "--duration:1:1: 1000000000000 samples, expected at most 100000000",
     ("--rate", "nan"): "--rate:1:1: nan, expected a number above 0",
     ("--log-rate", "300"): "--log-rate:1:1: 300, expected --rate, 1000 Hz, divided by a whole number",
-    ("--also", "qx"): "--also:1:1: columns 'qx', expected one of qr, qs",
+    ("--also", "qx"): "--also:1:1: columns 'qx', expected one of qr, qs, temp",
     ("--noise", "1", "2", "3"): "--noise:1:1: 3 numbers, expected one, or one for each of 2 motors",
     ("--noise", "-1"): "--noise:1:1: -1, expected a number that is not negative",
     ("--resolution", "x"): "counterpoise simulate:1:1: argument --resolution: invalid float value: 'x'",

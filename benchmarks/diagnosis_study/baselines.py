@@ -65,11 +65,12 @@ def held_out(selection: Selection, variant: Variant, chosen: list[Variant]) -> f
 
 def sparse(selection: Selection) -> list[Name]:
     """Sequentially thresholded least squares on every candidate's best shape; a name is kept if a coefficient is."""
-    variants = [one.variant for one in selection.evidence([])]
     S, p = selection.normal.schur, selection.normal.base
+    whole = np.diag(selection.normal.gram)
+    variants = [one.variant for one in selection.evidence([]) if np.all(whole[list(one.variant.columns)] > 0)]
     at = np.array(_columns(variants)) - p
     whose = [k for k, one in enumerate(variants) for _ in one.columns]
-    size = np.sqrt(np.maximum(np.diag(S)[at], 1e-12 * np.diag(selection.normal.gram)[at + p]))
+    size = np.sqrt(np.maximum(np.diag(S)[at], 1e-12 * whole[at + p]))
     A = S[np.ix_(at, at)] / np.outer(size, size)
     b = S[at, -1] / size / np.sqrt(max(float(S[-1, -1]), 1e-300))
     kept = np.arange(len(at))

@@ -66,10 +66,10 @@ def _hidden(
 
 
 def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) -> tuple[Hidden, ...]:
-    """In every other case one more effect that the robot file holds, on a joint without a hidden one."""
+    """In a third of the cases one more effect that the robot file holds, on a joint without a hidden one."""
     law, joint = str(rng.choice(STUDY.beside)), int(rng.integers(1, ROBOTS[robot].joints + 1))
     taken = {one.joint for one in hidden}
-    return (Hidden(law, joint),) if rng.random() < 0.5 and joint not in taken else ()
+    return (Hidden(law, joint),) if rng.random() < 1 / 3 and joint not in taken else ()
 
 
 def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> Hidden | None:

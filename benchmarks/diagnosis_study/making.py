@@ -20,6 +20,9 @@ from tests.plant.robots import ROBOTS
 from tests.plant.run import Run, write_csv
 from tests.plant.simulate import make_run, own_effects
 
+#: Part of its law's typical size that an effect beside the hidden ones has.
+_BESIDE = 0.2
+
 #: Laws that the plant has in any case, by the effect of the robot file that stands for them.
 _SIMPLE = {"viscous": "viscous_friction", "coulomb": "coulomb_friction", "offset": "offset"}
 
@@ -72,7 +75,8 @@ def made(case: Case) -> Made:
     stand_ins, effects, sizes = set(), [], []
     for one in case.hidden:
         stand_ins.add(_place(one, robot))
-    more = [Effect(one.law, one.joint) for one in case.beside]
+    typical = [Effect(one.law, one.joint) for one in case.beside]
+    more = [one.sized(_BESIDE * one.amount(robot)) for one in typical]
     own = [effect for effect in (*own_effects(robot), *more) if _place(effect, robot) not in stand_ins]
     for one in case.hidden:
         wanted = Effect(one.law, one.joint, other=one.other)

@@ -78,7 +78,7 @@ _INTRODUCTION = f"""\
 `make study-diagnosis` hides effects in simulated robots and asks `counterpoise diagnose` what is missing. The robots
 of `tests/plant` share no code with the diagnosis: their rigid bodies, friction, control loop and sensors are their
 own, and many of their laws are not the formula of any candidate. The robot file that the command gets holds every
-effect that the robot has but the hidden one, among them, in every other case, one more of a law that is only nearly
+effect that the robot has but the hidden one, among them, in a third of the cases, one more of a law that is only nearly
 the textbook's ({", ".join(STUDY.beside)}); its values are wrong by draws of the standard deviations that it states,
 2 % of inertial values and 5 % of friction. There are three runs of 30 s to fit, one of 20 s to validate, one of 20 s
 to test, at 500 Hz, with 2 % coloured noise of the currents. Robot, law, joint and motion are drawn at random from the

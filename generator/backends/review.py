@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import generator.review.sections
 from generator.backends.printing.templates import render
 from generator.review import documents
 from generator.review.markup import Markup, element
@@ -24,7 +25,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "title": element("title", f"{robot.name}: model review"),
         "heading": element("h1", robot.name),
         "description": element("p", robot.description, class_="lead"),
-        "sections": sections(model),
+        "sections": sections(generator.review.sections, model),
         "style": Markup(render("review/style.css")),
         "digest": robot.digest,
         "version": VERSION,

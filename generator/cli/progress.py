@@ -33,3 +33,21 @@ def bar(text: str) -> Iterator[Callable[[float], None]]:
     with Progress(console=Console(stderr=True), transient=True) as shown:
         task = shown.add_task(text, total=1.0)
         yield lambda part: shown.update(task, completed=part)
+
+
+@contextmanager
+def counter(text: str) -> Iterator[Callable[[int, int], None]]:
+    """Gives what is told how many tasks are done, and of how many: a bar on a terminal, else a line each time."""
+    if not sys.stderr.isatty():
+
+        def line(done: int, total: int) -> None:
+            print(f"{text}: {done} of {total} done", file=sys.stderr, flush=True)
+
+        yield line
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as shown:
+        task = shown.add_task(text, total=None)
+        yield lambda done, total: shown.update(task, completed=done, total=total)

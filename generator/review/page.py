@@ -1,13 +1,12 @@
-"""The review page put together: every section that the robot has, in order."""
+"""A page put together from the sections in a folder: all that apply to its subject, in order."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import ModuleType
 
-import generator.review.sections
 from generator.discovery import modules
 from generator.review.markup import Markup
-from generator.symbolic.model import Model
 
 
 @dataclass(frozen=True)
@@ -19,10 +18,10 @@ class Section:
     body: Markup
 
 
-def sections(model: Model) -> list[Section]:
-    """The sections found in ``generator.review.sections`` that apply to a model, in their order."""
-    found = sorted(modules(generator.review.sections), key=lambda module: (module.ORDER, module.__name__))
-    rendered = ((module, module.render(model)) for module in found)
+def sections(package: ModuleType, subject: object) -> list[Section]:
+    """What the modules of ``package`` render of a subject, by their ``ORDER``; one that renders None is left out."""
+    found = sorted(modules(package), key=lambda module: (module.ORDER, module.__name__))
+    rendered = ((module, module.render(subject)) for module in found)
     return [
         Section(module.__name__.rsplit(".", 1)[1].replace("_", "-"), module.TITLE, body)
         for module, body in rendered

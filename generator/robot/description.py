@@ -42,7 +42,8 @@ class Joint:
     Frame ``number`` follows from frame ``antecedent`` by
     Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r); gamma = b = 0 on a serial chain.
     ``sigma`` is 0 revolute, 1 prismatic, 2 fixed. A ``tool`` frame is fixed, carries no body of its own, and is where
-    wrenches act and payloads sit. Limits are None where the file gives none.
+    wrenches act and payloads sit. Limits are None where the file gives none; those of speed [rad/s, m/s], acceleration
+    [rad/s2, m/s2] and torque [N m, N] hold either way.
     """
 
     number: int
@@ -56,6 +57,9 @@ class Joint:
     b: sympy.Expr = sympy.S.Zero
     lower: sympy.Expr | None = None
     upper: sympy.Expr | None = None
+    speed_limit: sympy.Expr | None = None
+    acceleration_limit: sympy.Expr | None = None
+    torque_limit: sympy.Expr | None = None
     tool: bool = False
     label: str = ""
 

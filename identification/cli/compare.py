@@ -1,7 +1,8 @@
 """Compare two sets of parameter values, one by one: relative differences, and whether they can be noise.
 
 A and B are results (results.json, or a model of it: results.json:essential, results.json:consistent) or parameter sets
-of robots (ROBOT:SET). Differences are in parts of A (report eq. 79). DIR receives comparison.json.
+of robots (ROBOT:SET). Differences are in parts of A (report eq. 79). DIR receives comparison.json
+and report.html.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """A, B, --out."""
     parser.add_argument("a", metavar="A", help="the values compared with: RESULTS.json or ROBOT:SET")
     parser.add_argument("b", metavar="B", help="the other values")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where comparison.json goes; nowhere without")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go; nowhere without")
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -38,7 +39,11 @@ def run(arguments: argparse.Namespace) -> None:
     found = compare(parameters(arguments.a), parameters(arguments.b))
     print(_table(found))
     if arguments.out is not None:
-        print(f"files            {', '.join(save(found, arguments.out))} in {arguments.out}/")
+        from identification.report.compare.report import report
+        from identification.report.page import REPORT
+
+        files = save(found, arguments.out, {REPORT: report(found)})
+        print(f"files            {', '.join(files)} in {arguments.out}/")
 
 
 def _table(found: Comparison) -> str:

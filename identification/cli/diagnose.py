@@ -19,6 +19,7 @@ from generator.resources import find_robot
 
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
+    from identification.diagnosis.mending import Mended
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +38,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
-        from identification.diagnosis.command import diagnosed
+        from identification.diagnosis.command import Request, diagnosed
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise diagnose"), f"{error.name} is not installed", extra) from None
@@ -46,12 +47,24 @@ def run(arguments: argparse.Namespace) -> None:
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
     folder = arguments.out or Path("diagnosed") / robot.name
-    found, files = diagnosed(
-        path, robot, arguments.data, arguments.validate, arguments.test, arguments.prior, folder, arguments.dry_run
-    )
-    print("\n".join(summary(found)))
-    if files:
-        print(f"files            {', '.join(files)} in {folder}/")
+    wanted = Request(arguments.data, arguments.validate, arguments.test, arguments.prior, arguments.dry_run)
+    found, new, files = diagnosed(path, robot, wanted, folder)
+    print("\n".join([*summary(found), *_tested(new)]))
+    print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _tested(new: Mended | None) -> list[str]:
+    """Lines on the untouched runs."""
+    if new is None:
+        return []
+    from identification.diagnosis.results import together
+
+    lines = [f"note: {note}" for note in new.notes]
+    for kind, played in (("before", new.before), ("after", new.after)):
+        found = together(played)
+        each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.per_joint.items()))
+        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} % ({each})")
+    return lines
 
 
 def summary(found: Diagnosis) -> list[str]:

@@ -3,7 +3,7 @@
 Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. What is known of the payload, its
 mass at least, stands in the sidecars of the loaded runs or in --payload. A gain that the runs cannot show is refused by
 name.
-DIR receives results.json and the robot file with the gains and the parameters in it.
+DIR receives results.json, report.html and the robot file with the gains and the parameters in it.
 """
 
 from __future__ import annotations
@@ -43,6 +43,8 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.drive_gains import drive_gains
         from identification.gains_results import save
         from identification.observation import Regressors
+        from identification.report.gains.report import report
+        from identification.report.page import REPORT
         from identification.sidecar import given
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
@@ -61,7 +63,7 @@ def run(arguments: argparse.Namespace) -> None:
     with stage(f"identifying the drive gains from {len(arguments.empty) + len(arguments.loaded)} runs"):
         found = drive_gains(robot, arguments.empty, arguments.loaded, payload, stds, recipe, regressors)
     folder = arguments.out or Path("identified") / f"{robot.name}_gains"
-    files = save(found, path, folder)
+    files = save(found, path, folder, {REPORT: report(found)})
     print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")
 

@@ -2,7 +2,8 @@
 
 A run is a file with columns t, q1 .. qn (or qm1 .. qmn on the motors) and tau1 .. taun (or taum1 .. taumn, or currents
 i1 .. in); FILE@FROM:TO takes a part of it, with times in s. Filters come from the robot's recipe in recipes/, or from
---recipe, or from the options. DIR receives results.json and the robot file with the identified parameters in it.
+--recipe, or from the options. DIR receives results.json,
+report.html and the robot file with the identified parameters in it.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
     filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
     filters.add_argument(
-        "--standstill", metavar="SPEED", type=float, help="rad/s below which a joint's rows are left out"
+        "--standstill", metavar="SPEED", type=float, help="rad/s, m/s below which a joint's rows are left out"
     )
     filters.add_argument(
         "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
@@ -72,6 +73,8 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.consistent_fit import consistent_fit, doubts
         from identification.inverse_model import identify
         from identification.observation import Regressors
+        from identification.report.identify.report import report
+        from identification.report.page import REPORT
         from identification.results import save
         from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
@@ -99,7 +102,9 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.sensitivity:
         with stage("trying other filters"):
             variations = sensitivity(found, arguments.data)
-    files = save(found, path, folder, consistent, variations)
+    with stage("writing the report"):
+        page = {REPORT: report(found, consistent, variations)}
+    files = save(found, path, folder, consistent, variations, page)
     print(_summary(found, consistent))
     for one in variations:
         print(f"{one.setting} {one.value:g}: no parameter moves by more than {one.change:.2f} std ({one.parameter})")

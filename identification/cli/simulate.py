@@ -46,16 +46,28 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     log = parser.add_argument_group("what is measured")
     log.add_argument("--log-rate", metavar="HZ", type=float, help="default: the controller's")
-    log.add_argument("--also", metavar="STEM", nargs="+", default=[], help="qr: reference, qs: encoders of the links")
+    log.add_argument(
+        "--also",
+        metavar="STEM",
+        nargs="+",
+        default=[],
+        help="qr: reference, qs: encoders of the links, temp: of the drives",
+    )
     log.add_argument(
         "--resolution", metavar="RAD", type=float, nargs="+", default=[0.0], help="step of the motors' encoders"
     )
     log.add_argument("--noise", metavar="A", type=float, nargs="+", default=[0.0], help="rms of the currents' noise")
     log.add_argument("--delay", metavar="S", type=float, default=0.0, help="of the motors' positions")
     log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="of the links' positions")
-    drift = parser.add_argument_group("temperature, changes by the end in parts")
+    parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", help="a body on the tool, as M=150 MZ=-15")
+    drift = parser.add_argument_group("temperature, changes by the end (at warmth 1) in parts")
     drift.add_argument("--friction-drift", metavar="R", type=float, default=0.0, help="of frictions, such as -0.2")
     drift.add_argument("--torque-constant-drift", metavar="R", type=float, default=0.0, help="such as -0.05")
+    drift.add_argument(
+        "--warm-up", metavar="S", type=float, help="warmth is 1 - exp(-t/S); default: it grows evenly to 1 at the end"
+    )
+    drift.add_argument("--temperature", metavar="K", type=float, default=293.15, help="at the start, default: 293.15")
+    drift.add_argument("--temperature-rise", metavar="K", type=float, default=30.0, help="at warmth 1, default: 30")
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -89,6 +101,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _settings(arguments: argparse.Namespace) -> Settings:
+    from identification.sidecar import given
     from identification.simulation.settings import Settings
 
     return Settings(
@@ -111,6 +124,10 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         link_delay=arguments.link_delay,
         friction_drift=arguments.friction_drift,
         constant_drift=arguments.torque_constant_drift,
+        warm_up=arguments.warm_up,
+        temperature=arguments.temperature,
+        rise=arguments.temperature_rise,
+        payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
     )
 
 

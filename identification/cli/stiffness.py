@@ -1,9 +1,10 @@
-"""Identify the stiffness of drive trains, with the output blocked or with steps of force on a rigid stop.
+"""Identify the stiffness of drive trains: output blocked, steps of force on a rigid stop, or link-side encoders.
 
 --locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one a pose, in which the tool
 presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where
-they hold currents, torque constants are identified too. What the poses cannot show is refused by name. DIR receives
-results.json and the robot file with the values in it.
+they hold currents, torque constants are identified too. --link-encoders takes runs of a moving robot with columns qs;
+their latency is found and removed first. What the runs cannot show is refused by name. DIR receives results.json
+and the robot file with the values in it, and report.html but for --link-encoders.
 """
 
 from __future__ import annotations
@@ -22,14 +23,17 @@ if TYPE_CHECKING:
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """ROBOT, --data, --locked or --pressed, --prior, --recipe, --out."""
+    """ROBOT, --data, --locked, --pressed or --link-encoders, --prior, --recipe, --out."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
     how = parser.add_mutually_exclusive_group(required=True)
     how.add_argument("--locked", metavar="J", type=int, help="the output of joint J is blocked")
     how.add_argument("--pressed", action="store_true", help="the tool presses on a rigid stop")
+    how.add_argument("--link-encoders", action="store_true", help="the robot moves, and its links have encoders qs")
     parser.add_argument(
-        "--prior", metavar="SET", help="parameter set of the robot with its balancer, or with its rotors' inertias"
+        "--prior",
+        metavar="SET",
+        help="parameter set of the robot with its balancer, its rotors' inertias, or its viscous friction",
     )
     parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
     parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_stiffness")
@@ -40,8 +44,10 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
-        from identification import force_steps, locked_output, outcome, stiffness_results
+        from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
         from identification.recipe import read as recipe_of
+        from identification.report.page import REPORT
+        from identification.report.stiffness.report import report
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise stiffness"), f"{error.name} is not installed", extra) from None
@@ -49,17 +55,24 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     robot = read(path)
     prior = {} if arguments.prior is None else _prior(arguments.prior, robot)
-    own = force_steps.RECIPE if arguments.pressed else locked_output.RECIPE
+    method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
+    own = method.RECIPE
     recipe = own if arguments.recipe is None else recipe_of(arguments.recipe)
+    pages: dict[str, bytes] = {}
     with stage(f"identifying stiffness from {len(arguments.data)} runs"):
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
             values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
+            pages = {REPORT: report(steps, document)}
+        elif arguments.link_encoders:
+            links = link_encoders.link_encoders(robot, arguments.data, prior, recipe)
+            values, document = {**links.stiffness, **links.latency}, stiffness_results.of_link_encoders(links)
         else:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
             values, document = dict(locked.essential), stiffness_results.of_locked(locked)
+            pages = {REPORT: report(locked, document)}
     folder = arguments.out or Path("identified") / f"{robot.name}_stiffness"
-    files = stiffness_results.save(document, values, robot, path, folder)
+    files = stiffness_results.save(document, values, robot, path, folder, pages)
     total = document["residual"]["train"]["total"]
     lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]
     lines += outcome.table(values)

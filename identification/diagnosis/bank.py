@@ -71,6 +71,11 @@ class Bank:
         """n."""
         return len(self._joints[0])
 
+    @property
+    def colours(self) -> tuple[tuple[Colour, ...], ...]:
+        """Of the noise of each run's joints; empty before ``whiten``."""
+        return tuple(tuple(one) for one in self._colours)
+
     def rows(self, run: int) -> Array:
         """How many rows each joint of a run has (n)."""
         return np.array([int(one.kept.sum()) for one in self._joints[run]])

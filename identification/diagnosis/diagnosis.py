@@ -77,11 +77,15 @@ def diagnose(
     roles: Roles,
     prior: Prior | None = None,
     told: Callable[[str], None] = lambda _: None,
+    dry: bool = False,
 ) -> Diagnosis:
-    """What the model of ``regressors`` lacks, from ``runs`` that fit and validate in the order of ``roles``."""
+    """What the model of ``regressors`` lacks, from ``runs`` that fit and validate in the order of ``roles``.
+
+    A ``dry`` one only says where model and measurement disagree, and names nothing.
+    """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found = search(runs, train, validate, regressors, prior, told)
+    found = search(runs, train, validate, regressors, prior, told, dry)
     told("looking where the residual is")
     base, _ = found.selection.normal.solution([])
     start = dict(enumerate(base.tolist()))

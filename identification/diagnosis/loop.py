@@ -53,8 +53,11 @@ def search(
     regressors: Regressors,
     prior: Prior | None = None,
     told: Callable[[str], None] = lambda _: None,
+    dry: bool = False,
 ) -> Search:
-    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``."""
+    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``; none is looked for in a
+    ``dry`` search.
+    """
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     for turn in range(_PASSES):
@@ -70,7 +73,7 @@ def search(
         bank.whiten(colours(bank))
         selection = Selection(bank, train, validate, prior)
         told("weighing the evidence")
-        choices = selection.search(chosen)
+        choices = [] if dry else selection.search(chosen)
         chosen = [one.evidence.variant for one in choices]
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = selection.normal.solution(columns)

@@ -31,6 +31,17 @@ class Prior:
     mean: Array
     precision: Array
 
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """The parameters of which anything is known (p)."""
+        return np.diag(self.precision) > 0
+
+    def shifted(self, direction: Array, value: float, std: float) -> Prior:
+        """With ``value`` times a direction (p) added to the parameters, known with a standard deviation."""
+        weighted = self.precision @ direction
+        lost = np.outer(weighted, weighted) * std**2 / (1 + std**2 * float(direction @ weighted))
+        return Prior(self.mean + direction * value, self.precision - lost)
+
 
 @dataclass(frozen=True)
 class Normal:
@@ -104,6 +115,8 @@ class Normal:
 
 def inverse(A: Array, rank: float = _RANK) -> Array:
     """Pseudo-inverse of a matrix of products, by the eigenvalues of what it is with columns of unit length."""
+    if len(A) == 1:
+        return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
     size = np.sqrt(np.maximum(np.diag(A), 0.0))
     live = size > 1e-12 * size.max(initial=0.0)
     scale = np.where(live, np.maximum(size, 1e-300), 1.0)

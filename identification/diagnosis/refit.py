@@ -92,12 +92,10 @@ def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, flo
     """
     names = {"I": ("XX", "YY", "ZZ")}
     to_base = _payload_in_base(regressors)
-    mean, variance = np.array(prior.mean), np.array(prior.std**2)
     for name, value in payload.items():
-        column = sum(to_base[:, INERTIAL.index(stem)] for stem in names.get(name, (name,)))
-        mean = mean + column * value
-        variance = np.asarray(variance + (column * std.get(name, 0.0)) ** 2)
-    return replace(prior, mean=mean, std=np.sqrt(variance))
+        direction = np.sum([to_base[:, INERTIAL.index(stem)] for stem in names.get(name, (name,))], axis=0)
+        prior = prior.shifted(direction, value, std.get(name, 0.0))
+    return prior
 
 
 def _payload_in_base(regressors: Regressors) -> Array:
@@ -117,7 +115,7 @@ def _payload_in_base(regressors: Regressors) -> Array:
 def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
     """The solution with the prior's rows, each joint's rows weighed by what is left of them."""
     count = len(start.names) - len(prior.mean)
-    whole = Prior(np.append(prior.mean, np.zeros(count)), np.append(prior.std, np.full(count, np.inf)))
+    whole = Prior(np.append(prior.mean, np.zeros(count)), np.pad(prior.precision, (0, count)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
     result, sigma = start, dict(start.sigma)
     for _ in range(_PASSES):
@@ -130,7 +128,7 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
         chi, covariance = Normal(gram, len(start.names), rows, whole).solution([])
         values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
         sigma = {one.joint: max(one.residual(values) / np.sqrt(max(one.rows, 1)), 1e-300) for one in factors}
-        unknown = tuple(name for name, std in zip(start.names, whole.std, strict=True) if not np.isfinite(std))
+        unknown = tuple(name for name, known in zip(start.names, whole.known, strict=True) if not known)
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
     return result

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from generator.version import VERSION
 from identification import outcome
 from identification.diagnosis.diagnosis import Diagnosis, Where
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.lack_of_fit import Lack
+from identification.diagnosis.mending import GENERATED, Mended
+from identification.diagnosis.noise_floor import noise_floor
+from identification.diagnosis.played import Played
+from identification.residuals import Residual, Residuals
 
 
-def document(found: Diagnosis) -> dict[str, Any]:
+def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
     """Everything that was found, see docs/diagnosis.md: angles in rad, torques in N m, times in s."""
     count = len(found.roles.train)
     kinds = {"train": found.runs[:count], "validate": found.runs[count:]}
@@ -28,6 +35,12 @@ def document(found: Diagnosis) -> dict[str, Any]:
             {"effect": one.effect, "joints": list(one.joints or (one.joint,)), "would_show": one.would_show}
             for one in found.invisible
         ],
+        "residual": None if new is None else _residual(found, new),
+        "robot_file": None if new is None else f"{found.robot.name}.yaml",
+        "generated": None if new is None else f"{GENERATED}/{found.robot.name}",
+        "difference": None
+        if new is None
+        else {"robot_file": new.file_difference, "groupings": new.groupings_difference},
         "lack_of_fit": {
             "before": [_lack(one) for one in found.before.lack],
             "after": [_lack(one) for one in found.after.lack],
@@ -35,8 +48,39 @@ def document(found: Diagnosis) -> dict[str, Any]:
         "data": {
             kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs] for kind, runs in kinds.items()
         },
-        "notes": list(found.notes),
+        "notes": [*found.notes, *(() if new is None else new.notes)],
     }
+
+
+def together(played: Sequence[Played]) -> Residuals:
+    """The residuals of several played runs, by joint."""
+    joints = range(len(played[0].kept))
+    parts = [one.residuals.per_joint for one in played]
+    return Residuals(
+        {
+            k: Residual(
+                sum(part[k].rows for part in parts),
+                *(
+                    float(np.linalg.norm([getattr(part[k], name) for part in parts]))
+                    for name in ("norm", "torque", "spread")
+                ),
+            )
+            for k in joints
+        }
+    )
+
+
+def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:
+    """Of the untouched runs by joint: before, after, and what noise alone would leave [N m, N rms]."""
+    numbers = [joint.number for joint in found.robot.moving]
+    rate = 1 / float(np.median(np.diff(new.after[0].t)))
+    result: dict[str, Any] = {}
+    for kind, played in (("before", new.before), ("after", new.after)):
+        each = together(played)
+        result[kind] = outcome.norms({numbers[k]: one for k, one in each.per_joint.items()}, each.total)
+    floors = [(number, noise_floor(found.found.bank, k, rate)) for k, number in enumerate(numbers)]
+    result["noise_floor"] = {"per_joint": [{"joint": number, "rms": floor} for number, floor in floors]}
+    return result
 
 
 def _finding(one: Finding) -> dict[str, Any]:

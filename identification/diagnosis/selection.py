@@ -48,7 +48,9 @@ _VISIBLE = 1e-4
 _UNLIKE = 0.25
 _MOST, _ROUNDS = 18, 3
 #: Hypotheses whose pairs are tried when single ones do not do.
-_PAIRED = 30
+_PAIRED = 20
+#: Hypotheses, by what they explain, that are held against the validating runs.
+_JUDGED = 16
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,7 @@ class Selection:
     # -- evidence -------------------------------------------------------------------------------------------------
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
-        """Of the best variant of every hypothesis that is not chosen, the best first."""
+        """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
         S = self.normal.beside(_columns(chosen))
         taken = {_key(one) for one in chosen}
         best: dict[tuple[str, int], tuple[float, Variant, Array]] = {}
@@ -114,7 +116,8 @@ class Selection:
                 best[key] = (drop, variant, x)
         unexplained = self.unexplained(chosen)
         ranked = sorted(best.values(), key=lambda one: -one[0])
-        found = [self._judged(one, chosen, unexplained) for one in ranked if one[0] > 0]
+        common = [one for one in ranked[_JUDGED:] if one[1].hypothesis.effect in _COMMON]
+        found = [self._judged(one, chosen, unexplained) for one in (*ranked[:_JUDGED], *common) if one[0] > 0]
         return sorted(found, key=lambda one: -one.score)
 
     def of(self, variant: Variant, others: Sequence[Variant]) -> Evidence:
@@ -202,15 +205,18 @@ class Selection:
                 chosen += pair
             else:
                 chosen.append(self._refined(first.variant, chosen))
-            chosen = self._exchanged(chosen)
+            chosen = self._exchanged(chosen, chosen[-1], 1)
+        chosen = self._exchanged(chosen, None, _ROUNDS)
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
 
-    def _exchanged(self, chosen: list[Variant]) -> list[Variant]:
-        """Each one refined and challenged with the others in place; dropped when its evidence is gone."""
-        for _ in range(_ROUNDS):
+    def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
+        """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its
+        evidence is gone.
+        """
+        for _ in range(rounds):
             before = list(chosen)
             for one in before:
-                if one not in chosen:
+                if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
                 refined = one
@@ -308,15 +314,15 @@ class Selection:
     # -- what cannot be seen --------------------------------------------------------------------------------------
 
     def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which the model takes up all but a hundredth."""
-        left: dict[tuple[str, int], float] = {}
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], list[float]] = {}
         whose: dict[tuple[str, int], Hypothesis] = {}
         for variant in self.bank.variants:
             key = _key(variant)
             at = np.array(variant.columns) - self.normal.base
-            left[key] = max(left.get(key, 0.0), float(self.normal.left[at].max()))
+            left.setdefault(key, []).append(float(self.normal.left[at].max()))
             whose[key] = variant.hypothesis
-        return [whose[key] for key, part in left.items() if part < _VISIBLE]
+        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
 
 
 def _key(variant: Variant) -> tuple[str, int]:

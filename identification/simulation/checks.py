@@ -10,6 +10,7 @@ from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.fields import nearest
+from identification.simulation.payload import whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectories import trajectories
 from identification.trajectory import Array, Trajectory, Value, ends_of
@@ -40,6 +41,8 @@ def check(settings: Settings, robot: Robot) -> None:
     for name in settings.further:
         if name not in FURTHER:
             raise InputError(command_line("--also"), f"columns {name!r}", f"one of {', '.join(FURTHER)}")
+    if settings.payload is not None:
+        whole(settings.payload)
     if settings.link_delay and "qs" not in settings.further:
         raise InputError(command_line("--link-delay"), "no encoders of the links are logged", "--also qs")
     chosen(settings)
@@ -51,6 +54,8 @@ def _check_numbers(settings: Settings) -> None:
         ("--duration", settings.duration, 0.0),
         ("--rate", settings.rate, 0.0),
         ("--bandwidth", settings.bandwidth, 0.0),
+        ("--temperature", settings.temperature, 0.0),
+        *((("--warm-up", settings.warm_up, 0.0),) if settings.warm_up is not None else ()),
         *(("--largest", one, 0.0) for one in settings.largest if one != np.inf),
         ("--friction-drift", settings.friction_drift, -1.0),
         ("--torque-constant-drift", settings.constant_drift, -1.0),
@@ -62,6 +67,7 @@ def _check_numbers(settings: Settings) -> None:
         ("--noise", settings.noise),
         ("--delay", [settings.delay]),
         ("--link-delay", [settings.link_delay]),
+        ("--temperature-rise", [settings.rise]),
     ):
         for value in values:
             if not 0 <= value < np.inf:

@@ -89,7 +89,7 @@ class Loop:
             if k % news == 0:
                 self._check(k)
                 progress(k / rows)
-                part = 1 + settings.friction_drift * k / rows
+                part = 1 + settings.friction_drift * float(settings.warmth(np.array(k * settings.period)))
                 if settings.friction_drift:
                     self._model.update({name: part * value for name, value in frictions.items()})
             links[k] = self._links()

@@ -30,6 +30,7 @@ _QUANTITIES = (
     "motor_position",
     "motor_speed",
     "motor_torque",
+    "payload_regressor",
     "regressor_packed",
     "tool_jacobian",
     "tool_transform",

@@ -9,6 +9,8 @@ import numpy as np
 
 from generator.errors import InputError, Place
 from generator.version import VERSION
+from identification.sidecar import UNITS, Payload
+from identification.simulation.payload import whole
 from identification.simulation.simulate import Simulated
 
 #: Digits of a number in the file.
@@ -58,10 +60,21 @@ def _sidecar(run: Simulated, robot: str, digest: str) -> str:
         "link_delay": settings.link_delay,
         "friction_drift": settings.friction_drift,
         "torque_constant_drift": settings.constant_drift,
+        "warm_up": "even" if settings.warm_up is None else settings.warm_up,
+        "temperature": settings.temperature,
+        "temperature_rise": settings.rise,
     }
-    lines = [f"robot: {robot}", "notes: simulated, not measured", "simulated:", *_table(about), "  values:"]
+    head = [f"robot: {robot}", "notes: simulated, not measured", *_payload(settings.payload)]
+    lines = [*head, "simulated:", *_table(about), "  values:"]
     lines += [f"    {name}: {value:.9g}" for name, value in run.parameters.items()]
     return "\n".join(lines) + "\n"
+
+
+def _payload(payload: Payload | None) -> list[str]:
+    if payload is None:
+        return []
+    values = (f"  {stem}: {value:.12g} {UNITS[stem]}" for stem, value in whole(payload).known.items())
+    return ["payload:", f"  name: {payload.name}", *values]
 
 
 def _table(about: Mapping[str, object]) -> list[str]:

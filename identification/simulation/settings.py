@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from identification.trajectory import Value
+from identification.sidecar import Payload
+from identification.trajectory import Array, Value
 
-#: Columns that are logged if asked for: the reference, encoders of the links.
-FURTHER = ("qr", "qs")
+#: Columns that are logged if asked for: the reference, encoders of the links, temperatures of the drives.
+FURTHER = ("qr", "qs", "temp")
 
 
 @dataclass(frozen=True)
@@ -24,8 +25,10 @@ class Settings:
     ``bandwidth`` [Hz] is that of the speed loops, ``largest`` [A, else N m, N of the rotor] cuts the current.
     ``resolution`` [rad, m] is a step of the motors' encoders (the joints' where there are no drives), ``noise`` the
     rms of the logged effort in its unit. ``delay`` [s] is how late controller and log see the motors, ``link_delay``
-    how late the log sees the links. By the end of the run frictions have changed by ``friction_drift``, torque
-    constants by ``constant_drift`` (parts of their first values), evenly in time.
+    how late the log sees the links. ``payload`` is on the tool in the whole run.
+
+    At warmth 1 frictions have changed by ``friction_drift``, torque constants by ``constant_drift`` (parts of their
+    first values), and the drives' temperature has risen from ``temperature`` by ``rise`` [K].
     """
 
     trajectory: str = "fourier"
@@ -47,6 +50,10 @@ class Settings:
     link_delay: float = 0.0
     friction_drift: float = 0.0
     constant_drift: float = 0.0
+    warm_up: float | None = None
+    temperature: float = 293.15
+    rise: float = 30.0
+    payload: Payload | None = None
 
     @property
     def period(self) -> float:
@@ -67,6 +74,13 @@ class Settings:
     def set_name(self) -> str:
         """The parameter set."""
         return self.parameters or ("twin_flexible" if self.flexible else "twin")
+
+    def warmth(self, t: Array) -> Array:
+        """How warm the drives are at times [s]: 1 - exp(-t/T) with T the time ``warm_up`` [s].
+
+        Without that time it grows evenly to 1 at the end.
+        """
+        return t / (self.samples * self.period) if self.warm_up is None else 1 - np.exp(-t / self.warm_up)
 
     def late(self, delay: float) -> int:
         """A delay in samples of the controller."""

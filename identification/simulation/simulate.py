@@ -15,6 +15,7 @@ from identification.simulation import cascade
 from identification.simulation.checks import check, chosen, each, pose, trajectory_of
 from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
 from identification.simulation.machine import Machine
+from identification.simulation.payload import carried, whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectory import Array, Reference, Task, Value
 
@@ -23,7 +24,7 @@ from identification.trajectory import Array, Reference, Task, Value
 class Simulated:
     """A run's ``columns`` by name (N each), as in a run file, and what it was made from.
 
-    ``parameters`` are the values [SI] at the start; ``trajectory`` are its settings.
+    ``parameters`` are the robot's own values [SI] at the start; ``trajectory`` are its settings.
     """
 
     columns: Mapping[str, Array]
@@ -42,6 +43,8 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
     kind, values, start = trajectory_of(settings.trajectory), chosen(settings), pose(settings, machine.robot)
     model = machine.module.Robot(settings.set_name)
     parameters = dict(zip(machine.module.PARAMETERS, model.parameters.tolist(), strict=True))
+    if settings.payload is not None:
+        model.update(carried(machine.module, model, whole(settings.payload)))
     draw = np.random.default_rng([settings.seed, 0])
     task = Task(
         machine.robot, model, parameters, settings.flexible, start, settings.period, settings.samples, draw, values
@@ -64,7 +67,8 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     N = cascade.ratios(robot)
     constants = torque_constants(machine, model)
     t: Array = settings.period * np.arange(rows, dtype=float)
-    drift = 1 + settings.constant_drift * t / (rows * settings.period)
+    warmth = settings.warmth(t)
+    drift = 1 + settings.constant_drift * warmth
     effort = log.tau @ np.linalg.inv(N) / constants / drift[:, None]
     seed = settings.seed if settings.noise_seed is None else settings.noise_seed
     noise = np.random.default_rng([seed, 1]).normal(size=effort.shape)
@@ -75,6 +79,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
         _effort(machine): effort,
         "qr": reference.q,
         "qs": log.links[late],
+        "temp": np.tile((settings.temperature + settings.rise * warmth)[:, None], n),
     }
     columns: dict[str, Array] = {"t": t[kept]}
     for stem, values in parts.items():

@@ -1,10 +1,11 @@
-"""Finite Fourier series (Swevers et al. 1997): periodic, from rest to rest, within limits."""
+"""Random finite Fourier series: periodic, from rest to rest, within limits."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from identification.trajectory import Array, Reference, Setting, Task, Trajectory
+from identification.fourier_series import FourierSeries, from_rest
+from identification.trajectory import Reference, Setting, Task, Trajectory
 
 #: Instants of a period at which a series is looked at.
 _LOOKED_AT = 2000
@@ -13,46 +14,25 @@ _PHASE = 0.5
 
 
 def _plan(task: Task) -> Reference:
-    """q = c + sum over l of a_l sin(l w t) + b_l cos(l w t), as large as the tightest of the limits allows."""
-    w = 2 * np.pi * task.number("frequency")
+    """Series as large as the tightest of a joint's limits allows."""
+    frequency = task.number("frequency")
     orders = np.arange(1.0, round(task.number("harmonics")) + 1)
-    if w * orders[-1] * task.period > _PHASE:
+    if 2 * np.pi * frequency * orders[-1] * task.period > _PHASE:
         raise ValueError("the highest harmonic is too fast for the controller, expected a lower frequency")
     lower, upper = task.room
     n = len(task.pose)
-    q, qd = np.empty((task.samples, n)), np.empty((task.samples, n))
-    phases = np.outer(w * task.times, orders)
-    looked_at = np.outer(np.linspace(0, 2 * np.pi, _LOOKED_AT), orders)
-    for k in range(n):
-        # Speed and acceleration are zero at t = 0: sum a_l l = 0 and sum b_l l^2 = 0.
-        a, b = (_without(task.draw.normal(size=len(orders)) / orders, orders**power) for power in (1, 2))
-        room = min(upper[k] - task.pose[k], task.pose[k] - lower[k])
-        if room <= 0:
-            number = task.robot.moving[k].number
-            raise ValueError(f"joint {number} is too near to its limit, expected --pose with room on both sides")
-        limits = (room, task.number("speed"), task.number("acceleration"))
-        peaks = [np.abs(one).max() for one in _motion(a, b, orders, w, looked_at)]
-        scale = min(limit / peak for limit, peak in zip(limits, peaks, strict=True))
-        motion = _motion(scale * a, scale * b, orders, w, phases)
-        q[:, k], qd[:, k] = task.pose[k] + motion[0], motion[1]
-    return Reference(q, qd)
-
-
-def _without(x: Array, direction: Array) -> Array:
-    """``x`` without its part along ``direction``."""
-    result: Array = x - direction * (x @ direction) / (direction @ direction)
-    return result
-
-
-def _motion(a: Array, b: Array, orders: Array, w: float, phases: Array) -> tuple[Array, Array, Array]:
-    """Position, speed, acceleration at phases l w t (N x orders)."""
-    sine, cosine = np.sin(phases), np.cos(phases)
-    rate = w * orders
-    return (
-        sine @ a + cosine @ b,
-        cosine @ (rate * a) - sine @ (rate * b),
-        -sine @ (rate**2 * a) - cosine @ (rate**2 * b),
-    )
+    room = np.minimum(upper - task.pose, task.pose - lower)
+    if (room <= 0).any():
+        number = task.robot.moving[int(np.argmin(room))].number
+        raise ValueError(f"joint {number} is too near to its limit, expected --pose with room on both sides")
+    drawn = task.draw.normal(size=(n, 2, len(orders))) / orders
+    a, b = from_rest(drawn[:, 0], drawn[:, 1])
+    looked_at = np.linspace(0, 1 / frequency, _LOOKED_AT)
+    peaks = FourierSeries(frequency, np.zeros(n), a, b).motion(looked_at)
+    limits = (room, task.number("speed"), task.number("acceleration"))
+    scale = np.min([limit / np.abs(one).max(axis=1) for limit, one in zip(limits, peaks.signals, strict=True)], axis=0)
+    motion = FourierSeries(frequency, task.pose, scale[:, None] * a, scale[:, None] * b).motion(task.times)
+    return Reference(motion.q.T, motion.qd.T)
 
 
 TRAJECTORY = Trajectory(

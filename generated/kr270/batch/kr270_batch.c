@@ -346,16 +346,56 @@ size_t kr270_filtered_count(const kr270_filter *filter, size_t n)
     return (n < f.count) ? 0 : (((n - f.count) / f.decimation) + 1);
 }
 
-/* x[j] = joint j's numbers of the samples at[0] to at[LANES - 1]. */
-INLINE void gather(const real *signal, const size_t *at, lanes x[NQ])
+/* Numbers of a sample in whole vectors. */
+#define WIDTH (((NQ + LANES - 1) / LANES) * LANES)
+
+/* x[j] = joint j's numbers of the samples at[0] to at[LANES - 1] of n; at does not fall. */
+INLINE void gather(const real *signal, size_t n, const size_t *at, lanes x[NQ])
 {
+    if ((at[LANES - 1] * NQ) + WIDTH > n * NQ) { /* whole vectors would reach beyond the last sample */
 #define NUMBER(l) signal[(at[l] * NQ) + j]
-    UNROLL
-    for (size_t j = 0; j < NQ; ++j) {
-        const lanes numbers = { EACH_LANE(NUMBER) };
-        x[j] = numbers;
-    }
+        for (size_t j = 0; j < NQ; ++j) {
+            const lanes numbers = { EACH_LANE(NUMBER) };
+            x[j] = numbers;
+        }
 #undef NUMBER
+        return;
+    }
+    UNROLL
+    for (size_t j = 0; j < NQ; j += LANES) {
+        lanes y[LANES];
+        UNROLL
+        for (size_t l = 0; l < LANES; ++l) {
+            y[l] = lanes_load(&signal[(at[l] * NQ) + j]);
+        }
+        lanes_transpose(y);
+        UNROLL
+        for (size_t l = 0; l < least(LANES, NQ - j); ++l) {
+            x[j + l] = y[l];
+        }
+    }
+}
+
+/* The first count samples of x to rows of NQ numbers. */
+INLINE void scatter(const lanes x[NQ], size_t count, real *to)
+{
+    real row[LANES][WIDTH];
+    UNROLL
+    for (size_t j = 0; j < NQ; j += LANES) {
+        lanes y[LANES];
+        UNROLL
+        for (size_t l = 0; l < LANES; ++l) {
+            y[l] = x[least(j + l, NQ - 1)];
+        }
+        lanes_transpose(y);
+        UNROLL
+        for (size_t l = 0; l < LANES; ++l) {
+            lanes_store(&row[l][j], y[l]);
+        }
+    }
+    for (size_t l = 0; l < count; ++l) {
+        memcpy(&to[l * NQ], row[l], NQ * sizeof(real));
+    }
 }
 
 /*
@@ -973,40 +1013,13 @@ static void regressor_lanes(
     lanes_store(&to[169 * PITCH], lanes_splat(R(1.0)));
 }
 
-INLINE void lane_of(const lanes from[NQ], size_t l, real to[NQ])
-{
-    for (size_t j = 0; j < NQ; ++j) {
-        to[j] = LANE(from[j], l);
-    }
-}
-
-/* What dynamics_lanes computes, by the function for one sample. */
-static void dynamics_singly(
-    const kr270_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], lanes tau[NQ])
+/* What regressor_lanes computes, for the samples at[0] to at[LANES - 1], by the function for one sample. */
+static void regressor_singly(const samples *from, const size_t *at, real *to)
 {
     for (size_t l = 0; l < LANES; ++l) {
-        real one[4][NQ];
-        lane_of(q, l, one[0]);
-        lane_of(qd, l, one[1]);
-        lane_of(qdd, l, one[2]);
-        kr270_inverse_dynamics(prepared, one[0], one[1], one[2], one[3]);
-        for (size_t j = 0; j < NQ; ++j) {
-            LANE(tau[j], l) = one[3][j];
-        }
-    }
-}
-
-/* What regressor_lanes computes, by the function for one sample. */
-static void regressor_singly(
-    const kr270_prepared *prepared, const lanes q[NQ], const lanes qd[NQ], const lanes qdd[NQ], real *to)
-{
-    for (size_t l = 0; l < LANES; ++l) {
-        real one[3][NQ];
+        const size_t row = at[l] * NQ;
         real W[ENTRIES];
-        lane_of(q, l, one[0]);
-        lane_of(qd, l, one[1]);
-        lane_of(qdd, l, one[2]);
-        kr270_regressor_packed(prepared, one[0], one[1], one[2], W);
+        kr270_regressor_packed(from->prepared, &from->q[row], &from->qd[row], &from->qdd[row], W);
         for (size_t j = 0; j < NQ; ++j) {
             for (size_t e = start[j]; e + 1 < start[j + 1]; ++e) {
                 to[(e * PITCH) + l] = W[e - j];
@@ -1044,17 +1057,17 @@ static void evaluate(const samples *from, const size_t at[TILE], real *restrict 
         lanes q[NQ];
         lanes qd[NQ];
         lanes qdd[NQ];
-        gather(from->q, &at[h], q);
-        gather(from->qd, &at[h], qd);
-        gather(from->qdd, &at[h], qdd);
+        gather(from->q, from->n, &at[h], q);
+        gather(from->qd, from->n, &at[h], qd);
+        gather(from->qdd, from->n, &at[h], qdd);
         if (within_reach(q)) {
             regressor_lanes(from->prepared, q, qd, qdd, &to[h]);
         } else {
-            regressor_singly(from->prepared, q, qd, qdd, &to[h]);
+            regressor_singly(from, &at[h], &to[h]);
         }
         lanes tau[NQ] = { ZERO };
         if (from->tau != NULL) {
-            gather(from->tau, &at[h], tau);
+            gather(from->tau, from->n, &at[h], tau);
         }
         for (size_t j = 0; j < NQ; ++j) {
             lanes_store(&to[((start[j + 1] - 1) * PITCH) + h], tau[j]);
@@ -1232,21 +1245,15 @@ void kr270_batch_inverse_dynamics(
         for (size_t l = 0; l < LANES; ++l) {
             at[l] = least(k + l, n - 1);
         }
-        gather(q, at, my_q);
-        gather(qd, at, my_qd);
-        gather(qdd, at, my_qdd);
+        gather(q, n, at, my_q);
+        gather(qd, n, at, my_qd);
+        gather(qdd, n, at, my_qdd);
         if (within_reach(my_q)) {
             dynamics_lanes(prepared, my_q, my_qd, my_qdd, my_tau);
+            scatter(my_tau, count, &tau[k * NQ]);
         } else {
-            dynamics_singly(prepared, my_q, my_qd, my_qdd, my_tau);
-        }
-        real lane[NQ][LANES];
-        for (size_t j = 0; j < NQ; ++j) {
-            lanes_store(lane[j], my_tau[j]);
-        }
-        for (size_t l = 0; l < count; ++l) {
-            for (size_t j = 0; j < NQ; ++j) {
-                tau[((k + l) * NQ) + j] = lane[j][l];
+            for (size_t row = k * NQ; row < (k + count) * NQ; row += NQ) {
+                kr270_inverse_dynamics(prepared, &q[row], &qd[row], &qdd[row], &tau[row]);
             }
         }
     }

@@ -230,6 +230,8 @@ void kr270_observation_qr(
 typedef struct { int method; size_t steps; const void *width; } integration;
 typedef struct { double period, kp[6], kv[6], ki[6], limit[6]; } controller;
 typedef struct { double z[6]; } controller_state;
+typedef struct { size_t samples; const void *q, *qd, *tau, *tau_ext; } reference;
+typedef struct { void *q, *qd, *tau; } run_log;
 void kr270_control(
     const prepared *, const controller *, const void *, const void *, const void *, const void *, const void *,
     controller_state *, void *);
@@ -237,10 +239,16 @@ typedef struct { double q[6], qd[6], direction[6]; int contact[6]; } rigid_state
 void kr270_rigid_start(const prepared *, const void *, const void *, rigid_state *);
 void kr270_rigid_advance(
     const prepared *, const integration *, double, const void *, const void *, rigid_state *);
+size_t kr270_rigid_simulate(
+    const prepared *, const controller *, const integration *, const reference *, controller_state *,
+    rigid_state *, const run_log *);
 typedef struct { double q[12], qd[12], direction[12]; int contact[12]; } flexible_state;
 void kr270_flexible_start(const prepared *, const void *, const void *, flexible_state *);
 void kr270_flexible_advance(
     const prepared *, const integration *, double, const void *, const void *, flexible_state *);
+size_t kr270_flexible_simulate(
+    const prepared *, const controller *, const integration *, const reference *, controller_state *,
+    flexible_state *, const run_log *);
 """
 )
 
@@ -1337,6 +1345,7 @@ class Plant:
         self.robot = robot
         self._state = _ffi.new(f"{kind}_state *")
         self._advance = getattr(_lib, f"kr270_{kind}_advance")
+        self._simulate = getattr(_lib, f"kr270_{kind}_simulate")
         self._width = None if width is None else np.array(np.broadcast_to(np.asarray(width, float), (size,)))
         if self._width is not None and not (self._width > 0).all():
             raise ValueError("width is not positive")
@@ -1373,6 +1382,34 @@ class Plant:
         """
         others = _ffi.NULL if tau_ext is None else _signal(tau_ext, (NQ,), "tau_ext")
         self._advance(self.robot._prepared, self._integration, time, _signal(tau, (NQ,), "tau"), others, self._state)
+
+    def run(self, period, tau, out=None):
+        """Moves on by n periods in open loop, the torques of each held while it lasts.
+
+        Inputs:
+            period: [s]
+            tau: (n x 6) motor torques, on the joint side [N m, N]
+            out: two arrays for the result
+
+        Outputs: coordinates and their speeds (n x size each) at the instants at which the periods begin; NaN from where a
+        number is no longer finite
+        """
+        n = _samples(tau=tau)
+        size = self._q.size
+        q, qd = _several(out, ((n, size), (n, size)))
+        _apart(q, tau=tau)
+        _apart(qd, tau=tau)
+        done = self._simulate(
+            self.robot._prepared,
+            _ffi.new("controller *", {"period": period, "limit": [np.inf] * NQ}),
+            self._integration,
+            _ffi.new("reference *", (n, _buffer(tau), _ffi.NULL, _buffer(tau), _ffi.NULL)),
+            _ffi.new("controller_state *"),
+            self._state,
+            _ffi.new("run_log *", (_buffer(q), _buffer(qd), _ffi.NULL)),
+        )
+        q[done:], qd[done:] = np.nan, np.nan
+        return q, qd
 
 
 class Controller:

@@ -15,7 +15,13 @@ from generator.robot.document import Entry, Node
 from generator.robot.sections.placement import constant, sum_with_variable
 
 _REQUIRED = ("j", "sigma", "alpha", "d", "theta", "r")
-_OPTIONAL = ("antecedent", "gamma", "b", "limits", "tool", "label")
+#: What limits a joint either way: its units, revolute and prismatic.
+_EITHER_WAY = {
+    "speed_limit": ("rad/s", "m/s"),
+    "acceleration_limit": ("rad/s2", "m/s2"),
+    "torque_limit": ("N m", "N"),
+}
+_OPTIONAL = ("antecedent", "gamma", "b", "limits", *_EITHER_WAY, "tool", "label")
 _LABEL = re.compile(r"[A-Za-z0-9_]{1,16}\Z", re.ASCII)
 _SIGMA = "0 (revolute), 1 (prismatic) or 2 (fixed)"
 
@@ -99,6 +105,7 @@ def _row(node: Node, lengths: Mapping[str, Length], rows: Sequence[_Located]) ->
         b=placed("b", "m"),
         lower=lower,
         upper=upper,
+        **{key: _limit(keys.get(key), f"{key} of {name}", sigma, units) for key, units in _EITHER_WAY.items()},
         tool=fields.boolean(keys["tool"].value, f"tool of {name}") if "tool" in keys else False,
         label=_label(keys.get("label"), name),
     )
@@ -126,6 +133,17 @@ def _limits(entry: Entry | None, name: str, sigma: int) -> tuple[sympy.Expr | No
     if not lower < upper:
         raise InputError(entry.value.place, f"{what} are not in order", "the lower, then the higher limit")
     return lower, upper
+
+
+def _limit(entry: Entry | None, what: str, sigma: int, units: tuple[str, str]) -> sympy.Expr | None:
+    if entry is None:
+        return None
+    if sigma == FIXED:
+        raise InputError(entry.key, f"{what}, which is fixed", "limits on moving joints only")
+    value = fields.quantity(entry.value, what, units[sigma == PRISMATIC]).value
+    if not value > 0:
+        raise InputError(entry.value.place, f"{what} is {float(value):g}", "a positive limit, which holds either way")
+    return value
 
 
 def _label(entry: Entry | None, name: str) -> str:

@@ -1,0 +1,197 @@
+"""Design a motion that shows a robot's parameters well, before the robot moves.
+
+The motion is a finite Fourier series of every joint within the limits of the robot file. DIR receives trajectory.csv
+with times, wanted positions qr1 .. and speeds qd1 .., which a controller or "counterpoise simulate --trajectory played"
+plays, and excitation.json with the standard deviation that identification will reach for each base parameter.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import bar, stage
+from generator.errors import InputError
+from generator.resources import find_robot
+
+if TYPE_CHECKING:
+    from generator.robot.description import Robot
+    from identification.excitation.results import Excitation
+    from identification.observation import Regressors
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, the motion, its limits, what is known and measured, the search."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="default: excitation/ROBOT")
+    parser.add_argument("--parameters", metavar="SET", default="twin", help="a set of the robot file, default: twin")
+    motion = parser.add_argument_group("motion")
+    motion.add_argument("--frequency", metavar="HZ", type=float, default=0.1, help="lowest frequency, default: 0.1")
+    motion.add_argument("--harmonics", metavar="N", type=int, default=5, help="number of its multiples, default: 5")
+    motion.add_argument("--periods", metavar="N", type=int, default=2, help="default: 2")
+    motion.add_argument(
+        "--rate", metavar="HZ", type=float, default=1000.0, help="of the run and its log, default: 1000"
+    )
+    motion.add_argument("--speed", metavar="RAD/S", type=float, help="largest of any joint; default: the file's, or 1")
+    motion.add_argument(
+        "--acceleration", metavar="RAD/S2", type=float, help="largest of any joint; default: the file's, or 2"
+    )
+    measured = parser.add_argument_group("what is measured")
+    measured.add_argument(
+        "--noise", metavar="A", type=float, nargs="+", help="rms of the currents' noise, one or one a motor"
+    )
+    measured.add_argument(
+        "--noise-part",
+        metavar="R",
+        type=float,
+        help="rms of what the model leaves, in parts of usual torques; default: 0.02 without --noise",
+    )
+    measured.add_argument("--recipe", metavar="FILE", type=Path, help="filters; default: those of identify")
+    search = parser.add_argument_group("search")
+    search.add_argument(
+        "--criterion", choices=("determinant", "condition"), default="determinant", help="default: determinant"
+    )
+    search.add_argument("--evaluations", metavar="N", type=int, default=20000, help="motions tried, default: 20000")
+    search.add_argument("--seed", metavar="N", type=int, default=0, help="default: 0")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Designs, writes the files, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification.excitation.results import save
+        from identification.observation import Regressors
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise excite"), f"{error.name} is not installed", extra) from None
+
+    _check(arguments)
+    path = find_robot(arguments.robot)
+    robot = read(path)
+    _check_noise(arguments, robot)
+    with stage(f"deriving the model of {path.stem}"):
+        regressors = Regressors(robot)
+    found = _designed(arguments, robot, regressors)
+    folder = arguments.out or Path("excitation") / robot.name
+    files = save(found, folder)
+    print(_summary(found))
+    print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    for option, value in (
+        ("--frequency", arguments.frequency),
+        ("--rate", arguments.rate),
+        ("--speed", arguments.speed),
+        ("--acceleration", arguments.acceleration),
+    ):
+        if value is not None and not 0 < value < float("inf"):
+            raise InputError(command_line(option), f"{value:g}", "a number above 0")
+    for option, count, least, most in (
+        ("--harmonics", arguments.harmonics, 2, 50),
+        ("--periods", arguments.periods, 1, 1000),
+        ("--evaluations", arguments.evaluations, 1, 10**7),
+        ("--seed", arguments.seed, 0, 2**63),
+    ):
+        if not least <= count <= most:
+            raise InputError(command_line(option), f"{count}", f"a whole number from {least} to {most}")
+    fastest = arguments.frequency * arguments.harmonics
+    if arguments.rate < 20 * fastest:
+        raise InputError(
+            command_line("--rate"), f"{arguments.rate:g}", f"20 times the highest harmonic, {fastest:g} Hz"
+        )
+
+
+def _check_noise(arguments: argparse.Namespace, robot: Robot) -> None:
+    n = len(robot.moving)
+    noise, part = arguments.noise or [], arguments.noise_part
+    if len(noise) not in (0, 1, n):
+        raise InputError(command_line("--noise"), f"{len(noise)} numbers", f"one, or one for each of {n} motors")
+    for option, value in (*(("--noise", one) for one in noise), ("--noise-part", 0.0 if part is None else part)):
+        if not 0 <= value < float("inf"):
+            raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
+    if not part and noise and not all(noise):
+        raise InputError(command_line("--noise"), "a motor without noise", "noise on every motor, or --noise-part")
+    if part == 0 and not noise:
+        raise InputError(command_line("--noise-part"), "0, and no --noise", "a measurement that is not exact")
+
+
+def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressors) -> Excitation:
+    import numpy as np
+
+    from identification import recipe as recipes
+    from identification.excitation.criterion import Criterion
+    from identification.excitation.design import designed, usual_torques
+    from identification.excitation.expectation import expected
+    from identification.excitation.limits import limits_of
+    from identification.excitation.noise import PART, noise_of
+    from identification.excitation.results import Excitation
+    from identification.excitation.shapes import Shapes
+
+    recipe = recipes.recipe_of(robot.name) if arguments.recipe is None else recipes.read(arguments.recipe)
+    filters = recipe.at(arguments.rate)
+    samples = round(arguments.periods / arguments.frequency * arguments.rate)
+    if samples < filters.fewest:
+        problem = f"{samples} samples at {arguments.rate:g} Hz"
+        raise InputError(command_line("--periods"), problem, f"at least {filters.fewest} for the filters")
+    values = _values(arguments.parameters, regressors)
+    regressors = regressors.loaded_by(values)
+    part = arguments.noise_part if arguments.noise_part is not None else 0.0 if arguments.noise else PART
+    limits = limits_of(robot, arguments.speed, arguments.acceleration)
+    shapes = Shapes(limits, arguments.frequency, arguments.harmonics)
+    usual = usual_torques(shapes, regressors, values, arguments.seed)
+    noise = noise_of(robot, arguments.noise or [0.0], part, usual)
+    standstill = recipe.standstills(robot)
+    judge = Criterion(regressors, values, limits, noise, standstill, filters.factor, arguments.criterion)
+    with bar(f"searching among {arguments.evaluations} motions") as progress:
+        design = designed(judge, shapes, arguments.evaluations, arguments.seed, progress)
+    motion = design.series.motion(np.arange(samples) / arguments.rate)
+    return Excitation(
+        robot=robot,
+        design=design,
+        limits=limits,
+        noise=noise,
+        motion=motion,
+        rate=arguments.rate,
+        periods=arguments.periods,
+        filters=filters,
+        expected=expected(motion.q, arguments.rate, regressors, recipe, values, noise),
+        units={one.name: one.unit for one in regressors.model.base_parameters},
+        parameters=arguments.parameters,
+        criterion=arguments.criterion,
+        evaluations=arguments.evaluations,
+        seed=arguments.seed,
+    )
+
+
+def _values(name: str, regressors: Regressors) -> dict[str, float]:
+    from generator.robot.fields import nearest
+    from generator.symbolic.parameter_sets import resolved_sets
+
+    sets = resolved_sets(regressors.model)
+    if name not in sets:
+        robot = regressors.model.robot.name
+        raise InputError(command_line("--parameters"), f"{robot} has no parameter set {name!r}", nearest(name, sets))
+    return sets[name]
+
+
+def _summary(found: Excitation) -> str:
+    solution = found.expected
+    lines = [f"{found.robot.name}: {found.duration:g} s at {found.rate:g} Hz, {len(found.units)} base parameters"]
+    lines += [f"note: {name} will not be identifiable from this motion" for name in solution.hidden]
+    width = max(map(len, [*found.units, "parameter"]))
+    lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  unit")
+    for name, unit in found.units.items():
+        lines.append(
+            f"{name.ljust(width)} {solution.values[name]:>12.6g} {solution.std(name):>10.4g} "
+            f"{solution.relative_std(name):>9.4g}  {unit}"
+        )
+    lines.append(
+        f"condition of W   {solution.condition:.6g}, with columns of unit length {solution.scaled_condition:.6g}"
+    )
+    load = f"{100 * found.design.load:.1f} % of the tightest" if found.limits.loads.size else "none in the robot file"
+    lines.append(f"torque limits    {load}")
+    return "\n".join(lines)

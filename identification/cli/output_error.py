@@ -1,0 +1,120 @@
+"""Identify the dynamic parameters of a robot by output error: simulated in open loop, its positions follow the runs.
+
+Runs are as in `counterpoise identify`, whose estimate from them is the first start. The simulation begins anew in each
+segment, at a state that is sought as well. DIR receives results.json, the robot file with the parameters in it, and the
+result of each start as it comes: the same command goes on where it was interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from generator.cli.place import command_line
+from generator.cli.progress import counter, stage
+from generator.errors import InputError
+from generator.resources import find_robot
+from identification import executors
+
+if TYPE_CHECKING:
+    from generator.robot.description import Robot
+    from identification.output_error.search import Settings
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """ROBOT, --data, --test, --out, the search, the starts, where they run."""
+    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
+    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_output_error")
+    search = parser.add_argument_group("search")
+    search.add_argument("--method", metavar="NAME", default="gauss-newton", help="gauss-newton, nelder-mead, evolution")
+    search.add_argument("--segment", metavar="S", default="1", help="time of a simulation, or none; default: 1")
+    search.add_argument("--iterations", metavar="N", type=int, help="of each start at most")
+    search.add_argument("--seconds", metavar="S", type=float, help="of each start at most")
+    search.add_argument(
+        "--margin", metavar="KGM2", type=float, help="least eigenvalue of M(q); default: a tenth of the start's"
+    )
+    search.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="not estimated")
+    search.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+    many = parser.add_argument_group("starts")
+    many.add_argument("--starts", metavar="N", type=int, default=1, help="default: 1, the inverse model's estimate")
+    many.add_argument("--spread", metavar="K", type=float, default=2.0, help="of the others, in its std; default: 2")
+    many.add_argument("--seed", metavar="N", type=int, default=0, help="of their draws; default: 0")
+    executors.configure(many)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Identifies, writes the results, prints a summary."""
+    from generator.robot.readers import read
+
+    try:
+        from identification.output_error.multi_start import output_error
+        from identification.output_error.results import save, summary
+    except ModuleNotFoundError as error:
+        extra = "pip install 'counterpoise[identification]'"
+        raise InputError(command_line("counterpoise output-error"), f"{error.name} is not installed", extra) from None
+
+    path = find_robot(arguments.robot)
+    with stage(f"deriving the model of {path.stem}"):
+        robot = read(path)
+        settings = _settings(arguments, robot)
+    folder = arguments.out or Path("identified") / f"{robot.name}_output_error"
+    with executors.opened(arguments) as executor, counter("starts") as counted:
+        found = output_error(
+            robot, arguments.data, arguments.test, settings, arguments.starts, executor, folder, counted
+        )
+    files = save(found, path, folder)
+    print(f"{robot.name}: {len(found.best.names)} parameters by output error")
+    print("\n".join(summary(found)))
+    print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
+    from generator.derivation import derive
+    from generator.robot.fields import nearest
+    from identification import recipe as recipes
+    from identification.fixing import fixed
+    from identification.output_error.methods import methods
+    from identification.output_error.search import Settings
+
+    if arguments.method not in methods():
+        raise InputError(
+            command_line("--method"), f"there is no method {arguments.method!r}", nearest(arguments.method, methods())
+        )
+    for name, least in (("iterations", 1), ("starts", 1), ("seed", 0)):
+        value = getattr(arguments, name)
+        if value is not None and value < least:
+            raise InputError(command_line(f"--{name}"), str(value), f"at least {least}")
+    for name in ("seconds", "spread", "margin"):
+        value = getattr(arguments, name)
+        if value is not None and not 0 < value < float("inf"):
+            raise InputError(command_line(f"--{name}"), f"{value:g}", "a positive number")
+    recipe = recipes.recipe_of(robot.name) if arguments.recipe is None else recipes.read(arguments.recipe)
+    given = {}
+    if arguments.fix:
+        given = fixed(arguments.fix, None, derive(robot, names=("regressor_packed",)), command_line("--fix"))
+    return Settings(
+        recipe=recipe,
+        segment=_segment(arguments.segment),
+        method=arguments.method,
+        iterations=arguments.iterations,
+        seconds=arguments.seconds,
+        margin=arguments.margin,
+        fixed=given,
+        spread=arguments.spread,
+        seed=arguments.seed,
+    )
+
+
+def _segment(text: str) -> float | None:
+    if text == "none":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise InputError(command_line("--segment"), repr(text), "a time in s, or none")
+    return value

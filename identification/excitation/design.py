@@ -1,0 +1,133 @@
+"""Search for the motion that shows a robot's parameters best: random starts, then evolution (CMA-ES, Hansen 2016)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from identification.excitation.criterion import Criterion, sizes_and_rank
+from identification.excitation.shapes import BETWEEN, CHECKED, Shapes
+from identification.fourier_series import FourierSeries
+from identification.observation import Motion, Regressors
+
+Array = NDArray[np.float64]
+Progress = Callable[[float], None]
+
+#: Random motions looked at before the best ones are improved; how many are, and motions of a generation.
+_DRAWN, _STARTS, _GENERATION = 256, 2, 24
+#: Generations for which the axes of the evolution stay as they are: finding them costs as much as one.
+_WAIT = 10
+#: First step of the search, in units of the drawn numbers.
+_STEP = 0.3
+#: Halvings by which a motion is made small enough for the torques.
+_HALVINGS = 30
+
+
+@dataclass(frozen=True)
+class Design:
+    """The best ``series`` with its cost, and that of the best random motion; ``load`` is the largest share of a
+    torque limit, on ``instants`` that are dense.
+    """
+
+    series: FourierSeries
+    cost: float
+    first_cost: float
+    load: float
+
+
+def designed(
+    criterion: Criterion, shapes: Shapes, evaluations: int, seed: int, progress: Progress = lambda part: None
+) -> Design:
+    """The best of so many ``evaluations``; the same for the same seed.
+
+    Raises InputError where no joint may be faster than its standstill threshold, and where the robot's weight alone is
+    beyond the torques at the best motion's centre.
+    """
+    draw = np.random.default_rng(seed)
+    x = shapes.drawn(_DRAWN, draw)
+    information, loads = criterion.information(shapes.motions(x), len(x))
+    scale, rank = sizes_and_rank(information)
+    if not rank:
+        robot = criterion.regressors.model.robot
+        raise InputError(robot.place, "no joint can be faster than its standstill threshold", "larger speeds")
+    first = criterion.costs(information, loads, scale, rank)
+
+    def costs(x: Array) -> Array:
+        return criterion.costs(*criterion.information(shapes.motions(x), len(x)), scale, rank)
+
+    found = [(float(first.min()), x[int(np.argmin(first))])]
+    budget = max(evaluations - _DRAWN, 0) // _STARTS
+    for k, start in enumerate(np.argsort(first)[:_STARTS]):
+        if budget >= _GENERATION:
+            found.append(_improved(x[start], costs, budget, draw, _part_of(progress, k)))
+    cost, best = min(found, key=lambda one: one[0])
+    series, load = _allowed(shapes.series(best), criterion, shapes)
+    return Design(series, cost, float(first.min()), load)
+
+
+def _improved(
+    start: Array, costs: Callable[[Array], Array], budget: int, draw: np.random.Generator, progress: Progress
+) -> tuple[float, Array]:
+    """The best cost and vector of an evolution from ``start``."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it plots where matplotlib is
+        import cma
+
+    options = {
+        "verbose": -9,
+        "popsize": _GENERATION,
+        "seed": np.nan,
+        "randn": lambda *size: draw.normal(size=size),
+        "updatecovwait": _WAIT,
+    }
+    evolution = cma.CMAEvolutionStrategy(start, _STEP, options)
+    done = 0
+    while done < budget and not evolution.stop():
+        generation = evolution.ask()
+        evolution.tell(generation, costs(np.array(generation)).tolist())
+        done += len(generation)
+        progress(done / budget)
+    return float(evolution.best.f), np.array(evolution.best.x)
+
+
+def _part_of(progress: Progress, start: int) -> Progress:
+    return lambda part: progress((start + part) / _STARTS)
+
+
+def _allowed(series: FourierSeries, criterion: Criterion, shapes: Shapes) -> tuple[FourierSeries, float]:
+    """The series, smaller where its torques are too large at any of the dense instants, and its largest load."""
+    instants = shapes.instants(CHECKED)
+
+    def load(factor: float) -> float:
+        motion = series.resized(factor).motion(instants)
+        return largest_load(motion, criterion.regressors, criterion.values, criterion.limits.loads)
+
+    if load(1.0) <= 1 - BETWEEN:
+        return series, load(1.0)
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if load(middle) <= 1 - BETWEEN else (low, middle)
+    if not low:
+        robot = criterion.regressors.model.robot
+        raise InputError(robot.place, "the weight alone is beyond the torque limits", "limits that hold the arm")
+    return series.resized(low), load(low)
+
+
+def usual_torques(shapes: Shapes, regressors: Regressors, values: Mapping[str, float], seed: int) -> Array:
+    """Rms torques (n) [N m, N] of random motions within the limits."""
+    motions = shapes.motions(shapes.drawn(_DRAWN, np.random.default_rng(seed)))
+    result: Array = np.sqrt((regressors.torques(values, motions) ** 2).mean(axis=1))
+    return result
+
+
+def largest_load(motion: Motion, regressors: Regressors, values: Mapping[str, float], loads: Array) -> float:
+    """Largest share of a torque limit over a motion; 0 without limits."""
+    if not loads.size:
+        return 0.0
+    return float(np.abs(loads @ regressors.torques(values, motion)).max())

@@ -1,0 +1,37 @@
+"""What will be known of the parameters after a motion: the least squares of identify, before a robot moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import Place
+from identification import recipe as recipes
+from identification.dataset import Run
+from identification.excitation.noise import Noise
+from identification.factors import factors
+from identification.least_squares import Problem, Solution
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from identification.sampling import rows_of, sampled
+
+Array = NDArray[np.float64]
+
+
+def expected(
+    q: Array, rate: float, regressors: Regressors, recipe: Recipe, values: Mapping[str, float], noise: Noise
+) -> Solution:
+    """Standard deviations that identification from a run with positions ``q`` (n x N) [rad, m] is expected to have.
+
+    Filters, decimation and rows near standstill are those of ``recipe`` at ``rate`` [Hz]; ``values`` are the
+    parameters [SI] that the deviations are related to.
+    """
+    run = Run("designed", Place("designed"), 0.0, 1 / rate, q, np.zeros_like(q))
+    one = sampled(run, recipe, regressors)
+    found = factors(rows_of(one, regressors))
+    sigma = noise.deviations(one.filters.factor)
+    weighted = recipe.weights == recipes.JOINT
+    problem = Problem(found, regressors.names, {}, weighted, recipe.freedom == recipes.SAMPLES)
+    return problem.foreseen(values, {factor.joint: float(s) for factor, s in zip(found, sigma, strict=True)})

@@ -1,0 +1,65 @@
+"""What a designed motion must not exceed: positions, speeds, accelerations, torques of joints and of motors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import Joint, Robot
+from identification.trajectory import room
+
+Array: TypeAlias = NDArray[np.float64]
+
+#: Of joints whose file has none [rad/s, m/s; rad/s2, m/s2].
+SPEED, ACCELERATION = 1.0, 2.0
+
+
+@dataclass(frozen=True)
+class Limits:
+    """``lower`` and ``upper`` positions, ``speed`` and ``acceleration`` (n each) [rad, m; s].
+
+    Torques tau (n) [N m, N] are allowed where |``loads`` tau| <= 1 in every row; there are no rows without limits.
+    """
+
+    lower: Array
+    upper: Array
+    speed: Array
+    acceleration: Array
+    loads: Array
+
+
+def limits_of(robot: Robot, speed: float | None = None, acceleration: float | None = None) -> Limits:
+    """The limits in a robot file; ``speed`` and ``acceleration`` hold as well where they are given, for all joints.
+
+    Torques are limited by joints' ``torque_limit`` and by the currents of ``signals: current_limit``.
+    """
+    lower, upper = room(robot)
+    joints = robot.moving
+    speeds = [_least(joint.speed_limit, speed, SPEED) for joint in joints]
+    accelerations = [_least(joint.acceleration_limit, acceleration, ACCELERATION) for joint in joints]
+    rows = [*_joint_loads(joints), *_motor_loads(robot)]
+    return Limits(lower, upper, np.array(speeds), np.array(accelerations), np.reshape(rows, (-1, len(joints))))
+
+
+def _least(own: object, given: float | None, default: float) -> float:
+    known = [float(one) for one in (own, given) if one is not None]  # type: ignore[arg-type]
+    return min(known, default=default)
+
+
+def _joint_loads(joints: tuple[Joint, ...]) -> list[Array]:
+    unit = np.eye(len(joints))
+    return [unit[k] / float(joint.torque_limit) for k, joint in enumerate(joints) if joint.torque_limit is not None]
+
+
+def _motor_loads(robot: Robot) -> list[Array]:
+    """Motor torques are N^-T tau (report eq. 18), their limits kt i."""
+    drives, currents = robot.drives, robot.signals.current_limit
+    if drives is None or not currents or not drives.torque_constants:
+        return []
+    N = np.array([[float(entry) for entry in row] for row in drives.coupling])
+    constants = drives.torque_constants[drives.torque_constant]
+    largest = [float(kt) * float(current) for kt, current in zip(constants, currents, strict=True)]
+    return list(np.linalg.inv(N).T / np.array(largest)[:, None])

@@ -1,0 +1,137 @@
+"""What a design leaves behind: a run file to be played, and excitation.json with what will be known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from generator.robot.description import Robot
+from generator.version import VERSION
+from generator.writing import replace
+from identification.excitation.design import Design
+from identification.excitation.limits import Limits
+from identification.excitation.noise import Noise
+from identification.least_squares import Solution
+from identification.observation import Motion
+from identification.recipe import Filters
+from identification.results import written
+
+#: Names of the files.
+RUN, BESIDE, RESULTS = "trajectory.csv", "trajectory.yaml", "excitation.json"
+#: Digits of a number of the run.
+_DIGITS = 12
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """A designed motion of ``periods`` logged at ``rate`` [Hz], and the deviations that are ``expected`` from it.
+
+    ``parameters`` names the set that they are related to; ``units`` are by name.
+    """
+
+    robot: Robot
+    design: Design
+    limits: Limits
+    noise: Noise
+    motion: Motion
+    rate: float
+    periods: int
+    filters: Filters
+    expected: Solution
+    units: dict[str, str]
+    parameters: str
+    criterion: str
+    evaluations: int
+    seed: int
+
+    @property
+    def duration(self) -> float:
+        """Of the run [s]."""
+        return self.periods / self.design.series.frequency
+
+
+def save(found: Excitation, folder: Path) -> list[str]:
+    """Writes the run, its sidecar and excitation.json into ``folder``; returns their names.
+
+    Raises InputError where the folder cannot be written.
+    """
+    notes = "designed, not measured; qr and qd are wanted positions and speeds, at rest at both ends"
+    beside = f"robot: {found.robot.name}\nnotes: {notes}\n"
+    files = {RUN: _run(found), BESIDE: beside, RESULTS: written(document(found))}
+    replace(folder, {name: text.encode() for name, text in files.items()})
+    return sorted(files)
+
+
+def document(found: Excitation) -> dict[str, Any]:
+    """The content of excitation.json, see docs/excite.md."""
+    series, solution = found.design.series, found.expected
+    return {
+        "robot": found.robot.name,
+        "robot_sha256": found.robot.digest,
+        "version": VERSION,
+        "duration": found.duration,
+        "rate": found.rate,
+        "series": {
+            "frequency": series.frequency,
+            "centre": series.centre.tolist(),
+            "sine": series.a.tolist(),
+            "cosine": series.b.tolist(),
+        },
+        "search": {
+            "criterion": found.criterion,
+            "evaluations": found.evaluations,
+            "seed": found.seed,
+            "cost": found.design.cost,
+            "cost_of_best_random_motion": found.design.first_cost,
+        },
+        "joints": _joints(found),
+        "largest_load": found.design.load if found.limits.loads.size else None,
+        "noise": {"sampled": found.noise.sampled.tolist(), "remaining": found.noise.remaining.tolist()},
+        "filters": {
+            "cutoff": found.filters.cutoff,
+            "order": found.filters.order,
+            "factor": found.filters.factor,
+        },
+        "expected": {
+            name: {
+                "value": solution.values[name],
+                "std": solution.std(name),
+                "relative_std_percent": solution.relative_std(name),
+                "identifiable": name not in solution.hidden,
+                "unit": unit,
+            }
+            for name, unit in found.units.items()
+        },
+        "parameters": found.parameters,
+        "condition": solution.condition,
+        "condition_scaled": solution.scaled_condition,
+    }
+
+
+def _joints(found: Excitation) -> list[dict[str, Any]]:
+    """What each joint does, and what it may."""
+    motion, limits = found.motion, found.limits
+    return [
+        {
+            "joint": joint.number,
+            "position": [float(motion.q[k].min()), float(motion.q[k].max())],
+            "speed": float(np.abs(motion.qd[k]).max()),
+            "acceleration": float(np.abs(motion.qdd[k]).max()),
+            "position_limits": [float(limits.lower[k]), float(limits.upper[k])],
+            "speed_limit": float(limits.speed[k]),
+            "acceleration_limit": float(limits.acceleration[k]),
+        }
+        for k, joint in enumerate(found.robot.moving)
+    ]
+
+
+def _run(found: Excitation) -> str:
+    numbers = [joint.number for joint in found.robot.moving]
+    names = ["t", *(f"{stem}{number}" for stem in ("qr", "qd") for number in numbers)]
+    times = np.arange(found.motion.samples) / found.rate
+    row = ",".join([f"%.{_DIGITS}g"] * len(names))
+    values = np.column_stack([times, found.motion.q.T, found.motion.qd.T])
+    return "\n".join([",".join(names), *(row % tuple(one) for one in values.tolist())]) + "\n"

@@ -1,0 +1,171 @@
+"""Latency of link-side encoders, and what stiffness is left once it is removed, from runs of a robot that moves.
+
+The link is where the motor is, less the drive train's twist; its encoder tells it T later:
+q - qs = c + T qd + tau / k, tau what the drive train transmits. Latency times speed looks like the twist under viscous
+friction, and mostly is far larger. So all that goes with the motor's own motion counts as latency, friction and inertia
+of the motor (1, qd, sign qd, qdd), as does an eccentric encoder (sin q, cos q): k is what the remaining torque shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.colour import inflation
+from identification.dataset import Run, load
+from identification.filtering import decimated, derivative, smoothed
+from identification.outcome import Value
+from identification.recipe import Filters, Recipe
+from identification.residuals import Residual
+
+Array = NDArray[np.float64]
+
+RECIPE = Recipe()
+#: Relative standard deviation from which a stiffness is refused.
+LIMIT = 0.1
+
+
+@dataclass(frozen=True)
+class LinkEncoders:
+    """By name: ``latency`` [s] and ``stiffness`` k of the joints with a link-side encoder.
+
+    ``mistaken`` is what k would be if q - qs was all twist. ``residuals`` are of q - qs [rad, m] by joint (from 0).
+    """
+
+    robot: Robot
+    runs: tuple[tuple[Run, Filters], ...]
+    latency: Mapping[str, Value]
+    stiffness: Mapping[str, Value]
+    mistaken: Mapping[str, Value]
+    residuals: Mapping[int, Residual]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Of one joint in all runs: ``twist`` q - qs (N), ``own`` columns of the motor's motion (N x p), those of speed
+    first, ``constants`` of the runs (N x runs), ``torque`` (N) [N m, N].
+    """
+
+    twist: Array
+    own: Array
+    constants: Array
+    torque: Array
+
+
+def link_encoders(
+    robot: Robot, sources: Sequence[str], friction: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
+) -> LinkEncoders:
+    """Values from the runs ``sources`` with columns qs of some joints at least.
+
+    ``friction`` holds Fvm or Fv by name [SI]: torque that is lost before the drive train twists, so that Fv/k is
+    missing in the speed's coefficient.
+
+    Raises InputError for runs that are too short and for runs without link-side encoders.
+    """
+    runs = [load(str(source), robot, recipe.columns) for source in sources]
+    filters = [recipe.at(run.rate) for run in runs]
+    for run, one in zip(runs, filters, strict=True):
+        if run.samples < one.fewest:
+            raise InputError(run.place, f"{run.samples} rows", f"at least {one.fewest} for the filters")
+    latency, stiffness, mistaken, residuals = {}, {}, {}, {}
+    notes = [note for run in runs for note in run.notes]
+    for k, joint in enumerate(robot.moving):
+        mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
+        if not mine:
+            continue
+        rows = _rows(mine, k, joint)
+        viscous = _viscous(joint, friction or {})
+        name = f"k{joint.number}"
+        stiffness[name], latency[f"latency{joint.number}"], residuals[k] = _told(rows, joint, viscous)
+        mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
+        if stiffness[name].value is not None and viscous is None:
+            notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
+    if not latency:
+        names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
+        raise InputError(runs[0].place, "there are no columns of link-side encoders", names)
+    found = tuple(zip(runs, filters, strict=True))
+    return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, tuple(notes))
+
+
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> _Rows:
+    parts = []
+    for number, (run, filters) in enumerate(runs):
+        q, qs, torque = (
+            smoothed(x, filters.order, filters.cutoff, run.rate)
+            for x in (run.q[k], run.others[f"qs{joint.number}"], run.tau[k])
+        )
+        qd = derivative(q, run.period)
+        own = [qd, np.sign(qd), derivative(qd, run.period)]
+        if joint.sigma != PRISMATIC:
+            own += [np.sin(q), np.cos(q)]
+        inner = slice(filters.first, run.samples - filters.last)
+        columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
+        constants = np.zeros((len(runs), columns.shape[1]))
+        constants[number] = 1.0
+        parts.append(np.concatenate([columns, constants]))
+    joined = np.concatenate(parts, axis=1)
+    count = len(runs)
+    return _Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
+
+
+def _told(rows: _Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
+    """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
+    moved = np.column_stack([rows.own[:, 1:], rows.constants, rows.own[:, 0]])
+    compliance = _last(rows.twist, moved, rows.torque)
+    stiffness = _stiffness(*compliance, joint)
+    others, columns = np.column_stack([rows.own[:, 1:], rows.constants]), rows.own[:, 0]
+    if stiffness.value is not None:
+        others = np.column_stack([others, rows.torque])
+    latency, std = _last(rows.twist, others, columns)
+    if stiffness.value is not None and viscous is not None:
+        latency += viscous * compliance[0]
+    every = np.column_stack([others, columns])
+    e = rows.twist - every @ np.linalg.lstsq(every, rows.twist, rcond=None)[0]
+    size, spread = float(np.linalg.norm(rows.twist)), float(np.linalg.norm(rows.twist - rows.twist.mean()))
+    return stiffness, Value(latency, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
+
+
+def _last(y: Array, others: Array, x: Array) -> tuple[float, float]:
+    """The coefficient of x beside those of ``others`` in least squares, and its std for residuals coloured as found.
+
+    By what is left of y and x without the others (Frisch and Waugh 1933); infinite std where nothing is.
+    """
+    scaled = others / np.maximum(np.linalg.norm(others, axis=0), np.finfo(float).tiny)
+    left = x - scaled @ np.linalg.lstsq(scaled, x, rcond=None)[0]
+    power = float(left @ left)
+    if power <= 1e-12 * float(x @ x):
+        return 0.0, np.inf
+    value = float(left @ y) / power
+    every = np.column_stack([scaled, left / np.sqrt(power)])
+    e = y - every @ np.linalg.lstsq(every, y, rcond=None)[0]
+    variance = float(e @ e) / max(len(y) - every.shape[1], 1) * inflation(e)
+    return value, float(np.sqrt(variance / power))
+
+
+def _stiffness(compliance: float, std: float, joint: Joint) -> Value:
+    """1/compliance, refused where it is not positive or not sure."""
+    unit = "N/m" if joint.sigma == PRISMATIC else "N m/rad"
+    if not np.isfinite(std):
+        return Value(None, np.inf, unit, refused="nothing is left of the torque beside the motor's own motion")
+    relative = std / abs(compliance) if compliance else np.inf
+    if relative > LIMIT:
+        why = f"what the latency leaves shows it with a relative std of {100 * relative:.3g} %"
+        return Value(None, np.inf, unit, refused=why)
+    if compliance < 0:
+        return Value(None, np.inf, unit, refused="the link moves against the torque; is the encoder's sign wrong?")
+    return _inverse(compliance, std, unit)
+
+
+def _inverse(compliance: float, std: float, unit: str) -> Value:
+    """The stiffness, however unsure it is."""
+    return Value(1 / compliance, std / compliance**2, unit) if compliance else Value(None, np.inf, unit)
+
+
+def _viscous(joint: Joint, friction: Mapping[str, float]) -> float | None:
+    return friction.get(f"Fvm{joint.number}", friction.get(f"Fv{joint.number}"))

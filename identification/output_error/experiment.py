@@ -1,0 +1,103 @@
+"""What the open loop is given: a run cut into segments, each with its torques, positions and a first state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from identification.dataset import Run
+from identification.filtering import derivative, smoothed
+from identification.observation import Motion
+from identification.recipe import Filters, Recipe
+
+Array = NDArray[np.float64]
+
+#: Fewest positions by which a segment is judged, and the time between two of them [s].
+_FEWEST, _STEP = 20, 4e-3
+#: Weights of the fourth difference, and the sum of their squares.
+_FOURTH, _POWER = (1.0, -4.0, 6.0, -4.0, 1.0), 70.0
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A run of n joints in S segments of L samples, ``period`` [s] apart, joint side.
+
+    ``tau`` (S x L x n) [N m, N] is held from each sample to the next. ``q`` (S x K x n) [rad, m] are the measured
+    positions at each ``stride``-th sample, ``start`` (S x 2n) is a first guess of the first states [q; qd], ``noise``
+    (n) the rms of the positions' noise. ``recorded`` are the torques (N x n) of the samples of ``motion``, the filtered
+    motion, less those that ``left_out`` (n x N) marks.
+    """
+
+    run: Run
+    filters: Filters
+    period: float
+    stride: int
+    tau: Array
+    q: Array
+    start: Array
+    noise: Array
+    motion: Motion
+    recorded: Array
+
+    @property
+    def step(self) -> float:
+        """Time between two positions that are compared [s]."""
+        return self.stride * self.period
+
+
+def experiment(run: Run, recipe: Recipe, segment: float | None) -> Experiment:
+    """The run in segments of ``segment`` [s], or in one where it is None; what is left over at the end is not used.
+
+    Torques pass the recipe's Butterworth filter forward and backward, positions stay as measured; the filter's ends are
+    left out, and segments in which a torque is cut off.
+
+    Raises InputError for a run with a payload, which the direct model does not have, and for one that is too short.
+    """
+    if run.payload is not None:
+        raise InputError(run.place, f"the run carries payload {run.payload.name}", "a run without payload")
+    filters = recipe.at(run.rate)
+    inner = slice(filters.first, run.samples - filters.last)
+    samples = run.samples - filters.first - filters.last
+    stride = max(1, round(_STEP / run.period))
+    length = samples if segment is None else round(segment / run.period)
+    if length < _FEWEST * stride:
+        least = _FEWEST * stride * run.period
+        if segment is not None and segment < least:
+            raise InputError(run.place, f"segments of {segment:g} s", f"at least {least:g} s")
+        length = samples
+    count = samples // length if length > 0 else 0
+    if samples < _FEWEST * stride or not count:
+        wanted = filters.first + filters.last + max(length, _FEWEST * stride)
+        raise InputError(run.place, f"{run.samples} rows", f"at least {wanted} for the filters and one segment")
+    smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    speed = derivative(smooth, run.period)
+    torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate)
+    held = torque.copy()
+    held[:, :-1] = (torque[:, :-1] + torque[:, 1:]) / 2
+    motion = Motion(*(x[:, inner] for x in (smooth, speed, derivative(speed, run.period))))
+    parts = [_segments(x[:, inner], count, length) for x in (held, run.q, smooth, speed)]
+    cut = np.zeros((len(run.q), samples)) if run.unusable is None else run.unusable[:, inner].astype(float)
+    used = _segments(cut, count, length).max(axis=(1, 2)) == 0
+    if not used.any():
+        raise InputError(run.place, "torques are cut off in every segment", "a run below the limits")
+    tau, q, q_smooth, qd = (np.ascontiguousarray(part[used]) for part in parts)
+    first = np.concatenate([q_smooth[:, 0], qd[:, 0]], axis=-1)
+    recorded = np.ascontiguousarray(run.tau[:, inner].T)
+    return Experiment(
+        run, filters, run.period, stride, tau, q[:, ::stride].copy(), first, _white(run.q), motion, recorded
+    )
+
+
+def _segments(x: Array, count: int, length: int) -> Array:
+    """(n x N) as (count x length x n)."""
+    return x[:, : count * length].reshape(len(x), count, length).transpose(1, 2, 0)
+
+
+def _white(q: Array) -> Array:
+    """Rms of the white noise on positions (n x N), from their fourth differences, in which motion does not show."""
+    fourth = np.apply_along_axis(np.convolve, -1, q, _FOURTH, "valid")
+    result: Array = np.sqrt((fourth**2).mean(axis=-1) / _POWER)
+    return result

@@ -1,0 +1,179 @@
+"""Output error from the inverse model's estimate, and from random starts about it, on any executor, resumable."""
+
+from __future__ import annotations
+
+import atexit
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import Robot
+from generator.version import VERSION
+from identification import recipe as recipes
+from identification.dataset import load
+from identification.executors import Executor
+from identification.executors.here import Here
+from identification.inverse_model import Identification, Options, identify
+from identification.output_error.criterion import Point
+from identification.output_error.estimate import Estimate, evaluated
+from identification.output_error.experiment import Experiment, experiment
+from identification.output_error.methods import methods
+from identification.output_error.search import Minimum, Search, Settings, search_of, starts
+from identification.simulation.machine import Machine, compiled
+from identification.study import Counted, key_of, study
+
+Array = NDArray[np.float64]
+
+#: Folder of the results of single starts.
+STARTS = "starts"
+
+
+@dataclass(frozen=True)
+class Start:
+    """One task: a search, in what a worker needs to make it, and where it begins."""
+
+    robot: Robot
+    experiments: tuple[Experiment, ...]
+    values: Mapping[str, float]
+    std: Mapping[str, float]
+    settings: Settings
+    chi: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class OutputError:
+    """The ``best`` of all starts with the inverse model's ``first`` estimate, runs and repairs.
+
+    ``scores`` are the starts' criteria by name: the logarithm of the geometric mean of the joints' rms position errors
+    where joints are weighted, else the rms of all; infinite where the simulation diverges.
+    """
+
+    robot: Robot
+    settings: Settings
+    first: Identification
+    train: tuple[Experiment, ...]
+    test: tuple[Experiment, ...]
+    scores: Mapping[str, float]
+    chosen: str
+    best: Estimate
+    notes: tuple[str, ...]
+
+
+def output_error(
+    robot: Robot,
+    data: Sequence[str | Path],
+    test: Sequence[str | Path] = (),
+    settings: Settings | None = None,
+    count: int = 1,
+    executor: Executor | None = None,
+    folder: Path | None = None,
+    counted: Counted = lambda done, total: None,
+) -> OutputError:
+    """Parameters of ``robot`` from the runs ``data`` by output error, the best of ``count`` starts.
+
+    The first start is what the inverse model identifies from the same runs, the others are drawn about it. ``folder``
+    keeps the result of each start as it comes; a start whose result is there already is not run again.
+
+    Raises InputError for runs that cannot be used.
+    """
+    settings = settings or Settings(recipe=recipes.recipe_of(robot.name))
+    first = identify(robot, data, test, Options(recipe=settings.recipe, fixed=settings.fixed))
+    train, tried = (
+        tuple(
+            experiment(load(str(one), robot, settings.recipe.columns), settings.recipe, settings.segment)
+            for one in sources
+        )
+        for sources in (data, test)
+    )
+    solution = first.full.solution
+    std = {name: solution.std(name) for name in solution.values}
+    machine = machine_of(Made(robot.digest, robot))
+    search, chi = search_of(machine.module, train, solution.values, std, settings)
+    tasks = {
+        name: Start(robot, train, solution.values, std, settings, tuple(one.tolist()))
+        for name, one in starts(search, chi, count).items()
+    }
+    kept = None if folder is None else folder / STARTS / _key(tasks["start_001"])
+    results = study(run_start, tasks, executor or Here(), kept, counted)
+    scores = {name: _score(search, np.array(one["rms"])) for name, one in results.items()}
+    chosen = min(scores, key=lambda name: scores[name])
+    best = evaluated(search, _minimum(search, results[chosen]), tried)
+    # What no torque shows no position shows.
+    hidden = [name for name in best.names if name in best.hidden or name in solution.hidden]
+    best = replace(best, hidden=tuple(hidden))
+    return OutputError(robot, settings, first, train, tried, scores, chosen, best, _notes(first, best, train))
+
+
+def run_start(start: Start) -> dict[str, Any]:
+    """The minimum from one start, as JSON values; the robot is compiled once in each process."""
+    machine = machine_of(Made(start.robot.digest, start.robot))
+    search, _ = search_of(machine.module, start.experiments, start.values, start.std, start.settings)
+    found = methods()[start.settings.method].minimise(search, np.array(start.chi))
+    return {
+        "chi": found.point.chi.tolist(),
+        "states": [one.tolist() for one in found.point.states],
+        "scale": found.criterion.scale.tolist(),
+        "rms": found.rms.tolist(),
+        "simulations": found.simulations,
+        "iterations": found.iterations,
+    }
+
+
+@dataclass(frozen=True)
+class Made:
+    """A robot, the same as another one whose file says the same."""
+
+    digest: str
+    robot: Robot = field(compare=False)
+
+
+@lru_cache(maxsize=4)
+def machine_of(made: Made) -> Machine:
+    """The robot's compiled simulation, kept while the process lives: compiling takes longer than a search."""
+    stack = ExitStack()
+    machine = stack.enter_context(compiled(made.robot))
+    atexit.register(stack.close)
+    return machine
+
+
+def _key(start: Start) -> str:
+    """Hash of all that the starts' results depend on."""
+    settings = {name: value for name, value in asdict(start.settings).items() if name != "recipe"}
+    return key_of(
+        {
+            "version": VERSION,
+            "robot": start.robot.digest,
+            "runs": [[one.run.name, one.run.sha256, asdict(one.filters)] for one in start.experiments],
+            "weights": start.settings.recipe.weights,
+            "settings": settings,
+            "start": list(start.chi),
+        }
+    )
+
+
+def _minimum(search: Search, result: Mapping[str, Any]) -> Minimum:
+    point = Point(np.array(result["chi"]), tuple(np.array(one) for one in result["states"]))
+    criterion = replace(search.criterion, scale=np.array(result["scale"]))
+    return Minimum(point, criterion, result["simulations"], result["iterations"])
+
+
+def _score(search: Search, rms: Array) -> float:
+    return float(np.log(rms).mean() if search.weighted else np.sqrt((rms**2).mean()))
+
+
+def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) -> tuple[str, ...]:
+    notes = [note for note in first.notes if not note.startswith("the essential parameters")]
+    for one in runs:
+        unused = one.motion.samples - one.tau.shape[0] * one.tau.shape[1]
+        if unused * one.period >= 0.1:
+            notes.append(f"{one.run.name}: {unused * one.period:.3g} s are not part of any segment")
+    if best.limited:
+        notes.append("the constraint that M(q) is positive definite holds; standard deviations are those without it")
+    notes += [f"{name} cannot be identified: no position shows it alone" for name in best.hidden]
+    return tuple(dict.fromkeys(notes))

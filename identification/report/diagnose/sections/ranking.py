@@ -1,0 +1,51 @@
+"""What was tried and how it fared, before anything was named and beside the findings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from generator.review.markup import Content, Markup, element, join, table
+from identification.diagnosis.bank import Variant
+from identification.diagnosis.selection import Evidence
+from identification.report.choice import choice
+from identification.report.diagnose.subject import Subject
+from identification.report.diagnose.words import chance, joints
+from identification.report.numbers import NONE, number
+
+TITLE = "Ranking of the candidates"
+ORDER = 60
+
+_LISTED = 12
+
+
+def render(subject: Subject) -> Markup:
+    selection = subject.found.found.selection
+    chosen = [one.evidence.variant for one in subject.found.found.choices]
+    tables = {"before anything is named": _table(selection.evidence([]), chosen)}
+    if chosen:
+        tables["beside the findings"] = _table(selection.evidence(chosen), chosen)
+    tried = len({(one.effect, one.joint) for one in subject.found.found.offered})
+    text = (
+        f"{tried} effects on joints were tried, each with the shape that fits best. Evidence is the drop of the sum of"
+        " squares, in variances of the noise, less what its"
+        " parameters and shapes cost (BIC), plus the drop on runs that were not fitted. The size is in the noise's rms."
+        " A name is given where all"
+        " conditions hold; the last column says which one does not."
+    )
+    return join(element("p", text), choice("ranking", "Ranking", tables))
+
+
+def _table(ranked: Sequence[Evidence], chosen: Sequence[Variant]) -> Markup:
+    named = {(one.hypothesis.effect, one.hypothesis.joint) for one in chosen}
+    rows: list[list[Content]] = []
+    for place, one in enumerate(ranked[:_LISTED], 1):
+        hypothesis = one.variant.hypothesis
+        is_named = (hypothesis.effect, hypothesis.joint) in named
+        remark = element("b", "named") if is_named else element("span", one.why_not or "passes", class_="faint")
+        where = joints(hypothesis.joints or (hypothesis.joint,))
+        # Of what is within chance nothing else is looked at.
+        validation = number(one.validation, 4) if one.validation else NONE
+        sizes = [number(one.score, 4), number(one.drop, 4), validation, number(one.size, 2), chance(one.p)]
+        rows.append([str(place), f"{hypothesis.title}, {where}", *sizes, remark])
+    heads = ("", "effect", "evidence", "fitted", "others", "size", "p", "")
+    return table(heads, rows, class_="ranking") if rows else element("p", "Nothing in the library explains anything.")

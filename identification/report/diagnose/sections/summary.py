@@ -1,0 +1,45 @@
+"""The diagnosis in words, then in a few numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from generator.review.markup import Markup, element, join
+from generator.review.words import plural
+from identification.diagnosis.diagnosis import NAMED, NOTHING
+from identification.report.diagnose import words
+from identification.report.diagnose.subject import Subject
+from identification.report.numbers import card, plain
+from identification.report.told import notes
+
+TITLE = "Diagnosis"
+ORDER = 10
+
+_VERDICTS = {NAMED: "named", NOTHING: "no discrepancy"}
+
+
+def render(subject: Subject) -> Markup:
+    mended = () if subject.mended is None else subject.mended.notes
+    return join(
+        element("p", " ".join(words.verdict(subject)), class_="verdict"),
+        [element("p", " ".join(words.finding(subject, one))) for one in subject.found.findings],
+        element("p", " ".join(words.change(subject))) if subject.tried else None,
+        element("p", words.mode(subject)),
+        element("div", list(_cards(subject)), class_="cards results"),
+        notes([words.shortened(subject, one) for one in (*subject.found.notes, *mended)]),
+    )
+
+
+def _cards(subject: Subject) -> Iterator[Markup]:
+    found = subject.found
+    yield card(_VERDICTS.get(found.verdict, "unexplained"), "verdict", plural(len(found.findings), "finding"))
+    if found.before.joint:
+        yield card(f"joint {found.before.joint}", "disagrees most", f"over {found.before.variable or 'no variable'}")
+    worst = max(found.before.lack, key=lambda one: one.size)
+    left = max(found.after.lack, key=lambda one: one.size)
+    yield card(f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs")
+    if subject.tried:
+        number = max(subject.tried, key=lambda k: subject.tried[k].before - subject.tried[k].after)
+        one = subject.tried[number]
+        change = f"{plain(one.relative_before, 3)} → {plain(one.relative_after, 3)}\u202f%"
+        yield card(change, f"left on joint {number}", "untouched runs, of the spread")

@@ -1,0 +1,1 @@
+"""Sections of the report of an identification: a module each, found by being here."""

@@ -1,0 +1,40 @@
+"""The runs, the method and what the estimates owe to the filters."""
+
+from __future__ import annotations
+
+from generator.review.markup import Content, Markup, element, join, table
+from identification.report.identify.subject import Subject
+from identification.report.numbers import plain
+from identification.report.runs_table import runs_table
+from identification.report.told import facts
+
+TITLE = "Runs and method"
+ORDER = 110
+
+
+def render(subject: Subject) -> Markup:
+    results = subject.results
+    method = results["method"]
+    about = {
+        "method": "inverse dynamic model, least squares (report eq. 39-46)",
+        "weights": method["least_squares"] + (", Huber's weights against outliers" if method["robust"] else ""),
+        "std": method["std"],
+        "residual variance": method["residual_variance"],
+        "standstill": f"rows of joints slower than {method['standstill']:g} rad/s or m/s are left out",
+        "essential": f"ratio of relative standard deviations below {results['essential']['ratio']:g} (report eq. 47)",
+        "given": ", ".join(f"{name} = {plain(value, 6)}" for name, value in method["fixed"].items()) or "nothing",
+    }
+    kinds = {"fitted": results["data"]["train"], "held out": results["data"]["test"]}
+    return join(runs_table(kinds), element("h3", "Method"), facts(about), _sensitivity(subject))
+
+
+def _sensitivity(subject: Subject) -> Markup | None:
+    found = subject.results["sensitivity"]
+    if not found:
+        return None
+    rows: list[list[Content]] = [
+        [f"{one['setting']} {one['value']:g}", f"{plain(one['change'], 3)} std", element("code", one["parameter"])]
+        for one in found
+    ]
+    heads = ("other filters", "largest change of a parameter", "which")
+    return join(element("h3", "Sensitivity to the filters"), table(heads, rows, class_="numbers"))

@@ -1,0 +1,34 @@
+"""What was found, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from generator.review.markup import Markup, element, join
+from generator.review.words import listed, unit
+from identification.report.numbers import plain
+from identification.report.stiffness.subject import Subject
+from identification.report.told import notes
+
+TITLE = "Summary"
+ORDER = 10
+
+
+def render(subject: Subject) -> Markup:
+    return join(element("p", " ".join(_text(subject)), class_="verdict"), notes(subject.results["notes"]))
+
+
+def _text(subject: Subject) -> Iterator[str]:
+    values = subject.results["parameters"]
+    stiffness = {name: one for name, one in values.items() if name.startswith("k") and not name.startswith("kt")}
+    told = [
+        f"{name} = {plain(one['value'], 4)} {unit(one['unit'])} (std {plain(one['relative_std_percent'], 2)}\u202f%)"
+        for name, one in stiffness.items()
+        if one["value"] is not None
+    ]
+    refused = [name for name, one in stiffness.items() if one["value"] is None]
+    yield f"{listed(told)}."
+    if refused:
+        yield f"{listed(refused)} cannot be told from these runs."
+    total = subject.results["residual"]["train"]["total"]
+    yield f"{plain(total['relative_percent'], 3)}\u202f% of the torques are left unexplained (‖e‖ / ‖Y‖)."

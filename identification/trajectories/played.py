@@ -1,0 +1,61 @@
+"""A motion from a run file, such as ``counterpoise excite`` writes: its reference is played again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from generator.errors import InputError
+from identification import checks, readers
+from identification.recording import Recording
+from identification.signals import measured
+from identification.timing import clock
+from identification.trajectory import Array, Reference, Setting, Task, Trajectory, ends_of
+
+#: Columns that are played, the first that the file has.
+_STEMS = ("qr", "q")
+#: Speed at the start, in parts of the largest one, that is rest.
+_REST = 0.01
+
+
+def _plan(task: Task) -> Reference:
+    """A cubic spline through the file's positions; after its end the robot rests.
+
+    Raises InputError, with file and row, for a file without positions or times, and for positions beyond the limits.
+    """
+    file = str(task.settings["file"])
+    if not file:
+        raise ValueError("no file is played, expected --set file=RUN")
+    recording = readers.read(Path(file))
+    found = measured(recording, _STEMS, task.robot, "positions")
+    checks.finite([*zip(found.names, found.values, strict=True)], recording.where)
+    ticks = clock(recording)
+    _inside(task, recording, found.names, found.values)
+    t = recording.columns["t"] - ticks.start
+    motion = make_interp_spline(t, found.values, axis=1)
+    within = task.times <= t[-1]
+    at = np.minimum(task.times, t[-1])
+    q, qd = motion(at), np.where(within, motion.derivative()(at), 0.0)
+    if (np.abs(qd[:, 0]) > _REST * np.abs(qd).max()).any():
+        raise ValueError(f"{file} does not begin at rest, expected speeds of zero at the start")
+    return Reference(q.T, qd.T)
+
+
+def _inside(task: Task, recording: Recording, names: tuple[str, ...], q: Array) -> None:
+    for k, name in enumerate(names):
+        lower, upper = ends_of(task.robot, k)
+        beyond = np.flatnonzero((q[k] < lower) | (q[k] > upper))
+        if beyond.size:
+            row = int(beyond[0])
+            problem = f"{name} is {q[k, row]:.6g}"
+            raise InputError(recording.where(row, name), problem, f"a position from {lower:.4g} to {upper:.4g}")
+
+
+TRAJECTORY = Trajectory(
+    name="played",
+    title="the reference qr1, qr2, .. of a run file, else its positions",
+    settings={"file": Setting("", "a run file", file=True)},
+    plan=_plan,
+)

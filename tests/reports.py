@@ -1,0 +1,96 @@
+"""Reports of every kind on small simulated cases, and what a reader finds in their markup."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+from generator.robot.description import Robot
+from generator.robot.readers import read
+from identification import stiffness_results
+from identification.comparison import compare
+from identification.consistent_fit import consistent_fit
+from identification.inverse_model import identify
+from identification.locked_output import locked_output
+from identification.observation import Regressors
+from identification.parameter_source import Known, Parameters
+from identification.report.compare import report as compare_report
+from identification.report.gains import report as gains_report
+from identification.report.identify import report as identify_report
+from identification.report.identify.subject import Subject
+from identification.report.stiffness import report as stiffness_report
+from tests import test_gains_command as lifter
+from tests import test_stiffness_command as stiff
+from tests.recorded import TRUTH, recorded, two_links
+
+
+def identified(folder: Path) -> Subject:
+    """Two links, fitted on two runs and tried on a third one."""
+    links = two_links(folder)
+    runs = [str(recorded(links, TRUTH, seed=k, noise=0.02).save(folder / f"{'abc'[k]}.csv")) for k in range(3)]
+    found = identify(links.model.robot, runs[:2], runs[2:], regressors=links)
+    return identify_report.subject(found, consistent_fit(found, None, 0.03))
+
+
+def pages(folder: Path) -> dict[str, bytes]:
+    """A report of every kind by its name."""
+    subject = identified(folder)
+    steps, locked = stiff.steps(folder), locked_output(_robot(), 2, [stiff.blocked(folder / "blocked.csv")])
+    return {
+        "identify": identify_report.report(subject.found, subject.consistent),
+        "gains": gains_report.report(lifter.found(_lifter(folder), folder)),
+        "steps": stiffness_report.report(steps, stiffness_results.of_steps(steps)),
+        "locked": stiffness_report.report(locked, stiffness_results.of_locked(locked)),
+        "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
+    }
+
+
+def _robot() -> Robot:
+    return stiff.ROBOT
+
+
+def _lifter(folder: Path) -> Regressors:
+    path = folder / "lifter.yaml"
+    path.write_text(lifter.ARM)
+    return Regressors(read(path))
+
+
+def _side(name: str, factor: float) -> Parameters:
+    values = {one: Known(factor * value, 0.02 * abs(value), "1") for one, value in TRUTH.items()}
+    return Parameters(name, f"{name}.json", "0" * 64, values | {f"only_{name}": Known(None, None, "1")})
+
+
+class Page(HTMLParser):
+    """Tags with their attributes in order; numbers of the rows of parameter tables; the charts' contents."""
+
+    def __init__(self, page: bytes) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, Mapping[str, str | None]]] = []
+        self.rows: dict[str, list[float]] = {}
+        self.charts: list[dict[str, Any]] = []
+        self._name = self._inside = ""
+        self._parameters = False
+        self.feed(page.decode())
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.tags.append((tag, given))
+        self._inside = f"{tag} {given.get('type') or ''}".strip()
+        if tag == "table":
+            self._parameters = "parameters" in (given.get("class") or "")
+        if tag == "tr":
+            self._name = ""
+        if tag == "data" and self._name and self._parameters:
+            self.rows.setdefault(self._name, []).append(float(given["value"] or "nan"))
+
+    def handle_data(self, data: str) -> None:
+        if self._inside == "code" and not self._name:
+            self._name = data
+        if self._inside == "script application/json":
+            self.charts.append(json.loads(data))
+
+    def handle_endtag(self, tag: str) -> None:
+        self._inside = ""

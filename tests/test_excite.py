@@ -1,0 +1,231 @@
+"""Designed motions: within every limit, better than random ones, and as telling as they are said to be."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy import stats
+
+from generator.robot.readers import read
+from identification.inverse_model import Options, identify
+from identification.observation import Motion, Regressors
+from identification.readers import csv
+from identification.recipe import Recipe
+from identification.simulation.machine import Machine, compiled
+from identification.simulation.settings import Settings
+from identification.simulation.simulate import simulate
+from tests.commands import PENDULUM, command
+from tests.recorded import TRUTH, TWO_LINKS
+
+Array = NDArray[np.float64]
+
+#: The two links with limits of every kind, and their parameters.
+LIMITED = (
+    TWO_LINKS.replace("limits: [-160 deg, 160 deg]}", "limits: [-60 deg, 90 deg], speed_limit: 70 deg/s}", 1)
+    .replace("limits: [-160 deg, 160 deg]}", "limits: [-90 deg, 90 deg], acceleration_limit: 1.5 rad/s2}", 1)
+    .replace("r: 0, limits: [-60", "r: 0, torque_limit: 125 N m, limits: [-60", 1)
+)
+UNITS = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "Ia": "kg m2", "Fv": "N m s/rad", "Fc": "N m", "Of": "N m"}
+NOISE = (0.05, 0.08)
+WORDS = ("--evaluations", "3000", "--noise", *map(str, NOISE), "--rate", "500")
+
+
+def with_truth(text: str) -> str:
+    values = "".join(f"      {name}: {value:g} {UNITS[name[:2]]}\n" for name, value in TRUTH.items())
+    return f"{text}parameters:\n  twin:\n    values:\n{values}"
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("excite") / "two_links.yaml"
+    path.write_text(with_truth(LIMITED))
+    return path
+
+
+@pytest.fixture(scope="module")
+def folder(file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    from generator.cli.main import main
+
+    result = tmp_path_factory.mktemp("designed") / "two_links"
+    assert main(["excite", str(file), "--out", str(result), *WORDS]) == 0
+    return result
+
+
+@pytest.fixture(scope="module")
+def machine(file: Path) -> Iterator[Machine]:
+    with compiled(read(file)) as made:
+        yield made
+
+
+def motion_of(found: dict[str, Any], times: Array) -> Motion:
+    """The series of excitation.json, its derivatives written out by hand."""
+    series = found["series"]
+    a, b = np.array(series["sine"]), np.array(series["cosine"])
+    q, qd, qdd = (np.zeros((len(a), len(times))) for _ in range(3))
+    q += np.array(series["centre"])[:, None]
+    for order in range(1, a.shape[1] + 1):
+        w = 2 * np.pi * series["frequency"] * order
+        s, c = np.sin(w * times), np.cos(w * times)
+        q += np.outer(a[:, order - 1], s) + np.outer(b[:, order - 1], c)
+        qd += w * (np.outer(a[:, order - 1], c) - np.outer(b[:, order - 1], s))
+        qdd -= w**2 * (np.outer(a[:, order - 1], s) + np.outer(b[:, order - 1], c))
+    return Motion(q, qd, qdd)
+
+
+def test_every_limit_holds_between_the_samples_too(file: Path, folder: Path) -> None:
+    found = json.loads((folder / "excitation.json").read_text())
+    motion = motion_of(found, np.linspace(0, 10, 200_001))
+    room = np.radians([[-60, 90], [-90, 90]])
+    assert (motion.q.min(axis=1) >= room[:, 0]).all()
+    assert (motion.q.max(axis=1) <= room[:, 1]).all()
+    assert (np.abs(motion.qd).max(axis=1) <= [np.radians(70), 1.0]).all()
+    assert (np.abs(motion.qdd).max(axis=1) <= [2.0, 1.5]).all()
+    torque = np.abs(Regressors(read(file)).torques(TRUTH, motion)[0]).max()
+    assert torque <= 125.0
+    assert torque > 120.0, "the limit is not beside the point"
+    assert found["largest_load"] == pytest.approx(torque / 125, rel=1e-4)
+    assert motion.qd[:, 0] == pytest.approx([0, 0], abs=1e-12)
+    assert motion.qdd[:, 0] == pytest.approx([0, 0], abs=1e-12)
+
+
+def test_the_run_is_the_series(folder: Path) -> None:
+    found = json.loads((folder / "excitation.json").read_text())
+    columns = csv.read(folder / "trajectory.csv").columns
+    motion = motion_of(found, columns["t"])
+    assert len(columns["t"]) == 10_000
+    for k in range(2):
+        assert columns[f"qr{k + 1}"] == pytest.approx(motion.q[k], abs=1e-10)
+        assert columns[f"qd{k + 1}"] == pytest.approx(motion.qd[k], abs=1e-10)
+
+
+def test_the_search_repeats_itself_and_beats_chance(
+    file: Path, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    done = command("excite", file, "--out", tmp_path / "again", *WORDS, capsys=capsys)
+    assert (done.status, done.err.splitlines()[-1]) == (0, "searching among 3000 motions")
+    for one in folder.iterdir():
+        assert one.read_bytes() == (tmp_path / "again" / one.name).read_bytes()
+    search = json.loads((folder / "excitation.json").read_text())["search"]
+    assert search["cost"] < search["cost_of_best_random_motion"] - 0.1
+    words = ("--criterion", "condition", "--evaluations", "3000", "--noise", *map(str, NOISE))
+    assert command("excite", file, "--out", tmp_path / "condition", *words, capsys=capsys).status == 0
+    conditions = [json.loads((one / "excitation.json").read_text()) for one in (tmp_path / "condition", folder)]
+    assert conditions[0]["condition_scaled"] < conditions[1]["condition_scaled"]
+
+
+def test_the_expected_deviations_are_those_of_repeated_runs(machine: Machine, folder: Path, tmp_path: Path) -> None:
+    """Over N noises the sum of squared errors in units of the expected std is that of chi-squared numbers, one a
+    parameter: each sum lies between the quantiles that one of 13 leaves in 1 of 1000 tests.
+    """
+    count, regressors = 40, Regressors(machine.robot)
+    settings = Settings(
+        trajectory="played", trajectory_settings={"file": str(folder / "trajectory.csv")}, duration=20.0, rate=500.0
+    )
+    clean = simulate(machine, settings).columns
+    draw = np.random.default_rng(5)
+    errors = []
+    for seed in range(count):
+        noisy = {name: values.copy() for name, values in clean.items()}
+        for k, rms in enumerate(NOISE):
+            noisy[f"i{k + 1}"] += draw.normal(0.0, rms, len(noisy["t"]))
+        path = tmp_path / f"{seed}.csv"
+        np.savetxt(path, np.column_stack(list(noisy.values())), delimiter=",", header=",".join(noisy), comments="")
+        found = identify(machine.robot, [str(path)], [], Options(recipe=Recipe()), regressors).full.solution
+        errors.append([found.values[name] for name in TRUTH])
+    expected = json.loads((folder / "excitation.json").read_text())["expected"]
+    std = np.array([expected[name]["std"] for name in TRUTH])
+    squares = (np.std(errors, axis=0, ddof=1) / std) ** 2 * (count - 1)
+    tail = 0.001 / len(TRUTH) / 2
+    lower, upper = stats.chi2.ppf([tail, 1 - tail], count - 1)
+    assert (squares > lower).all()
+    assert (squares < upper).all()
+    # All together: the ratio of variances is 1 within what 13 parameters, as good as 5 independent ones, allow.
+    assert squares.mean() / (count - 1) == pytest.approx(1.0, abs=4 * np.sqrt(2 / (5 * (count - 1))))
+
+
+def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    slow = tmp_path / "slow.yaml"
+    slow.write_text(file.read_text().replace("acceleration_limit: 1.5 rad/s2", "speed_limit: 0.02 rad/s"))
+    done = command("excite", slow, "--out", tmp_path / "slow", "--evaluations", "300", capsys=capsys)
+    assert done.status == 0
+    assert "note: Fc2 will not be identifiable from this motion" in done.out.splitlines()
+    expected = json.loads((tmp_path / "slow" / "excitation.json").read_text())["expected"]
+    assert expected["Fc2"]["std"] == np.inf
+    assert not expected["Fc2"]["identifiable"]
+    assert expected["Fc1"]["identifiable"]
+
+
+REFUSED = {
+    ("--frequency", "0"): "error: --frequency:1:1: 0, expected a number above 0",
+    ("--harmonics", "1"): "error: --harmonics:1:1: 1, expected a whole number from 2 to 50",
+    ("--noise", "0.1", "0.1", "1"): "error: --noise:1:1: 3 numbers, expected one, or one for each of 2 motors",
+    ("--noise", "-1"): "error: --noise:1:1: -1, expected a number that is not negative",
+    ("--noise", "0"): "error: --noise:1:1: a motor without noise, expected noise on every motor, or --noise-part",
+    ("--noise-part", "0"): "error: --noise-part:1:1: 0, and no --noise, expected a measurement that is not exact",
+    ("--rate", "5"): "error: --rate:1:1: 5, expected 20 times the highest harmonic, 0.5 Hz",
+    ("--frequency", "5", "--periods", "1", "--rate", "1000"): (
+        "error: --periods:1:1: 200 samples at 1000 Hz, expected at least 2000 for the filters"
+    ),
+    ("--parameters", "twim"): "error: --parameters:1:1: two_links has no parameter set 'twim', expected perhaps 'twin'",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_wrong_option_is_one_line(
+    words: tuple[str, ...], file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    done = command("excite", file, "--out", tmp_path / "out", *words, capsys=capsys)
+    assert (done.status, done.err.splitlines()[-1]) == (2, REFUSED[words])
+    assert not (tmp_path / "out").exists()
+
+
+def test_limits_that_no_motion_can_keep(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for old, new, problem in (
+        ("torque_limit: 125 N m", "torque_limit: 1 N m", "the weight alone is beyond the torque limits"),
+        ("speed_limit: 70 deg/s", "speed_limit: 0 deg/s", "speed_limit of joint 1 is 0"),
+    ):
+        path = tmp_path / "two_links.yaml"
+        path.write_text(file.read_text().replace(old, new))
+        done = command("excite", path, "--out", tmp_path / "out", "--evaluations", "300", capsys=capsys)
+        assert done.status == 2
+        assert problem in done.err.splitlines()[-1]
+    done = command("excite", file, "--out", tmp_path / "out", "--speed", "0.001", capsys=capsys)
+    assert done.status == 2
+    assert "no joint can be faster than its standstill threshold" in done.err.splitlines()[-1]
+
+
+PLAYED = {
+    "t,qr1,qr2\n0,0,0\n0.1,1,0\n0.2,5,0\n0.3,1,0\n": "run.csv:4:5: qr1 is 5, expected a position from -1.047 to 1.571",
+    "t,qr1\n0,0\n0.1,0\n0.2,0\n": "run.csv:1:3: there is no column qr2, expected qr1 to qr2",
+    "qr1,qr2\n0,0\n0,0\n0,0\n": "run.csv:1:1: there is no column t, expected times in s",
+    "t,qr1,qr2\n0,0,0\n0.1,nan,0\n0.2,0,0\n": "run.csv:3:5: qr1 is nan, expected a finite number",
+    "t,qr1,qr2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n": "does not begin at rest",
+}
+
+
+@pytest.mark.parametrize("text", PLAYED)
+def test_a_file_that_cannot_be_played(
+    text: str, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = tmp_path / "run.csv"
+    run.write_text(text)
+    words = ("--trajectory", "played", "--set", f"file={run}", "--duration", "1")
+    done = command("simulate", file, "--out", tmp_path / "out.csv", *words, capsys=capsys)
+    assert done.status == 2
+    assert PLAYED[text] in done.err.splitlines()[-1]
+
+
+def test_a_robot_without_drives_or_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    words = ("--parameters", "light", "--evaluations", "600", "--noise", "0.5", "--out", tmp_path / "out")
+    done = command("excite", tmp_path / "pendulum.yaml", *words, capsys=capsys)
+    assert done.status == 0
+    assert "torque limits    none in the robot file" in done.out.splitlines()
+    expected = json.loads((tmp_path / "out" / "excitation.json").read_text())["expected"]
+    assert all(0 < one["relative_std_percent"] < 50 for one in expected.values())

@@ -1,0 +1,101 @@
+"""Latency of link-side encoders before elasticity: a robot with both, one without elasticity, a real one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from generator.errors import InputError
+from generator.resources import find_robot
+from generator.robot.readers import read
+from identification.inverse_model import identify
+from identification.link_encoders import link_encoders
+from identification.recipe import Recipe
+from identification.simulation.machine import Machine, compiled
+from identification.simulation.run_file import save
+from identification.simulation.settings import Settings
+from identification.simulation.simulate import simulate
+from tests.commands import command
+from tests.test_real_runs import DATA as RECORDINGS
+from tests.test_simulate import MOTORS, robot_text
+
+DATA = RECORDINGS / "kr300_r2500"
+LATENCY = 0.003
+RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
+
+
+@pytest.fixture(scope="module")
+def machine(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Machine]:
+    path = tmp_path_factory.mktemp("links") / "two_links.yaml"
+    path.write_text(robot_text())
+    with compiled(read(path)) as made:
+        yield made
+
+
+def recorded(machine: Machine, settings: Settings, path: Path) -> str:
+    return str(save(simulate(machine, settings), machine.robot.name, machine.robot.digest, path)[0])
+
+
+def test_latency_and_stiffness_are_told_apart(machine: Machine, tmp_path: Path) -> None:
+    runs = [recorded(machine, replace(RUN, seed=seed), tmp_path / f"{seed}.csv") for seed in (1, 2)]
+    found = link_encoders(machine.robot, runs, MOTORS)
+    for name in ("k1", "k2"):
+        one, mistaken = found.stiffness[name], found.mistaken[name]
+        assert one.value == pytest.approx(MOTORS[name], abs=4 * one.std)
+        assert one.value == pytest.approx(MOTORS[name], rel=0.1)
+        assert mistaken.value is not None
+        assert abs(mistaken.value / MOTORS[name] - 1) > 0.15, "with the latency in it, it is another"
+    for one in found.latency.values():
+        assert one.value == pytest.approx(LATENCY, abs=max(4 * one.std, 5e-5))
+    assert found.notes == ()
+    unaware = link_encoders(machine.robot, runs)
+    assert "latency1 lacks Fv1/k1: no viscous friction was given" in unaware.notes
+    lost = MOTORS["Fvm1"] / MOTORS["k1"]
+    assert unaware.latency["latency1"].value == pytest.approx(LATENCY - lost, abs=1e-4)
+
+
+def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -> None:
+    run = recorded(machine, replace(RUN, flexible=False), tmp_path / "rigid.csv")
+    found = link_encoders(machine.robot, [run])
+    for number in (1, 2):
+        assert found.stiffness[f"k{number}"].value is None
+        assert found.stiffness[f"k{number}"].refused
+        assert found.mistaken[f"k{number}"].value is not None
+        one = found.latency[f"latency{number}"]
+        assert one.value == pytest.approx(LATENCY, abs=max(4 * one.std, 5e-5))
+
+
+def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path) -> None:
+    run = recorded(machine, replace(RUN, further=(), link_delay=0.0, duration=10.0), tmp_path / "a.csv")
+    with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):
+        link_encoders(machine.robot, [run])
+    short = replace(RUN, duration=1.0)
+    with pytest.raises(InputError, match="1000 rows, expected at least"):
+        link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason="no recordings in ../shared/data")
+def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the maker's."""
+    runs = [DATA / "A.csv", DATA / "B.csv"]
+    robot = read(find_robot("kr300"))
+    friction = identify(robot, [str(run) for run in runs], options=None).full.solution.values
+    found = link_encoders(robot, [str(run) for run in runs], friction, Recipe())
+    assert set(found.latency) == {"latency1", "latency2", "latency3"}
+    for one in found.latency.values():
+        assert one.value == pytest.approx(3.0e-3, abs=0.2e-3)
+        assert one.std < 0.15e-3
+    for name, true in (("k1", 4.58e6), ("k2", 7.52e6), ("k3", 4.10e6)):
+        mistaken = found.mistaken[name].value
+        assert mistaken is not None
+        assert mistaken < 0.6 * true
+    assert found.stiffness["k1"].value is None
+    done = command("stiffness", "kr300", "--link-encoders", "--data", *runs, "--out", tmp_path / "out", capsys=capsys)
+    assert done.status == 0
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert results["parameters"]["k1"]["refused"].startswith("what the latency leaves shows it with a relative std")
+    assert set(results["taken_for_elasticity"]) == {"k1", "k2", "k3"}

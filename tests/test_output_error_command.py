@@ -1,0 +1,182 @@
+"""``counterpoise output-error``: what it writes, where its starts run, what survives a worker that dies, bad input."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import distributed
+import pytest
+
+from generator.errors import InputError
+from generator.robot.readers import read
+from identification.executors import cluster
+from identification.executors.cluster import Cluster
+from identification.executors.here import Here
+from identification.executors.processes import Processes
+from identification.output_error.multi_start import output_error
+from identification.output_error.search import Settings
+from identification.recipe import Recipe
+from identification.study import key_of, study
+from tests.commands import command
+from tests.study_tasks import dies, first_dies, squared
+from tests.test_output_error import robot_text
+
+STARTS = 3
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A robot file, and a run of it with noise."""
+    place = tmp_path_factory.mktemp("command")
+    (place / "two_links.yaml").write_text(robot_text())
+    words = ["--duration", "6", "--noise", "0.3", "--parameters", "twin", "--out"]
+    from generator.cli.main import main
+
+    assert main(["simulate", str(place / "two_links.yaml"), *words, str(place / "A.csv")]) == 0
+    return place
+
+
+def tasks(place: Path) -> dict[str, tuple[int, str]]:
+    return {f"task_{k}": (k, str(place)) for k in range(5)}
+
+
+SQUARES = {f"task_{k}": k * k for k in range(5)}
+
+
+def test_a_study_goes_on_where_it_was(tmp_path: Path) -> None:
+    kept = tmp_path / "kept"
+    counts: list[tuple[int, int]] = []
+    some = dict(list(tasks(tmp_path).items())[:2])
+    study(squared, some, Here(), kept)
+    assert sorted(path.name for path in kept.iterdir()) == ["task_0.json", "task_1.json"]
+    found = study(squared, tasks(tmp_path), Here(), kept, lambda done, total: counts.append((done, total)))
+    assert found == SQUARES
+    assert counts == [(2, 5), (3, 5), (4, 5), (5, 5)]
+    assert (tmp_path / "done_1").read_text() == "once"
+    assert list(found) == list(SQUARES)
+    (kept / "task_3.json").write_text("{")
+    with pytest.raises(InputError, match=r"task_3\.json:1:1: this is no result of a study"):
+        study(squared, tasks(tmp_path), Here(), kept)
+    assert key_of({"a": 1.0}) != key_of({"a": 1.5})
+
+
+def test_a_process_that_dies_loses_nothing(tmp_path: Path) -> None:
+    assert study(first_dies, tasks(tmp_path), Processes(2)) == SQUARES
+    assert (tmp_path / "died").exists()
+
+
+def test_a_function_that_kills_every_process_is_given_up(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="processes die before any task is done"):
+        study(dies, {"one": 1}, Processes(1))
+
+
+@pytest.fixture(scope="module")
+def serial(folder: Path) -> dict[str, Any]:
+    """The starts one after the other, by name: what each ends with."""
+    return dict(starts_of(folder, Here()))
+
+
+def starts_of(folder: Path, executor: Any, counted: Callable[[int, int], None] = lambda done, total: None) -> Any:
+    settings = Settings(Recipe(), spread=3.0, seed=5)
+    found = output_error(
+        read(folder / "two_links.yaml"), [folder / "A.csv"], (), settings, STARTS, executor, None, counted
+    )
+    return {"scores": found.scores, "chosen": found.chosen, "values": found.best.values, "hidden": found.best.hidden}
+
+
+def test_a_cluster_that_loses_a_worker_gives_the_same_result(folder: Path, serial: dict[str, Any]) -> None:
+    """A worker is killed when the first start is done; the others are done by the one that is left."""
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as workers,
+        distributed.Client(workers) as client,
+    ):
+        killed: list[int] = []
+
+        def kill(done: int, total: int) -> None:
+            if done == 1 and not killed:
+                killed.append(next(iter(client.run(os.getpid).values())))
+                os.kill(killed[0], signal.SIGKILL)
+
+        with cluster.opened(workers.scheduler_address) as executor:
+            assert isinstance(executor, Cluster)
+            found = starts_of(folder, executor, kill)
+    assert killed
+    assert len(found["scores"]) == STARTS
+    assert found == serial
+
+
+def test_the_command_writes_its_results_and_resumes(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    robot, run, out = folder / "two_links.yaml", folder / "A.csv", tmp_path / "out"
+    words = ["output-error", robot, "--data", run, "--test", f"{run}@1:4.5", "--starts", "2", "--out", out]
+    done = command(*words, capsys=capsys)
+    assert done.status == 0, done.err
+    assert "starts: 2 of 2 done" in done.err
+    results = json.loads((out / "results.json").read_text())
+    assert set(results["parameters"]["ZZ2"]) >= {"value", "std", "relative_std_percent", "unit", "fixed"}
+    assert results["method"]["name"] == "output error"
+    for kind in ("train", "test"):
+        assert [one["joint"] for one in results["residual"][kind]["per_joint"]] == [1, 2]
+        assert results["residual"][kind]["total"]["relative_to_mean_percent"] < 5
+    assert results["inertia"]["smallest"] > results["inertia"]["margin"]
+    assert len(results["inertia"]["eigenvalues"]) == len(results["inertia"]["q"])
+    added = read(out / "two_links.yaml").parameter_sets["identified_output_error"]
+    assert added.values["ZZ2"].value == pytest.approx(results["parameters"]["ZZ2"]["value"], rel=1e-5)
+
+    (first,) = (out / "starts").iterdir()
+    assert sorted(path.name for path in first.iterdir()) == ["start_001.json", "start_002.json"]
+    before = (out / "results.json").read_bytes()
+    (first / "start_002.json").unlink()
+    done = command(*words, capsys=capsys)
+    assert "starts: 1 of 2 done\nstarts: 2 of 2 done" in done.err
+    assert (out / "results.json").read_bytes() == before
+    command(*words, "--segment", "0.5", capsys=capsys)
+    assert len(list((out / "starts").iterdir())) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("--method newton", "error: --method:1:1: there is no method 'newton', expected perhaps"),
+        ("--segment long", "error: --segment:1:1: 'long', expected a time in s, or none"),
+        ("--segment 0.01", "segments of 0.01 s, expected at least 0.08 s"),
+        ("--starts 0", "error: --starts:1:1: 0, expected at least 1"),
+        ("--seconds -1", "error: --seconds:1:1: -1, expected a positive number"),
+        ("--fix Fc9=1", "error: --fix:1:1: the robot has no base parameter 'Fc9'"),
+        ("--workers many", "error: --workers:1:1: 'many', expected 1 to 1024"),
+        ("--workers 2 --scheduler tcp://x:1", "--workers:1:1: --scheduler is given as well, expected one of them"),
+        ("--scheduler tcp://127.0.0.1:9", "error: --scheduler:1:1: 'tcp://127.0.0.1:9': "),
+        ("--scheduler nothing:at:all", "error: --scheduler:1:1: 'nothing:at:all': "),
+    ],
+)
+def test_bad_input_is_one_line(
+    folder: Path,
+    tmp_path: Path,
+    words: str,
+    message: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(cluster, "_ANSWER", 1)
+    robot, run, out = folder / "two_links.yaml", folder / "A.csv", tmp_path / "out"
+    done = command("output-error", robot, "--data", run, "--out", out, *words.split(), capsys=capsys)
+    lines = [line for line in done.err.splitlines() if line.startswith("error: ")]
+    assert done.status == 2
+    assert len(lines) == 1
+    assert message in lines[0]
+    assert not out.exists()
+
+
+def test_a_run_with_a_payload_is_refused(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    loaded = tmp_path / "loaded.csv"
+    loaded.write_bytes((folder / "A.csv").read_bytes())
+    loaded.with_suffix(".yaml").write_text("payload: {name: L, M: 2 kg}\n")
+    done = command("output-error", folder / "two_links.yaml", "--data", loaded, "--out", tmp_path / "o", capsys=capsys)
+    assert done.status == 2
+    assert "the run carries payload L, expected a run without payload" in done.err

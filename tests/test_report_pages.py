@@ -1,0 +1,186 @@
+"""Reports: complete in one file, the same every time, and saying what results.json says."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import identification.report.identify.sections
+from generator.review.page import sections
+from identification.observation import Motion
+from identification.report import series
+from identification.report.identify.report import report
+from identification.report.identify.sections import condition
+from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, Subject
+from identification.report.welch import spectrum
+from tests.recorded import TRUTH
+from tests.reports import Page, identified, pages
+
+KINDS = ("identify", "gains", "steps", "locked", "compare")
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    return pages(tmp_path_factory.mktemp("reports"))
+
+
+@pytest.fixture(scope="module")
+def subject(tmp_path_factory: pytest.TempPathFactory) -> Subject:
+    return identified(tmp_path_factory.mktemp("identified"))
+
+
+def numbers(value: object) -> Iterator[float]:
+    if isinstance(value, list):
+        for one in value:
+            yield from numbers(one)
+    elif isinstance(value, int | float):
+        yield float(value)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_report_fetches_nothing(written: dict[str, bytes], kind: str) -> None:
+    page = Page(written[kind])
+    loading = {"src", "srcset", "data", "poster", "action", "background"}
+    assert [(tag, given) for tag, given in page.tags if loading & set(given)] == []
+    assert {given["href"][0] for tag, given in page.tags if given.get("href")} == {"#"}
+    assert not {"link", "iframe", "img", "object", "embed", "base"} & {tag for tag, _ in page.tags}
+    style = re.search(r"<style>(.*?)</style>", written[kind].decode(), re.DOTALL)
+    assert style is not None
+    assert not re.search(r"@import|url\(", style[1])
+    assert len(written[kind]) < 8e6
+    assert written[kind].count(b"plotly.js v") == 1
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_chart_has_data(written: dict[str, bytes], kind: str) -> None:
+    charts = Page(written[kind]).charts
+    assert len(charts) >= 1
+    for one in charts:
+        assert one["data"]
+        for trace in one["data"]:
+            across, upward = len(trace["x"]), len(trace["z"] if "z" in trace else trace["y"])
+            assert across == upward > 0
+            assert all(math.isfinite(value) for value in numbers(trace["y"]))
+
+
+def test_a_report_says_what_the_results_say(written: dict[str, bytes], subject: Subject) -> None:
+    rows = Page(written["identify"]).rows
+    assert subject.consistent is not None
+    assert set(rows) == set(subject.results["parameters"])
+    for name, one in subject.results["parameters"].items():
+        consistent = subject.consistent.base[name]
+        assert rows[name] == pytest.approx([one["value"], one["std"], one["relative_std_percent"], consistent])
+    text = written["identify"].decode()
+    for residual in subject.residuals.values():
+        for kind in ("train", "test"):
+            for one in (*residual[kind]["per_joint"], residual[kind]["total"]):
+                assert f'value="{one["norm"]!r}"' in text
+                assert f'value="{one["relative_percent"]!r}"' in text
+                assert f'value="{one["relative_to_mean_percent"]!r}"' in text
+
+
+def test_the_same_result_gives_the_same_bytes(subject: Subject) -> None:
+    first = report(subject.found, subject.consistent)
+    assert report(subject.found, subject.consistent) == first
+    assert not re.search(rb"\b20\d\d-\d\d-\d\d\b", first.split(b"plotly.js v")[0])
+
+
+def test_a_new_file_is_a_new_section(subject: Subject, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "zz_told_by_a_file.py").write_text(
+        "from generator.review.markup import element\nTITLE = 'Told by a file'\nORDER = 25\n"
+        "def render(subject):\n    return element('p', subject.found.robot.name)\n"
+    )
+    package = identification.report.identify.sections
+    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+    try:
+        titles = [one.title for one in sections(package, subject)]
+    finally:
+        sys.modules.pop(f"{package.__name__}.zz_told_by_a_file", None)
+    assert titles[:4] == ["Summary", "Fitted and held-out runs", "Told by a file", "Measured and estimated torque"]
+
+
+def test_residuals_row_by_row_have_the_norms_of_the_factors(subject: Subject) -> None:
+    for model in (ALL, ESSENTIAL, CONSISTENT):
+        for kind, held_out in (("train", False), ("test", True)):
+            for k, one in enumerate(subject.residuals[model][kind]["per_joint"]):
+                rows = [run.torques[k].residual(model) for run in subject.runs if run.held_out is held_out]
+                assert sum(map(len, rows)) == one["rows"]
+                assert np.linalg.norm(np.concatenate(rows)) == pytest.approx(one["norm"], rel=1e-6)
+
+
+def test_rows_know_where_the_joint_was(subject: Subject) -> None:
+    one = subject.runs[0].torques[1]
+    sampled = subject.runs[0].observed.sampled
+    assert np.interp(one.t, sampled.times, sampled.motion.q[1]) == pytest.approx(one.q, abs=1e-12)
+    assert np.interp(one.t, sampled.times, sampled.motion.qd[1]) == pytest.approx(one.qd, abs=1e-12)
+
+
+def test_the_inertia_matrix_is_that_of_two_links_by_hand(subject: Subject) -> None:
+    run = subject.runs[0]
+    q = run.observed.sampled.motion.q[:, :1]
+    M = subject.found.regressors.inertia(TRUTH, q)[0]
+    # Two links by hand; the second rotor stands beside the first link's inertia in ZZ1R.
+    lever = 0.5 * (TRUTH["MX2"] * np.cos(q[1, 0]) - TRUTH["MY2"] * np.sin(q[1, 0]))
+    assert M[0, 0] == pytest.approx(TRUTH["ZZ1R"] + TRUTH["ZZ2"] + 2 * lever)
+    assert M[1, 1] == pytest.approx(TRUTH["ZZ2"] + TRUTH["Ia2"])
+    still = Motion(q, np.zeros_like(q), np.zeros_like(q))
+    for k in range(2):
+        turned = replace(still, qdd=np.eye(2)[:, k : k + 1])
+        inertial = subject.found.regressors.torques(TRUTH, turned) - subject.found.regressors.torques(TRUTH, still)
+        assert inertial[:, 0] == pytest.approx(M[:, k])
+
+
+def test_singular_values_have_the_condition_number(subject: Subject) -> None:
+    s, _, names = condition.directions(subject)
+    assert len(names) == len(TRUTH)
+    assert s[0] / s[-1] == pytest.approx(subject.found.full.solution.scaled_condition)
+
+
+def test_a_shortened_line_keeps_what_stands_out() -> None:
+    t = np.arange(100_000) / 1000
+    y = np.sin(t)
+    y[70_123], y[30_456] = 5.0, -4.0
+    across, upward = series.line(t, y, 400)
+    assert len(across) <= 401
+    assert (max(upward), min(upward)) == (5.0, -4.0)
+    assert across[upward.index(5.0)] == pytest.approx(70.123)
+
+
+def test_a_line_is_interrupted_where_rows_are_missing() -> None:
+    t = np.concatenate([np.arange(0, 10, 0.1), np.arange(20, 30, 0.1)])
+    across, upward = series.line(t, t.copy(), 1000)
+    assert upward.count(None) == 1
+    gap = upward.index(None)
+    assert (across[gap - 1], across[gap + 1]) == pytest.approx((9.9, 20.0))
+
+
+def test_a_spectrum_has_the_power_of_the_signal_with_and_without_gaps() -> None:
+    draw = np.random.default_rng(3)
+    t = np.arange(20_000) * 0.02
+    noise = 3.0 * draw.normal(size=len(t))
+    present = draw.random(len(t)) < 0.7
+    for kept in (np.ones(len(t), dtype=bool), present):
+        found = spectrum([(t[kept], noise[kept], 0.02)])
+        assert found is not None
+        power = float(np.mean(found.amplitude[:-1] ** 2) * 25.0)
+        assert power == pytest.approx(9.0, rel=0.05)
+    line = spectrum([(t, np.sin(2 * np.pi * 5.0 * t), 0.02)])
+    assert line is not None
+    assert line.f[int(np.argmax(line.amplitude))] == pytest.approx(5.0, abs=0.1)
+    assert spectrum([(t[:5], noise[:5], 0.02)]) is None
+
+
+def test_means_of_classes_are_within_their_band() -> None:
+    draw = np.random.default_rng(1)
+    x = draw.uniform(-1, 1, 4800)
+    means = series.binned(x, 2 * x + draw.normal(size=4800))
+    assert len(means.x) == 24
+    assert np.mean(np.abs(means.mean - 2 * means.x) < 2 * means.std) > 0.8
+    assert len(series.binned(x[:5], x[:5]).x) == 0

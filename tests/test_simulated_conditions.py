@@ -1,0 +1,134 @@
+"""Simulated runs with a payload and with drives that warm up: what is logged and what is read back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.robot.readers import read
+from identification.dataset import load
+from identification.inverse_model import Options, identify
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from identification.sidecar import Payload
+from identification.simulation.machine import Machine, compiled
+from identification.simulation.run_file import save
+from identification.simulation.settings import Settings
+from identification.simulation.simulate import simulate
+from tests.commands import command
+from tests.recorded import TRUTH
+from tests.test_simulate import columns, motors, robot_text
+
+SHORT = Settings(duration=4.0)
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("conditions") / "two_links.yaml"
+    path.write_text(robot_text())
+    return path
+
+
+@pytest.fixture(scope="module")
+def machine(file: Path) -> Iterator[Machine]:
+    with compiled(read(file)) as made:
+        yield made
+
+
+@pytest.mark.parametrize("flexible", [False, True])
+def test_a_payload_weighs_what_it_weighs(machine: Machine, flexible: bool) -> None:
+    """By hand: 5 kg, their centre 0.06 m beyond the tool, on links of 0.5 m and 0.4 m in a vertical plane."""
+    pose = (0.3, 0.5)
+    loaded = replace(SHORT, flexible=flexible, pose=pose, payload=Payload("L", {"M": 5.0, "MX": 0.3}), duration=1.0)
+    still = replace(loaded, trajectory="point_to_point", trajectory_settings={"pause": 10.0}, duration=8.0)
+    torque = [motors(simulate(machine, one))[1][-1] for one in (still, replace(still, payload=None))]
+    first, both = np.cos(0.3), np.cos(0.3 + 0.5)
+    wanted = 9.81 * 5.0 * np.array([0.5 * first + 0.46 * both, 0.46 * both])
+    # The motors stand within their dry friction, and the links hang on springs of 4e4 and 1.5e4 N m/rad.
+    assert torque[0] - torque[1] == pytest.approx(wanted, rel=0.02 if flexible else 1e-6)
+
+
+def test_identification_reads_the_payload_from_the_sidecar(machine: Machine, tmp_path: Path) -> None:
+    payload = Payload("L", {"M": 5.0, "MX": 0.3, "XX": 0.085, "YY": 0.025, "ZZ": 0.1})
+    run = simulate(machine, replace(SHORT, duration=20.0, rate=500.0, noise=(0.05, 0.08), payload=payload))
+    path, beside = save(run, "two_links", machine.robot.digest, tmp_path / "a.csv")
+    for line in ("payload:", "  name: L", "  M: 5 kg", "  MX: 0.3 kg m", "  XZ: 0 kg m2", "  ZZ: 0.1 kg m2"):
+        assert line in beside.read_text().splitlines()
+    assert "    ZZ2: 1.3" in beside.read_text().splitlines()
+    found = identify(machine.robot, [str(path)], [], Options(recipe=Recipe()), Regressors(machine.robot)).full
+    errors = [(found.solution.values[name] - TRUTH[name]) / found.solution.std(name) for name in TRUTH]
+    assert np.abs(errors).max() < 4.5
+    assert np.sqrt(np.mean(np.square(errors))) < 1.8
+
+
+def test_temperatures_tell_the_warmth(machine: Machine, tmp_path: Path) -> None:
+    warming = replace(SHORT, further=("temp",), warm_up=1.5, temperature=300.0, rise=20.0)
+    cold = simulate(machine, SHORT)
+    warm = simulate(machine, replace(warming, constant_drift=-0.2))
+    path, _ = save(warm, "two_links", machine.robot.digest, tmp_path / "a.csv")
+    others = load(str(path), machine.robot).others
+    warmth = (others["temp1"] - 300.0) / 20.0
+    assert warmth == pytest.approx(1 - np.exp(-warm.columns["t"] / 1.5), abs=1e-9)
+    assert (others["temp2"] == others["temp1"]).all()
+    assert columns(warm, "i") * (1 - 0.2 * warmth)[:, None] == pytest.approx(columns(cold, "i"), abs=1e-8)
+    even = simulate(machine, replace(warming, warm_up=None)).columns
+    assert even["temp1"] == pytest.approx(300.0 + 20.0 * even["t"] / 4.0)
+
+
+def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine: Machine, tmp_path: Path) -> None:
+    """A robot file with the drift of the torque constants takes it out again, by the temperatures."""
+    text = file.read_text().replace(
+        "use: warm, warm: [0.5, 0.4]}", "use: warm, warm: [0.5, 0.4]}\n  torque_drift: [-1/5, -1/5]"
+    )
+    drifting = tmp_path / "drifting.yaml"
+    drifting.write_text(text + "signals: {warm_rise: 20 K}\n")
+    settings = replace(SHORT, further=("temp",), warm_up=1.5, rise=20.0)
+    runs = []
+    for name, drift in (("cold", 0.0), ("warm", -0.2)):
+        made = simulate(machine, replace(settings, constant_drift=drift))
+        runs.append(save(made, "two_links", machine.robot.digest, tmp_path / f"{name}.csv")[0])
+    assert load(str(runs[1]), read(drifting)).tau == pytest.approx(load(str(runs[0]), machine.robot).tau, abs=1e-7)
+
+
+REFUSED = {
+    ("--payload", "M=-1"): "--payload:1:1: a mass of -1 kg, expected M=MASS above 0 in kg",
+    ("--payload", "MX=1"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
+    ("--payload", "weight=3"): "--payload:1:1: payload value 'weight=3', expected NAME=VALUE with one of ",
+    ("--payload", "M=2", "MX=1", "YY=0.1"): "--payload:1:1: inertias that are too small for its moments, ",
+    ("--payload", "M=2", "XX=3", "YY=1", "ZZ=1"): "--payload:1:1: inertias that are too small for its moments, ",
+    ("--warm-up", "0"): "--warm-up:1:1: 0, expected a number above 0",
+    ("--temperature", "-5"): "--temperature:1:1: -5, expected a number above 0",
+    ("--temperature-rise", "nan"): "--temperature-rise:1:1: nan, expected a number that is not negative",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED, ids=" ".join)
+def test_bad_words_are_refused(
+    words: tuple[str, ...], file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    done = command("simulate", file, "--out", tmp_path / "a.csv", *words, capsys=capsys)
+    assert done.status == 2
+    assert done.err.splitlines()[-1].startswith(f"error: {REFUSED[words]}")
+    assert not list(tmp_path.iterdir())
+
+
+LINES = {
+    "t,q1,q2,i1,i2,temp1\n0,0,0,1,2,300\n0.1,0,0,1,3,warm\n": "a.csv:3:13: temp1 is 'warm', expected a number",
+    "t,q1,q2,i1,i2,temp1\n0,0,0,1,2,300\n0.1,0,0,1,3,nan\n0.2,0,0,1,3,300\n": "a.csv:3:13: temp1 is nan",
+}
+
+
+@pytest.mark.parametrize("text", LINES)
+def test_a_temperature_that_is_none_is_refused(
+    text: str, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = tmp_path / "a.csv"
+    run.write_text(text)
+    done = command("identify", file, "--data", run, "--out", tmp_path / "out", capsys=capsys)
+    assert done.status == 2
+    assert LINES[text] in done.err.splitlines()[-1]
+    assert not (tmp_path / "out").exists()
