@@ -70,7 +70,12 @@ def test_an_equal_alternative_is_listed_and_a_tentative_name_is_none() -> None:
 
 
 def test_the_share_of_the_gap_that_closed() -> None:
-    residual = {"before": [1.0, 5.0, 1.0], "after": [1.0, 2.0, 1.0], "noise_floor": [1.0, 1.0, 1.0]}
+    norms = {"before": (1.0, 5.0, 1.0), "after": (1.0, 2.0, 1.0)}
+    residual: dict[str, Any] = {
+        kind: {"per_joint": [{"joint": j, "norm": 10 * rms, "rows": 100} for j, rms in enumerate(values, 1)]}
+        for kind, values in norms.items()
+    }
+    residual["noise_floor"] = {"per_joint": [{"joint": j, "rms": 1.0} for j in (1, 2, 3)]}
     score = scored(TRUTH, answer(told("stribeck_friction", [2]), residual=residual))
     assert score.closed == pytest.approx((25 - 4) / (25 - 1))
 

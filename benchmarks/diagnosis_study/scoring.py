@@ -142,20 +142,19 @@ def _within(told: Mapping[str, Any], one: Mapping[str, Any]) -> bool | None:
 def _closed(diagnosis: Mapping[str, Any], visible: Sequence[Mapping[str, Any]]) -> float | None:
     """Mean square before less after, over before less noise, on the joints on which the hidden effects act.
 
-    None where the file has no numbers, or the effect does not show on the untouched run.
+    None where nothing was played on untouched runs, or where the effect does not show there.
     """
-    residual = diagnosis.get("residual") or {}
-    if not {"before", "after", "noise_floor"} <= set(residual):
+    residual = diagnosis.get("residual")
+    if not residual:
         return None
-    acting = sorted({int(j) - 1 for one in visible for j in one["joints"]})
-
-    def square(name: str) -> list[float]:
-        values = residual[name]
-        each = list(values.values()) if isinstance(values, Mapping) else list(values)
-        return [float(each[j]) ** 2 for j in acting]
-
-    before, after, floor = square("before"), square("after"), square("noise_floor")
+    acting = {int(j) for one in visible for j in one["joints"]}
+    squares = {
+        kind: {one["joint"]: float(one["norm"]) ** 2 / one["rows"] for one in residual[kind]["per_joint"]}
+        for kind in ("before", "after")
+    }
+    floors = {one["joint"]: float(one["rms"]) ** 2 for one in residual["noise_floor"]["per_joint"]}
     # Each joint counts in units of its own noise, so that a strong axis does not speak for all.
-    gap = sum(b / f - 1 for b, f in zip(before, floor, strict=True) if f > 0)
-    left = sum(b / f - a / f for b, a, f in zip(before, after, floor, strict=True) if f > 0)
-    return left / gap if gap > 0 else None
+    noise = {j: floors[j] for j in acting if floors.get(j)}
+    gap = sum(squares["before"][j] / floor - 1 for j, floor in noise.items())
+    left = sum(squares["after"][j] / floor - 1 for j, floor in noise.items())
+    return (gap - left) / gap if gap > 0 else None
