@@ -28,7 +28,7 @@ export CALLER := $(PWD)
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
 .PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
-    example-diagnosis test test-extra format lock bench twins reproduce clean distclean
+    example-diagnosis study-diagnosis test test-extra format lock bench twins reproduce clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -99,6 +99,9 @@ lock: ## resolve the lock files anew (asks the package registry)
 	    --constraint requirements.lock $(LOCKING) --output-file requirements-test.lock
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test --group bench \
 	    --constraint requirements-test.lock $(LOCKING) --output-file requirements-bench.lock
+
+study-diagnosis: $(TESTING) ## hide effects in simulated robots and see what the diagnosis names; cases=N of each kind
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.diagnosis_study $(if $(cases),--cases $(cases)) $(options)
 
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins

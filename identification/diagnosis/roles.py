@@ -65,7 +65,7 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
         if validate:
             train.append(_part(run.name, start, end))
             continue
-        first = _liveliest(run, end, share * length)
+        first = _liveliest(run, end, share * length, gap)
         held.append(_part(run.name, first, first + share * length))
         around = ((start, first - gap), (first + share * length + gap, end))
         train += [_part(run.name, a, b) for a, b in around if b - a > _LEAST * length]
@@ -78,16 +78,29 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
     return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), tuple(known), (note,))
 
 
-def _liveliest(run: Run, end: float, length: float) -> float:
-    """Where a block of ``length`` [s] before ``end`` begins in which the joint that moves least moves most."""
+def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
+    """Where a block of ``length`` [s] before ``end`` begins that leaves every joint's motion to both sides as asked.
+
+    A joint's motion is its squared speed; parts too short to be fitted are lost.
+    """
     power = np.gradient(run.q, run.period, axis=-1) ** 2
     total = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=-1)], axis=-1)
     moves = total[:, -1] > 1e-9 * total[:, -1].max()
-    count = int(length / run.period)
-    room = int((end - run.start) / run.period) - count
-    places = np.unique(np.linspace(0, room, _PLACES).astype(int))
-    shares = [((total[:, k + count] - total[:, k]) / np.maximum(total[:, -1], 1e-300))[moves].min() for k in places]
-    return float(run.start + places[int(np.argmax(shares))] * run.period)
+    whole, count = int((end - run.start) / run.period), int(length / run.period)
+    least, between = _LEAST * run.samples, int(gap / run.period)
+    part = count / whole
+
+    def least_share(first: int, last: int) -> float:
+        """Of all joints, the least part of its motion that lies between two samples."""
+        return float(((total[:, last] - total[:, first]) / total[:, whole].clip(1e-300))[moves].min())
+
+    def goodness(k: int) -> float:
+        around = [(0, max(k - between, 0)), (min(k + count + between, whole), whole)]
+        kept = sum(least_share(a, b) for a, b in around if b - a > least)
+        return min(least_share(k, k + count) / part, kept / (1 - part))
+
+    places = np.unique(np.linspace(0, whole - count, _PLACES).astype(int))
+    return float(run.start + max(places.tolist(), key=goodness) * run.period)
 
 
 def _part(name: str, start: float, end: float) -> str:
