@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 #: Part of a column's largest value on any joint below which it is zero on a joint.
 _NOTHING = 1e-9
+#: Torque per unit from which a motion has run away.
+_ENDLESS = 1e30
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ class Bank:
             # A shape that the motion makes impossible shows in numbers that are not finite.
             with np.errstate(all="ignore"):
                 columns = hypothesis.columns(scene, shape)
-            if not np.all(np.isfinite(columns)):
+            if not np.all(np.abs(columns) < _ENDLESS):
                 return None
             per_run.append(columns)
         largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)

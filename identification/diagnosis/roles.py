@@ -13,6 +13,8 @@ from identification.dataset import Run
 _FITTED, _VALIDATED = 0.55, 0.2
 #: Time between such parts [s] and, in a short run, its part of the time.
 _GAP, _SHORT = 0.5, 0.02
+#: Time [s] of each run that must be left to test.
+_ENOUGH = 5.0
 #: Places that are tried for the validating block, and the least part of a run that is worth fitting.
 _PLACES, _LEAST = 7, 0.2
 
@@ -53,14 +55,16 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
 def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
     """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates."""
     share = 0.0 if validate else _VALIDATED
-    tested = 0.0 if test else 1 - _FITTED - _VALIDATED
+    rest = 1 - _FITTED - _VALIDATED
+    shortest = min((run.samples * run.period for run in data), default=0.0)
+    tested = 0.0 if test or (not validate and rest * shortest < _ENOUGH) else rest
     train, held, last, known = [], [], [], list(validate)
     for run in data:
         start, length = run.start, (run.samples - 1) * run.period
         gap = min(_GAP, _SHORT * length)
         end = start + length * (1 - tested)
-        known.append(_part(run.name, start, end) if not test else run.name)
-        if not test:
+        known.append(_part(run.name, start, end) if tested else run.name)
+        if tested:
             last.append(_part(run.name, end + gap, start + length))
         if validate:
             train.append(_part(run.name, start, end))
@@ -71,11 +75,13 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
         train += [_part(run.name, a, b) for a, b in around if b - a > _LEAST * length]
     parts = [text for text, wanted in (("validates", not validate), ("tests", not test)) if wanted]
     fitted = 100 * (1 - share - tested)
+    if not test and not tested:
+        parts = ["validates and, since the runs are short, tests too"]
     note = (
         f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
-    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), tuple(known), (note,))
+    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last) or tuple(held), tuple(known), (note,))
 
 
 def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
