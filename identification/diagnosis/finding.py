@@ -69,10 +69,9 @@ def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
         variant = one.evidence.variant
         at = [place[number] for number in variant.columns]
         hypothesis = variant.hypothesis
-        values = {
-            c.name: Value(float(solution[i]), float(std[i]), c.unit)
-            for c, i in zip(hypothesis.coefficients, at, strict=True)
-        }
+        values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
+        for c, i in zip(variant.coefficients, at, strict=True):
+            values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         result.append(
             Finding(
                 hypothesis,
