@@ -42,8 +42,10 @@ def page(found: Mapping[str, Any]) -> str:
     parts = [
         "# How well the diagnosis does",
         _INTRODUCTION,
-        f"Cases: {counts['scored']} scored, {counts['scored apart']} of them apart, {counts['failed']} broken off. "
-        f"{counts['out of reach']} draws were left out, since no plausible size of the law was as large as wanted.",
+        f"The tables are of {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
+        f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
+        "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
+        "once, with the same code, it does not make again. Where the cases are few the intervals are wide.",
         "## What was asked, and what came out",
         table(found["cells"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
