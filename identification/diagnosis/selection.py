@@ -231,10 +231,11 @@ class Selection:
         chosen += sorted(balancers, key=lambda one: -self._solve(S, one)[1])[:1]
         while chosen:
             found = [self.of(one, [other for other in chosen if other is not one]) for one in chosen]
-            failing = [one for one in found if not one.passes]
+            failing = [k for k, one in enumerate(found) if not one.passes]
             if not failing:
+                chosen = [one.variant for one in found]
                 break
-            chosen.remove(min(failing, key=lambda one: one.drop).variant)
+            del chosen[min(failing, key=lambda k: found[k].drop)]
         return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
