@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 from benchmarks.diagnosis_study import summary
@@ -65,7 +66,14 @@ def page(found: Mapping[str, Any]) -> str:
             "## Power",
             "![Share of cases in which an effect is named, over its size](images/diagnosis_power.svg)",
         ]
-    return "\n\n".join(part for part in parts if part) + "\n"
+    return "\n\n".join(_filled(part) for part in parts if part) + "\n"
+
+
+def _filled(text: str) -> str:
+    """Paragraphs in lines of at most 120; tables, headings and pictures as they are."""
+    if text.startswith(("|", "#", "!")):
+        return text
+    return "\n\n".join(fill(part, 120, break_long_words=False, break_on_hyphens=False) for part in text.split("\n\n"))
 
 
 def write(results: Sequence[summary.Result], found: Mapping[str, Any]) -> None:
