@@ -69,6 +69,14 @@ def test_an_equal_alternative_is_listed_and_a_tentative_name_is_none() -> None:
     assert scored({"hidden": []}, answer(verdict=NOTHING)).named == ()
 
 
+def test_a_further_harmonic_is_no_further_effect() -> None:
+    ripple = {"law": "ripple_motor", "joint": 2, "joints": [2], "size": 3.0, "invisible": False}
+    first, second = told("motor_ripple", [2]), told("wave_generator_ripple", [2])
+    assert scored({"hidden": [ripple]}, answer(first, second)).extra == 0
+    assert scored({"hidden": [ripple]}, answer(second)).extra == 1
+    assert scored({"hidden": [ripple]}, answer(first, told("wave_generator_ripple", [3]))).extra == 1
+
+
 def test_the_share_of_the_gap_that_closed() -> None:
     norms = {"before": (1.0, 5.0, 1.0), "after": (1.0, 2.0, 1.0)}
     residual: dict[str, Any] = {
@@ -136,14 +144,14 @@ def test_a_case_holds_what_it_says(tmp_path: Path) -> None:
 
 
 def test_nothing_is_named_where_nothing_is_hidden(tmp_path: Path) -> None:
-    """Where p-values and information criteria name something."""
+    """Where a held-out gate alone names something."""
     nothing = Case("single", "three_axis", FREE, 1, motion="short")
     found = result(nothing, keep=tmp_path)
     assert found["truth"]["mismatch"] <= MISMATCH
     assert found["score"]["named"] == ()
     assert found["score"]["verdict"] == NOTHING
     simpler = named_by_baselines(tmp_path, nothing)
-    assert set(simpler) == {"stepwise BIC", "held-out gate", "STLSQ"}
+    assert set(simpler) == {"stepwise BIC", "stepwise BIC, white rows", "held-out gate", "STLSQ"}
     assert simpler["held-out gate"]
 
 

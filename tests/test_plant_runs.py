@@ -14,6 +14,7 @@ import scipy.signal
 
 from tests.commands import process
 from tests.plant.effect import Effect
+from tests.plant.known_effects import textbook
 from tests.plant.machine import Machine
 from tests.plant.measurement import Sensors
 from tests.plant.robot import Array, Robot
@@ -265,6 +266,32 @@ def test_robot_files_are_accepted_and_mean_the_same_robot(robot: Robot, tmp_path
     torques = machine.law_torques(np.repeat(q, 2, axis=0), np.repeat(qd, 2, axis=0), 1.0)[-1]
     for effect, torque in zip(machine.torques, torques, strict=True):
         expected += torque * effect.along(robot)
+    np.testing.assert_allclose(json.loads(done.out)["tau"], expected, rtol=1e-9, atol=1e-9)
+
+
+def test_robot_files_hold_further_effects_by_the_textbooks_law(tmp_path: Path) -> None:
+    laws = {"cable_spring": 1, "stribeck": 1, "gradual_rise": 2, "position_friction": 3}
+    exact = {"quadratic_viscous": 2, "asymmetric_coulomb": 3}
+    known = [Effect(law, joint) for law, joint in {**laws, **exact}.items()]
+    path = tmp_path / "arm.yaml"
+    path.write_text(robot_file(ARM, known=known))
+    q, qd, qdd = np.random.default_rng(4).uniform(0.1, 1, (3, 1, ARM.joints))
+    words = [
+        word for name, x in (("q", q), ("qd", qd), ("qdd", qdd)) for word in (f"--{name}", *map(repr, x[0].tolist()))
+    ]
+    done = process("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words)
+    assert done.status == 0, done.err
+    simple = [effect for effect in own_effects(ARM) if effect not in ARM.own]
+    machine = Machine(ARM, (*simple, *(effect for effect in known if effect.law in exact)))
+    expected = machine.rigid_torques(q, qd, qdd)[0]
+    torques = machine.law_torques(np.repeat(q, 2, axis=0), np.repeat(qd, 2, axis=0), 1.0)[-1]
+    for effect, torque in zip(machine.torques, torques, strict=True):
+        expected += torque * effect.along(ARM)
+    for effect in known:
+        if effect.law in laws:
+            torque_of_law = textbook(effect, ARM, q, qd)
+            assert torque_of_law is not None
+            expected += torque_of_law[0] * effect.along(ARM)
     np.testing.assert_allclose(json.loads(done.out)["tau"], expected, rtol=1e-9, atol=1e-9)
 
 

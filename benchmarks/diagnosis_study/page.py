@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 from benchmarks.diagnosis_study import summary
@@ -42,8 +43,10 @@ def page(found: Mapping[str, Any]) -> str:
     parts = [
         "# How well the diagnosis does",
         _INTRODUCTION,
-        f"Cases: {counts['scored']} scored, {counts['scored apart']} of them apart, {counts['failed']} broken off. "
-        f"{counts['out of reach']} draws were left out, since no plausible size of the law was as large as wanted.",
+        f"The tables are of {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
+        f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
+        "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
+        "once, with the same code, it does not make again. Where the cases are few the intervals are wide.",
         "## What was asked, and what came out",
         table(found["cells"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
@@ -63,7 +66,14 @@ def page(found: Mapping[str, Any]) -> str:
             "## Power",
             "![Share of cases in which an effect is named, over its size](images/diagnosis_power.svg)",
         ]
-    return "\n\n".join(part for part in parts if part) + "\n"
+    return "\n\n".join(_filled(part) for part in parts if part) + "\n"
+
+
+def _filled(text: str) -> str:
+    """Paragraphs in lines of at most 120; tables, headings and pictures as they are."""
+    if text.startswith(("|", "#", "!")):
+        return text
+    return "\n\n".join(fill(part, 120, break_long_words=False, break_on_hyphens=False) for part in text.split("\n\n"))
 
 
 def write(results: Sequence[summary.Result], found: Mapping[str, Any]) -> None:

@@ -62,7 +62,14 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
     stand_ins = {
         k for k, told in enumerate(findings) if k not in matched and any(_alternative(told, o) for o in visible)
     }
-    extra = len(findings) - len(matched | lucky | stand_ins)
+    parts = {
+        k
+        for one in visible
+        if hits[id(one)] is not None
+        for k, told in enumerate(findings)
+        if told["effect"] in STUDY.laws[one["law"]].also and int(one["joint"]) in _joints(told)
+    }
+    extra = len(findings) - len(matched | lucky | stand_ins | parts)
     where = diagnosis.get("where") or {}
     within = None
     if len(visible) == 1 and (k := hits[id(visible[0])]) is not None:
