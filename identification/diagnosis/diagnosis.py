@@ -132,7 +132,7 @@ def _where(found: Search, weights: Mapping[int, float]) -> Where:
         white = [bank.residual(r, k, weights) for r in everything]
         lacks.append(lack_of_fit(bank.runs, white, k, number, 1.0))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
-        seen[number] = views(bank.runs, bank.scenes, raw, k)
+        seen[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     worst = max(lacks, key=lambda one: one.size)
     if worst.p > _CHANCE and worst.burst is None:
         return Where(0, "", "", {}, tuple(lacks), seen)
