@@ -13,7 +13,7 @@ from generator.robot.description import Robot
 from identification import recipe as recipes
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
-from identification.essential import RATIO, essential
+from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observation import Regressors
@@ -35,13 +35,15 @@ class Options:
     """What is asked for.
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
-    is r_sigma of the essential parameters; ``payload`` is that of runs without a sidecar that tells. So many ``draws``
-    of a block bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
+    is r_sigma of the essential parameters, whose residual may be larger by the part ``growth`` (infinite: by any);
+    ``payload`` is that of runs without a sidecar that tells. So many ``draws`` of a block bootstrap give the standard
+    deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None
     fixed: Mapping[str, float] = field(default_factory=dict)
     ratio: float = RATIO
+    growth: float = GROWTH
     robust: bool = False
     payload: Payload | None = None
     draws: int = 0
@@ -124,7 +126,7 @@ def identify(
         solution = bootstrapped(problem, solution, trained, options.draws)
     full = _estimate(problem, solution, factors, tests)
     notes += suspect(trained, regressors, full.train)
-    reduced, solution = essential(problem, options.ratio)
+    reduced, solution = essential(problem, options.ratio, options.growth)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)
     if best.train.total.norm > _COSTLY * full.train.total.norm:

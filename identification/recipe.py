@@ -31,7 +31,7 @@ _CUTOFF, _RATE = 5.0, 5.0
 #: Periods of the cut-off that the filter's ends are given.
 _ENDS = 5.0
 #: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
-_STANDSTILL = {REVOLUTE: 0.03, PRISMATIC: 0.005}
+STANDSTILL = {REVOLUTE: 0.03, PRISMATIC: 0.005}
 JOINT, NONE = "joint", "none"
 PARAMETERS, SAMPLES = "parameters", "samples"
 
@@ -66,7 +66,7 @@ class Recipe:
     def standstills(self, robot: Robot) -> Array:
         """Speeds (n) [rad/s, m/s] below which the joints' rows are left out."""
         return np.array(
-            [_STANDSTILL[joint.sigma] if self.standstill is None else self.standstill for joint in robot.moving]
+            [STANDSTILL[joint.sigma] if self.standstill is None else self.standstill for joint in robot.moving]
         )
 
     def at(self, rate: float) -> Filters:

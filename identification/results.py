@@ -53,6 +53,7 @@ def document(
         "residual": _residual(found, found.full),
         "essential": {
             "ratio": found.options.ratio,
+            "growth": found.options.growth,
             "condition": found.essential.solution.condition,
             "parameters": _parameters(found, found.essential),
             "residual": _residual(found, found.essential),

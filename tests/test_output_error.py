@@ -80,7 +80,7 @@ def held(q: Array, tau: Array, start: Array, period: float) -> Experiment:
     run = Run("made", read(find_robot("emps")).place, 0.0, period, q.T, tau.T)
     motion = Motion(q.T, nothing, nothing)
     filters = Filters(1 / period, 100.0, 4, 10, 0, 0)
-    return Experiment(run, filters, period, 1, tau[None], q[None], start[None], np.zeros(n), motion, tau)
+    return Experiment(run, filters, period, 1, tau[None], q[None], start[None], np.zeros(n), motion, tau, np.zeros(n))
 
 
 def slopes(machine: Machine, values: Mapping[str, float], made: Experiment) -> dict[str, Array]:
@@ -156,7 +156,7 @@ def test_sensitivities_pass_a_reversal_as_in_closed_form(slide: Machine, force: 
 def test_without_noise_the_true_parameters_are_found(machine: Machine, record: Callable[..., str]) -> None:
     """From a start that is wrong by 15 and 20 %, with torques that are held as the simulation takes them."""
     wrong = {name: value * (1.2 if k % 2 else 0.85) for k, (name, value) in enumerate(TRUTH.items())}
-    made = experiment(load(record(), machine.robot), WIDE, 1.0)
+    made = experiment(load(record(), machine.robot), machine.robot, WIDE, 1.0)
     exact = replace(made, q=OpenLoop(machine.module, TRUTH).run(made, made.start).q)
     of, first = search_of(machine.module, [exact], wrong, {}, Settings(WIDE))
     found = evaluated(of, gauss_newton.minimise(of, first))
@@ -216,7 +216,7 @@ def test_a_parameter_that_nothing_shows_has_no_variance(machine: Machine, record
 
 @pytest.fixture(scope="module")
 def search(machine: Machine, record: Callable[..., str]) -> tuple[Search, Array]:
-    made = experiment(load(record(), machine.robot), WIDE, 1.0)
+    made = experiment(load(record(), machine.robot), machine.robot, WIDE, 1.0)
     return search_of(machine.module, [made], TRUTH, {}, Settings(WIDE))
 
 
@@ -294,10 +294,14 @@ def test_other_methods_improve_on_their_start(search: tuple[Search, Array], name
 def test_what_cannot_be_used_is_refused(machine: Machine, record: Callable[..., str]) -> None:
     run = load(record(), machine.robot)
     short = replace(run, q=run.q[:, :900], tau=run.tau[:, :900])
+    cut_off = replace(run, unusable=run.q < 99)
     cases: list[tuple[str, Callable[[], object]]] = [
-        ("segments of 0.01 s, expected at least 0.08 s", lambda: experiment(run, Recipe(), 0.01)),
-        ("900 rows, expected at least 2000 for the filters", lambda: experiment(short, Recipe(), 1.0)),
-        ("torques are cut off in every segment", lambda: experiment(replace(run, unusable=run.q < 99), Recipe(), 1.0)),
+        ("segments of 0.01 s, expected at least 0.08 s", lambda: experiment(run, machine.robot, Recipe(), 0.01)),
+        ("900 rows, expected at least 2000 for the filters", lambda: experiment(short, machine.robot, Recipe(), 1.0)),
+        (
+            "torques are cut off in every segment",
+            lambda: experiment(cut_off, machine.robot, Recipe(), 1.0),
+        ),
         (
             "M.q. is not positive definite",
             lambda: estimate(machine, [run], TRUTH, settings=Settings(fixed={"ZZ2": -99.0, "Ia2": 0.0})),

@@ -199,6 +199,25 @@ def test_a_plant_moves_as_the_direct_model_says(made: Made, robot: Any) -> None:
         assert np.concatenate([plant.q, plant.qd]) == pytest.approx(wanted, rel=1e-6, abs=1e-8)
 
 
+def test_an_open_loop_is_one_advance_after_the_other(made: Made, robot: Any) -> None:
+    """Torques held in turn; what is told are the states at which each begins."""
+    rng, nq = np.random.default_rng(8), made.module.NQ
+    q, period = made.arm.state(3)[0], 2e-3
+    tau = rng.normal(size=(6, nq))
+    for kind in made.module.PLANTS:
+        plants = [made.module.Plant(robot, kind, q, np.full(nq, 0.1), width=0.5) for _ in range(2)]
+        told_q, told_qd = plants[0].run(period, tau)
+        for k in range(6):
+            assert told_q[k] == pytest.approx(plants[1].q, rel=1e-12, abs=1e-14)
+            assert told_qd[k] == pytest.approx(plants[1].qd, rel=1e-12, abs=1e-14)
+            plants[1].advance(period, tau[k])
+        assert plants[0].q == pytest.approx(plants[1].q, rel=1e-12, abs=1e-14)
+        lost_q, lost_qd = plants[0].run(period, np.where(np.arange(6)[:, None] > 2, np.inf, tau))
+        assert np.isfinite(lost_q[:3]).all()
+        assert np.isnan(lost_q[3:]).all()
+        assert np.isnan(lost_qd[3:]).all()
+
+
 def test_a_controller_is_a_cascade(made: Made, robot: Any) -> None:
     """e = kp (q_ref - q) + qd_ref - qd of the rotors; z grows by ki period e, then the torque is kv (e + z)."""
     rng, nq = np.random.default_rng(6), made.module.NQ
@@ -227,6 +246,7 @@ def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> N
         ("^steps is 0, expected", lambda: Plant(robot, "rigid", one, steps=0)),
         ("^width is not positive", lambda: Plant(robot, "rigid", one, width=0.0)),
         ("^tau has shape", lambda: Plant(robot, "rigid", one).advance(1e-3, np.zeros(n + 1))),
+        ("^tau has shape", lambda: Plant(robot, "rigid", one).run(1e-3, np.zeros((4, n + 1)))),
     ):
         with pytest.raises(ValueError, match=message):
             call()

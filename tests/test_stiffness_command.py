@@ -222,7 +222,7 @@ def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
             ("--pressed", "--data", path, "--prior", "twim"),
             "kr500 has no parameter set 'twim', expected perhaps 'twin'",
         ),
-        (("--data", path), "one of the arguments --locked --pressed is required"),
+        (("--data", path), "one of the arguments --locked --pressed --link-encoders is required"),
     ]
     for words, error in cases:
         done = command("stiffness", "kr500", *words, "--out", here / "out", capsys=capsys)

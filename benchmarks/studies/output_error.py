@@ -46,7 +46,7 @@ def run(build: Path) -> dict[str, Any]:
             seconds = time.perf_counter() - begin
             rows.append(_row(method, found, seconds, made.parameters))
     notes = [
-        f"{ROBOT}, {SET}, {len(found.names)} parameters, {DURATION:g} s at 1 kHz and filters, noise {NOISE:g} A",
+        f"{ROBOT}, {SET}, {len(found.names)} parameters, run of {DURATION:g} s at 1 kHz, noise {NOISE:g} A",
         f"a search may take {ALLOWED:g} s; parameters within 2 std of the true ones are counted for Gauss-Newton alone",
     ]
     return {"rows": rows, "notes": notes}
@@ -59,6 +59,6 @@ def _row(method: str, found: Estimate, seconds: float, true: Any) -> dict[str, o
         "seconds": round(seconds, 1),
         "iterations": found.iterations,
         "simulations": found.simulations,
-        "||e||/||q - mean|| [%]": round(found.train.total.relative_to_mean, 3),
+        "position error, % of the spread": round(found.train.total.relative_to_mean, 3),
         "within 2 std": f"{inside} of {len(found.names)}" if method == "gauss-newton" else "-",
     }

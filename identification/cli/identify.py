@@ -50,7 +50,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
     method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
-    method.add_argument("--essential", metavar="RATIO", type=float, help="r_sigma of the essential parameters")
+    method.add_argument(
+        "--essential",
+        metavar="RATIO",
+        type=float,
+        help="r_sigma of the essential parameters, held whatever the residual becomes",
+    )
     method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
     method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
     method.add_argument(
@@ -118,7 +123,11 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
 
     place = command_line("--fix")
     prior = None if arguments.prior is None else _prior(arguments.prior, regressors)
-    ratio = {} if arguments.essential is None else {"ratio": _more(arguments.essential, "--essential", 1.0)}
+    ratio = (
+        {}
+        if arguments.essential is None
+        else {"ratio": _more(arguments.essential, "--essential", 1.0), "growth": float("inf")}
+    )
     return Options(
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),

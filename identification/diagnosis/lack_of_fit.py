@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 
 #: Rows of a burst that is looked for.
 _BURST = 10
+#: By how much an event must stand out of the rest of the residual, in parts of its mean power.
+_OUTSTANDING = 12.0
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,8 @@ def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, referen
         if len(e) < 5 * _BURST:
             continue
         power = np.convolve(e**2, np.ones(_BURST), "valid") / reference
+        if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)) / reference, 1.0):
+            continue
         i = int(np.argmax(power))
         found.append(
             (float(power[i]), run.sampled.run.name, float(run.t[np.flatnonzero(run.kept[k])[i + _BURST // 2]]))

@@ -24,37 +24,39 @@ _PASSES = 2
 
 
 def colours(bank: Bank) -> list[list[Colour]]:
-    """The colour of every joint's noise, run by run."""
-    found: list[list[Colour]] = [[] for _ in bank.runs]
+    """The colour of every joint's noise, run by run; all runs have the same, which a short one could not tell."""
+    every = []
     for joint in range(bank.dof):
-        known: list[Colour] = []
+        known: Colour | None = None
         for _ in range(_PASSES):
             known = _joint(bank, joint, known)
-        for r, one in enumerate(known):
-            found[r].append(one)
-    return found
+        assert known is not None
+        every.append(known)
+    return [list(every) for _ in bank.runs]
 
 
-def _joint(bank: Bank, joint: int, known: list[Colour]) -> list[Colour]:
+def _joint(bank: Bank, joint: int, known: Colour | None) -> Colour:
     parts = [bank.raw(r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
     place = {number: i for i, number in enumerate(numbers)}
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
     rows = 0
-    for r, (mine, columns, tau, kept) in enumerate(parts):
+    for mine, columns, tau, kept in parts:
         x = np.concatenate([columns, tau[None]])
-        x = known[r].white(x, kept) if known else x[:, kept]
+        x = x[:, kept] if known is None else known.white(x, kept)
         at = [*(place[number] for number in mine), len(numbers)]
         gram[np.ix_(at, at)] += x @ x.T
         rows += x.shape[1]
     weights, rank = _explained(gram, rows)
     freedom = max(1 - rank / max(rows, 1), 0.1)
-    result = []
+    left: list[Array] = []
+    shares = 0.0
     for (mine, columns, tau, kept), run in zip(parts, bank.runs, strict=True):
         e = tau - weights[[place[number] for number in mine]] @ columns
         e, share = _between_periods(e, kept, run.period)
-        result.append(colour(stretches(e, kept), freedom * share))
-    return result
+        left += stretches(e, kept)
+        shares += share * int(kept.sum()) / max(rows, 1)
+    return colour(left, freedom * shares)
 
 
 def _explained(gram: Array, rows: int) -> tuple[Array, int]:

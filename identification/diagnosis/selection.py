@@ -37,11 +37,16 @@ _COMMON = (
     "gas_balancer",
     "spring_balancer",
 )
+_BALANCERS = ("gas_balancer", "spring_balancer")
+#: What is unexplained, in parts of the noise, from which several effects must be missing.
+_GROSS = 20.0
 #: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
 _BESIDE, _ALIKE = 0.03, 0.15
 _OF_SPEED = ("qd", "time since reversal")
 #: By how much a challenger must be better, and how far an equal one may be behind, as a part of the evidence.
 _BETTER, _EQUAL = 6.0, 0.01
+#: Part of the evidence by which a rare effect must be better than a common one.
+_RARE = 0.1
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
@@ -164,6 +169,8 @@ class Selection:
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""
         least = 0.0
+        if variant.hypothesis.effect in _COMMON:
+            return least
         for other, drop in zip(others, self._drops(others), strict=True):
             if set(other.joints) & set(variant.joints):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
@@ -191,7 +198,7 @@ class Selection:
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
-        chosen = list(start)
+        chosen = list(start) or self._common_start()
         paired = False
         while len(chosen) < _MOST:
             passing = [one for one in self.evidence(chosen) if one.passes]
@@ -209,6 +216,25 @@ class Selection:
         chosen = self._exchanged(chosen, None, _ROUNDS)
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
 
+    def _common_start(self) -> list[Variant]:
+        """Where far more is missing than one effect: all common ones together, and the best balancer; then without those
+        that nothing speaks for. One after the other they hide each other.
+        """
+        if self.unexplained([]) < _GROSS * self.normal.rows:
+            return []
+        offered = [one for one in self.bank.variants if one.hypothesis.effect in _COMMON]
+        chosen = [one for one in offered if one.hypothesis.effect not in _BALANCERS]
+        S = self.normal.beside(_columns(chosen))
+        balancers = [one for one in offered if one.hypothesis.effect in _BALANCERS]
+        chosen += sorted(balancers, key=lambda one: -self._solve(S, one)[1])[:1]
+        while chosen:
+            found = [self.of(one, [other for other in chosen if other is not one]) for one in chosen]
+            failing = [one for one in found if not one.passes]
+            if not failing:
+                break
+            chosen.remove(min(failing, key=lambda one: one.drop).variant)
+        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
+
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
         """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its
         evidence is gone.
@@ -221,8 +247,8 @@ class Selection:
                 others = [other for other in chosen if other is not one]
                 refined = one
                 mine = self.of(one, others)
-                best = next((other for other in self.evidence(others) if other.passes), None)
-                if best is not None and (not mine.passes or best.score > mine.score + _BETTER):
+                best = self._challenger(mine, others)
+                if best is not None:
                     refined = self._refined(best.variant, others)
                     mine = self.of(refined, others)
                 place = chosen.index(one)
@@ -230,6 +256,20 @@ class Selection:
             if chosen == before:
                 break
         return chosen
+
+    def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
+        """What should stand in the place of ``mine``: clearly better, or common and nearly as good as what is not."""
+        passing = [one for one in self.evidence(others) if one.passes and _key(one.variant) != _key(mine.variant)]
+        common = mine.variant.hypothesis.effect in _COMMON
+        for one in passing:
+            margin = _BETTER
+            if common and one.variant.hypothesis.effect not in _COMMON:
+                margin += _RARE * mine.drop
+            elif not common and one.variant.hypothesis.effect in _COMMON:
+                margin -= _RARE * mine.drop
+            if not mine.passes or one.score > mine.score + margin:
+                return one
+        return None
 
     def _refined(self, variant: Variant, others: Sequence[Variant]) -> Variant:
         """With shapes between the tried ones where they explain more."""

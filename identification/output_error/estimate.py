@@ -85,7 +85,7 @@ def estimate(
     Raises InputError for runs that are too short or carry a payload, and where M(q) cannot be positive definite.
     """
     settings = settings or Settings()
-    experiments = [experiment(run, settings.recipe, settings.segment) for run in runs]
+    experiments = [experiment(run, machine.robot, settings.recipe, settings.segment) for run in runs]
     search, first = search_of(machine.module, experiments, start, std or {}, settings)
     return evaluated(search, methods()[settings.method].minimise(search, first))
 
@@ -108,7 +108,7 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     seen = power > _RANK**2 * power[-1]
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
     hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
-    density = noise_density(criterion, search.settings.recipe.standstills(criterion.robot))
+    density = noise_density(criterion)
     tested = None
     if tests:
         others = replace(criterion, experiments=tuple(tests))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from generator.robot.description import Robot
 from identification.dataset import Run
 from identification.filtering import derivative, smoothed
 from identification.observation import Motion
@@ -28,7 +29,7 @@ class Experiment:
     ``tau`` (S x L x n) [N m, N] is held from each sample to the next. ``q`` (S x K x n) [rad, m] are the measured
     positions at each ``stride``-th sample, ``start`` (S x 2n) is a first guess of the first states [q; qd], ``noise``
     (n) the rms of the positions' noise. ``recorded`` are the torques (N x n) of the samples of ``motion``, the filtered
-    motion, less those that ``left_out`` (n x N) marks.
+    motion, ``slow`` (n) [rad/s, m/s] the speeds below which a joint counts as standing still.
     """
 
     run: Run
@@ -41,6 +42,7 @@ class Experiment:
     noise: Array
     motion: Motion
     recorded: Array
+    slow: Array
 
     @property
     def step(self) -> float:
@@ -48,7 +50,7 @@ class Experiment:
         return self.stride * self.period
 
 
-def experiment(run: Run, recipe: Recipe, segment: float | None) -> Experiment:
+def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) -> Experiment:
     """The run in segments of ``segment`` [s], or in one where it is None; what is left over at the end is not used.
 
     Torques pass the recipe's Butterworth filter forward and backward, positions stay as measured; the filter's ends are
@@ -87,7 +89,17 @@ def experiment(run: Run, recipe: Recipe, segment: float | None) -> Experiment:
     first = np.concatenate([q_smooth[:, 0], qd[:, 0]], axis=-1)
     recorded = np.ascontiguousarray(run.tau[:, inner].T)
     return Experiment(
-        run, filters, run.period, stride, tau, q[:, ::stride].copy(), first, _white(run.q), motion, recorded
+        run,
+        filters,
+        run.period,
+        stride,
+        tau,
+        q[:, ::stride].copy(),
+        first,
+        _white(run.q),
+        motion,
+        recorded,
+        recipe.standstills(robot),
     )
 
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.version import VERSION
 from identification import recipe as recipes
@@ -84,9 +85,11 @@ def output_error(
     """
     settings = settings or Settings(recipe=recipes.recipe_of(robot.name))
     first = identify(robot, data, test, Options(recipe=settings.recipe, fixed=settings.fixed))
+    if first.regressors.reads_load:
+        raise InputError(robot.place, "friction by load makes the model not linear", "a robot file without it")
     train, tried = (
         tuple(
-            experiment(load(str(one), robot, settings.recipe.columns), settings.recipe, settings.segment)
+            experiment(load(str(one), robot, settings.recipe.columns), robot, settings.recipe, settings.segment)
             for one in sources
         )
         for sources in (data, test)

@@ -43,14 +43,14 @@ def covariance(criterion: Criterion, at: Linearised, reduced: Reduced, inverse: 
     return (result + result.T) / 2
 
 
-def noise_density(criterion: Criterion, standstill: float) -> Array:
+def noise_density(criterion: Criterion) -> Array:
     """Spectral density at frequency zero of the torques' noise (n x n) [(N m)^2 s, N^2 s].
 
     The noise is what the best fit of the inverse model leaves of the recorded torques on the filtered motion, in means
-    over the recipe's decimation. Those in which a joint is slower than ``standstill`` [rad/s, m/s] are left out; the
+    over the recipe's decimation. Those in which a joint is slower than the recipe's threshold are left out; the
     correlation from one to the next is as found.
     """
-    sampled = [_means_of(one, criterion, standstill) for one in criterion.experiments]
+    sampled = [_means_of(one, criterion) for one in criterion.experiments]
     errors, freedom = _unexplained(sampled)
     n = errors[0].shape[1]
     square, count, power = np.zeros((n, n)), np.zeros((n, n)), np.zeros(n)
@@ -67,13 +67,13 @@ def noise_density(criterion: Criterion, standstill: float) -> Array:
 _Sampled = tuple[Array, Array, NDArray[np.bool_]]
 
 
-def _means_of(one: Experiment, criterion: Criterion, standstill: float) -> _Sampled:
+def _means_of(one: Experiment, criterion: Criterion) -> _Sampled:
     window, samples = one.filters.factor, one.motion.samples
     q, qd, qdd = (np.ascontiguousarray(x.T) for x in (one.motion.q, one.motion.qd, one.motion.qdd))
     loop = criterion.loop(np.zeros(len(criterion.sought)))
     tau = _means(one.recorded - loop.model.inverse_dynamics(q, qd, qdd), window)
     W = loop.model.observation_matrix(q, qd, qdd).reshape(samples, q.shape[1], -1)[:, :, criterion.columns]
-    kept = _means((np.abs(qd) < standstill).astype(float), window) == 0
+    kept = _means((np.abs(qd) < one.slow).astype(float), window) == 0
     return tau, _means(W, window), kept
 
 

@@ -1401,8 +1401,8 @@ class Plant:
             tau: (n x 6) motor torques, on the joint side [N m, N]
             out: two arrays for the result
 
-        Outputs: coordinates and their speeds (n x size each) at the instants at which the periods begin; NaN from where a
-        number is no longer finite
+        Outputs: coordinates and their speeds (n x size each) at the instants at which the periods begin; NaN from the
+        period on in which a number is no longer finite
         """
         n = _samples(tau=tau)
         size = self._q.size

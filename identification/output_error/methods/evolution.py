@@ -6,6 +6,7 @@ Hansen, The CMA evolution strategy: a tutorial, arXiv 1604.00772; by the package
 from __future__ import annotations
 
 import time
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +25,10 @@ _GENERATIONS = 100
 
 def minimise(search: Search, start: Array) -> Minimum:
     """The minimum found from ``start`` (b) on; its first step is the settings' spread, in standard deviations."""
-    from cma import CMAEvolutionStrategy
+    with warnings.catch_warnings():
+        # It misses matplotlib, which only its own plots need.
+        warnings.simplefilter("ignore")
+        from cma import CMAEvolutionStrategy
 
     settings, criterion = search.settings, search.criterion
     if search.weighted:
