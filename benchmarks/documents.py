@@ -25,13 +25,13 @@ Results = Mapping[str, Any]
 
 def documented(results: Results) -> dict[Path, str]:
     """The documents and the picture as the results have them, by their paths in the repository."""
-    files = {PERFORMANCE: _replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))}
+    files = {PERFORMANCE: replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))}
     for name, result in results["studies"].items():
         page = _page(name)
         text = files[page] if page in files else _read(page)
-        files[page] = _replaced(_with_section(text, name, result["title"]), f"study {name}", shown(result))
+        files[page] = replaced(_with_section(text, name, result["title"]), f"study {name}", shown(result))
     if rows := results["studies"].get("peers", {}).get("rows"):
-        files[README] = _replaced(_read(README), "performance", table(summary(rows)))
+        files[README] = replaced(_read(README), "performance", table(summary(rows)))
         files[PICTURE] = chart(f"Time of one call, {rows[0]['robot']}", bars(rows), "the generated C")
     return files
 
@@ -57,7 +57,7 @@ def _with_section(text: str, name: str, title: str) -> str:
     return f"{text.rstrip()}\n\n## {title}\n\n<!-- study {name} -->\n<!-- end of study {name} -->\n"
 
 
-def _replaced(text: str, name: str, content: str) -> str:
+def replaced(text: str, name: str, content: str) -> str:
     """``text`` with ``content`` between the comments of ``name``, which must stand in it once."""
     begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
     before, found, rest = text.partition(begin)

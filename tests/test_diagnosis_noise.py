@@ -53,13 +53,6 @@ def test_what_every_period_has_is_not_noise() -> None:
         expect_the_noise(one[0])
 
 
-def test_a_different_noise_in_each_run() -> None:
-    tau = [base()[0] + noise(3), base()[1] + 5 * noise(4)]
-    found = colours(bank([run(base(), one, period=PERIOD) for one in tau]))
-    expect_the_noise(found[0][0])
-    assert found[1][0].deviations[-1] == pytest.approx(5 * DEVIATION, rel=0.1)
-
-
 def test_gaps_in_some_periods() -> None:
     kept = np.ones(COUNT, dtype=bool)
     kept[np.arange(COUNT) % PERIOD < 60] = False
