@@ -28,7 +28,7 @@ export CALLER := $(PWD)
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
 .PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
-    example-diagnosis test test-extra format lock bench twins clean distclean
+    example-diagnosis study-diagnosis test test-extra format lock bench twins reproduce clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -103,8 +103,14 @@ lock: ## resolve the lock files anew (asks the package registry)
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test --group bench \
 	    --constraint requirements-test.lock $(LOCKING) --output-file requirements-bench.lock
 
+study-diagnosis: $(TESTING) ## hide effects in simulated robots and see what the diagnosis names; cases=N of each kind
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.diagnosis_study $(if $(cases),--cases $(cases)) $(options)
+
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.twins
+
+reproduce: $(TESTING) ## play sections 5 and 6 of the report on the twins, into docs/reproduction.md; seeds=N, only=NAME
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.reproduce $(if $(seeds),seeds=$(seeds)) $(if $(only),only="$(only)")
 
 clean: ## remove caches and build folders; keeps .venv and generated/
 	rm -rf build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,3 +32,12 @@ def inflation(e: Array) -> float:
             break
         total += 2 * pair
     return max(total, 1.0)
+
+
+def scatter(instruments: Sequence[Array], errors: Sequence[Array], unknowns: int) -> float:
+    """Standard deviation of the sum of z e over runs with instruments z (N each) and residuals e (N each) of
+    ``unknowns``; noise and its colour are each run's own.
+    """
+    rows = sum(map(len, errors))
+    parts = [float(z @ z) * float(e @ e) / len(e) * inflation(e) for z, e in zip(instruments, errors, strict=True)]
+    return float(np.sqrt(sum(parts) * rows / max(rows - unknowns, 1)))

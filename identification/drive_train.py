@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
-from generator.robot.description import Drives, Robot
+from generator.robot.description import Robot
 
 Array = NDArray[np.float64]
 
@@ -21,13 +22,26 @@ def coupling(robot: Robot) -> Array:
     return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])
 
 
-def with_unit_constants(robot: Robot) -> Robot:
-    """The robot with torque constants of 1 N m/A, for which the joint torques of currents are N^T i."""
+def constants(robot: Robot) -> Array:
+    """Torque constants in use (n) [N m/A]; ones where the file tells none."""
+    drives = robot.drives
+    if drives is None or not drives.torque_constants:
+        return np.ones(len(robot.moving))
+    return np.array([float(kt) for kt in drives.torque_constants[drives.torque_constant]])
+
+
+def with_constants(robot: Robot, values: Sequence[float]) -> Robot:
+    """The robot with these torque constants (n) [N m/A]; itself where it has no drives."""
     drives = robot.drives
     if drives is None:
         return robot
-    unit = tuple(Fraction(1) for _ in drives.coupling)
-    return replace(robot, drives=Drives(drives.ratios, drives.coupling, {"unit": unit}, "unit"))
+    named = {"given": tuple(map(Fraction, values))}
+    return replace(robot, drives=replace(drives, torque_constants=named, torque_constant="given"))
+
+
+def with_unit_constants(robot: Robot) -> Robot:
+    """The robot with torque constants of 1 N m/A, for which the joint torques of currents are N^T i."""
+    return with_constants(robot, np.ones(len(robot.moving)).tolist())
 
 
 def supplied(robot: Robot, motor: int, tau: Array) -> Array:

@@ -122,3 +122,17 @@ def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
     for stage in stages(factor):
         indices = indices[stage.first(len(indices)) :: stage.factor]
     return indices
+
+
+def kept_rows(left_out: NDArray[np.bool_], factor: int, reach: int = 0) -> NDArray[np.bool_]:
+    """Which samples that decimation keeps have none of ``left_out`` (N) in their window: ``factor`` samples to either
+    side, ``reach`` if that is more.
+    """
+    indices = kept_indices(len(left_out), factor)
+    if not left_out.any():
+        return np.ones(len(indices), dtype=bool)
+    total = np.concatenate([[0], np.cumsum(left_out)])
+    reach = max(factor if factor > 1 else 0, reach)
+    lower, upper = np.maximum(indices - reach, 0), np.minimum(indices + reach + 1, len(left_out))
+    result: NDArray[np.bool_] = total[upper] == total[lower]
+    return result

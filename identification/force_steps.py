@@ -1,8 +1,9 @@
 """Stiffness and torque constants from a tool pressed on a rigid stop with steps of force (report eq. 73-78).
 
 The links stand still, so that what changes between two forces is the drive trains' twist: J^T dT = k dq_m, axis by
-axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37). A run is
-a pose; its mean stands for the weight and the preload. Components of the wrench that a run does not hold do not change.
+axis, and N^-T (J^T dT + Ia qdd) = kt di, motor by motor (the acceleration's term is that of report fig. 37), less dry
+friction (``torque_constants``). A run is a pose; its mean stands for the weight and the preload. Components of the
+wrench that a run does not hold do not change.
 """
 
 from __future__ import annotations
@@ -17,15 +18,16 @@ from numpy.typing import NDArray
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Robot
-from identification.colour import inflation
+from identification.colour import scatter
 from identification.dataset import Run, load
-from identification.drive_train import coupling, with_unit_constants
-from identification.filtering import decimated, derivative, smoothed
+from identification.drive_train import constants, coupling, with_unit_constants
+from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.signals import EFFORTS, WRENCH, NoColumns
+from identification.torque_constants import Turning, torque_constant
 
 Array = NDArray[np.float64]
 
@@ -41,6 +43,8 @@ LIMIT = 0.1
 _APART, _DEVIATIONS = 0.2, 4.0
 #: Motion [rad, m] beyond which a joint does more than yield.
 _STILL = 0.05
+#: Part of a joint's largest speed from which its motor turns.
+_TURNING = 0.2
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,9 @@ class Pose:
     """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
     the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
 
-    ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N).
+    ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands or nearly does. ``at``
+    are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the mean torques of the drive
+    trains (n), weight included.
     """
 
     run: Run
@@ -57,8 +63,10 @@ class Pose:
     held: Array
     rotors: Array
     i: Array | None
+    turning: Array
     at: Array
     wrench: Array
+    load: Array
 
 
 @dataclass(frozen=True)
@@ -76,31 +84,36 @@ class ForceSteps:
 
 
 def force_steps(
-    robot: Robot, sources: Sequence[str], inertias: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
+    robot: Robot,
+    sources: Sequence[str],
+    inertias: Mapping[str, float] | None = None,
+    recipe: Recipe = RECIPE,
+    generated: Any = None,
 ) -> ForceSteps:
     """Values from the runs ``sources``, one a pose, each with columns of the wrench in the tool frame.
 
     ``inertias`` hold Iam or Ia of the joints by name, for the rotors' acceleration, which is left out without.
-    Torque constants need currents in every run.
+    Torque constants need currents in every run. ``generated`` is that of ``wrench_torque``, to be used again.
 
     Raises InputError for runs without a wrench, joints that move freely, and where no joint's stiffness shows.
     """
     runs = [_loaded(str(source), robot, recipe) for source in sources]
     components = tuple(name for name in WRENCH if any(name in run.others for run, _ in runs))
-    generated = _wrench_torque(robot)
+    generated = generated or wrench_torque(robot)
     Ia = _inertias(robot, inertias or {})
     poses = tuple(_pose(run, with_current, robot, recipe, Ia, generated) for run, with_current in runs)
     stiffness, _, _ = _stiffness(robot, poses, components)
-    poses = tuple(_untwisted(pose, stiffness, robot, generated) for pose in poses)
+    kt, _ = _constants(robot, poses)
+    poses = tuple(_untwisted(_weighed(pose, kt, robot), stiffness, robot, generated) for pose in poses)
     stiffness, residuals, notes = _stiffness(robot, poses, components)
     if all(value.value is None for value in stiffness.values()):
         first = next(iter(stiffness.values())).refused
         raise InputError(runs[0][0].place, f"no joint's stiffness can be told: {first}", "steps of a measured force")
-    constants, motor_residuals = _constants(robot, poses)
-    if constants and not np.any(Ia):
+    kt, motor_residuals = _constants(robot, poses)
+    if kt and not np.any(Ia):
         notes.append("torque constants without the rotors' acceleration: no inertia Iam or Ia was given")
     notes = [note for run, _ in runs for note in run.notes] + notes
-    return ForceSteps(robot, poses, components, stiffness, constants, residuals, motor_residuals, tuple(notes))
+    return ForceSteps(robot, poses, components, stiffness, kt, residuals, motor_residuals, tuple(notes))
 
 
 def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
@@ -111,7 +124,7 @@ def _loaded(source: str, robot: Robot, recipe: Recipe) -> tuple[Run, bool]:
         return load(source, robot, recipe.columns, tuple(stem for stem in EFFORTS if stem != "i"), resting=True), False
 
 
-def _wrench_torque(robot: Robot) -> Any:
+def wrench_torque(robot: Robot) -> Any:
     """The generated module with the function wrench_torque(q, wrench)."""
     return generated_module(derive(robot, names=("wrench_torque",)))
 
@@ -134,7 +147,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
             problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
             raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
-    qdd = derivative(derivative(q, run.period), run.period)
+    qd = derivative(q, run.period)
+    qdd = derivative(qd, run.period)
     wrench: Array = np.stack([run.others[name] if name in run.others else np.zeros(run.samples) for name in WRENCH])
     force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
     signals = [q, force, Ia[:, None] * qdd]
@@ -148,7 +162,28 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     at = q[:, inner].mean(axis=1)
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
-    return Pose(run, filters, _about_mean(level), _about_mean(held), _about_mean(rotors), i, at, wrench)
+    turning = _turning(qd[:, inner], filters)
+    return Pose(
+        run,
+        filters,
+        _about_mean(level),
+        _about_mean(held),
+        _about_mean(rotors),
+        i,
+        turning,
+        at,
+        wrench,
+        run.tau.mean(axis=1),
+    )
+
+
+def _turning(qd: Array, filters: Filters) -> Array:
+    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill."""
+    fast = np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)
+    reach = round(filters.rate / filters.cutoff / 2)
+    steady = np.array([kept_rows(~one, filters.factor, reach) for one in fast])
+    result: Array = np.sign(qd[:, kept_indices(qd.shape[1], filters.factor)]) * steady
+    return result
 
 
 def _about_mean(x: Array) -> Array:
@@ -162,12 +197,27 @@ def _held(links: Array, wrench: Array, generated: Any) -> Array:
     return result
 
 
+def _weighed(pose: Pose, kt: Mapping[str, Value], robot: Robot) -> Pose:
+    """The pose with the load that its mean currents carry, by the torque constants found, else the file's."""
+    if pose.i is None:
+        return pose
+    N, values = coupling(robot), constants(robot)
+    for m, joint in enumerate(robot.moving):
+        values[m] = kt[f"kt{joint.number}"].value or values[m]
+    return replace(pose, load=N.T @ (values * np.linalg.solve(N.T, pose.load)))
+
+
 def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generated: Any) -> Pose:
-    """The pose with its links where the mean wrench leaves them, which is not where the motors are."""
-    k = [stiffness[f"k{joint.number}"].value for joint in robot.moving]
-    held = _held(pose.at, pose.wrench, generated).mean(axis=1)
-    twist = np.array([torque / value if value else 0.0 for torque, value in zip(held, k, strict=True)])
-    return replace(pose, held=_about_mean(_held(pose.at - twist, pose.wrench, generated)))
+    """The pose with its links where their drive trains leave them, which is not where the motors are.
+
+    A joint whose stiffness is not known follows its motor, as a wrist does that turns against the arm's twist.
+    """
+    links = pose.at[:, None] + pose.q
+    for k, joint in enumerate(robot.moving):
+        value = stiffness[f"k{joint.number}"].value
+        if value:
+            links[k] -= (pose.load[k] + pose.held[k]) / value
+    return replace(pose, held=_about_mean(generated.wrench_torque(links.T, pose.wrench.T).T))
 
 
 def _stiffness(
@@ -194,21 +244,28 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
     residuals: dict[int, Residual] = {}
     if any(one.i is None for one in poses):
         return values, residuals
-    to_motors = np.linalg.inv(coupling(robot)).T
+    to_motors = np.asarray(np.linalg.inv(coupling(robot)).T, dtype=float)
     for m, joint in enumerate(robot.moving):
         name = f"kt{joint.number}"
-        pairs = [
-            (one.i[m], (to_motors @ (one.held + one.rotors))[m])
-            for one in poses
-            if one.i is not None and _changes(one.held, m)
-        ]
-        if not pairs:
+        pressed = [one for one in poses if one.i is not None and _changes(one.held, m)]
+        if not pressed:
             why = f"the measured force asks nothing of motor {joint.number} in any pose"
             values[name] = Value(None, np.inf, "N m/A", refused=why)
             continue
-        slope, residuals[m] = _slope([x for x, _ in pairs], [y for _, y in pairs])
-        values[name] = _value(slope, "N m/A")
+        try:
+            kt, std, residuals[m] = torque_constant([_of_motor(one, m, to_motors) for one in pressed])
+        except ValueError as error:
+            values[name] = Value(None, np.inf, "N m/A", refused=str(error))
+            continue
+        values[name] = _value((kt, std), "N m/A")
     return values, residuals
+
+
+def _of_motor(pose: Pose, m: int, to_motors: Array) -> Turning:
+    assert pose.i is not None
+    turning = pose.turning[m] != 0
+    tau = (to_motors @ (pose.held + pose.rotors))[m]
+    return Turning(pose.i[m, turning], tau[turning], pose.q[m, turning], pose.turning[m, turning])
 
 
 def _changes(held: Array, k: int) -> bool:
@@ -223,16 +280,16 @@ def _slope(x: Sequence[Array], y: Sequence[Array]) -> tuple[tuple[float, float],
     The instrument is x itself some samples before and after: least squares would come out too small, as x is noisy too.
     """
     inner = slice(_LAG, -_LAG)
-    Z = np.concatenate([(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x])
-    X, Y = (np.concatenate([one[inner] for one in some]) for some in (x, y))
-    size, power = float(np.linalg.norm(Y)), float(Z @ X)
+    Z = [(one[: -2 * _LAG] + one[2 * _LAG :]) / 2 for one in x]
+    X, Y = ([one[inner] for one in some] for some in (x, y))
+    rows, size = sum(map(len, Y)), float(np.linalg.norm(np.concatenate(Y)))
+    power = sum(float(z @ one) for z, one in zip(Z, X, strict=True))
     if not power:
-        return (0.0, np.inf), Residual(len(Y), size, size, size)
-    slope = float(Z @ Y) / power
-    e = Y - slope * X
-    variance = float(e @ e) / max(len(Y) - len(x) - 1, 1) * inflation(e)
-    std = float(np.sqrt(variance) * np.linalg.norm(Z)) / abs(power)
-    return (slope, std), Residual(len(Y), float(np.linalg.norm(e)), size, size)
+        return (0.0, np.inf), Residual(rows, size, size, size)
+    slope = sum(float(z @ one) for z, one in zip(Z, Y, strict=True)) / power
+    errors = [theirs - slope * ours for ours, theirs in zip(X, Y, strict=True)]
+    std = scatter(Z, errors, len(x) + 1) / abs(power)
+    return (slope, std), Residual(rows, float(np.linalg.norm(np.concatenate(errors))), size, size)
 
 
 def _value(slope: tuple[float, float], unit: str) -> Value:

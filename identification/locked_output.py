@@ -18,7 +18,7 @@ from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.essential import RATIO, essential
 from identification.factors import Factor, triangular
-from identification.filtering import decimated, derivative, smoothed
+from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.least_squares import Problem, Solution
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
@@ -26,8 +26,12 @@ from identification.residuals import Residual
 
 Array = NDArray[np.float64]
 
-#: The report decimates to 1 Hz.
-RECIPE = Recipe(dynamics=0.2)
+#: The decimation passes twice the dynamics. The report's passes 1 Hz, which cannot tell Iam qdd from k q.
+RECIPE = Recipe(dynamics=5.0)
+#: Part of a motor's largest speed below which its friction is no matter of the speed's sign.
+_STANDSTILL = 0.2
+#: Fewest rows a parameter.
+_FEWEST = 3
 #: Motion [rad, m] beyond which an output is not blocked: no drive train yields so far.
 _BLOCKED = 0.05
 #: Relative standard deviation from which a stiffness is refused.
@@ -86,6 +90,9 @@ def locked_output(
         stacked.append(_rows(run, filters, k, removed[-1]))
         found.append((run, filters))
     rows = np.concatenate(stacked)
+    if len(rows) < _FEWEST * len(names):
+        few = f"{len(rows)} rows in which the motor of joint {number} turns steadily"
+        raise InputError(found[0][0].place, few, f"{_FEWEST * len(names)} at least: a longer run")
     factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()
@@ -137,13 +144,18 @@ def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) 
 
 
 def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
-    """[qdd qd sign(qd) q 1 Y], filtered and decimated alike (report eq. 71)."""
+    """[qdd qd sign(qd) q 1 Y], filtered and decimated alike (report eq. 71), without what is near a standstill.
+
+    A motor that sticks has any friction up to Fcm, most of all where k q is largest: k would come out too large.
+    """
     q = smoothed(run.q[k], filters.order, filters.cutoff, run.rate)
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)
     columns = np.stack([qdd, qd, np.sign(qd), q, np.ones_like(q), run.tau[k] - removed])
     inner = columns[:, filters.first : run.samples - filters.last]
-    result: Array = decimated(inner, filters.factor).T
+    speed = np.abs(inner[1])
+    keep = kept_rows(speed < _STANDSTILL * speed.max(), filters.factor)
+    result: Array = decimated(inner, filters.factor)[:, keep].T
     return result
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.dataset import Run
-from identification.filtering import Stage, decimated, derivative, kept_indices, smoothed, stages
+from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
 from identification.observation import Motion, Regressors, standing
 from identification.recipe import Filters, Recipe
 
@@ -139,15 +139,3 @@ def _columns(one: Sampled, regressors: Regressors, start: int, end: int) -> list
     if one.run.payload is not None:
         base = [np.concatenate(pair) for pair in zip(base, regressors.payload(motion), strict=True)]
     return [(W, one.tau[k, start:end]) for k, W in enumerate(base)]
-
-
-def kept_rows(left_out: NDArray[np.bool_], factor: int) -> NDArray[np.bool_]:
-    """Which decimated rows have no left-out sample in their window, ``factor`` samples to either side."""
-    indices = kept_indices(len(left_out), factor)
-    if not left_out.any():
-        return np.ones(len(indices), dtype=bool)
-    total = np.concatenate([[0], np.cumsum(left_out)])
-    reach = factor if factor > 1 else 0
-    lower, upper = np.maximum(indices - reach, 0), np.minimum(indices + reach + 1, len(left_out))
-    result: NDArray[np.bool_] = total[upper] == total[lower]
-    return result

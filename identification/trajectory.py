@@ -111,13 +111,15 @@ class Stop:
 class Reference:
     """Positions and speeds (samples x n) wanted of the joints [rad, m; rad/s, m/s], at rest in the first sample.
 
-    ``locked`` links are held where they are at the start; ``stop`` is what the tool is pressed on, if anything.
+    ``locked`` are the coordinates of links that are held where they are at the start. ``stop`` is what the tool is
+    pressed on, if anything; where there is none, ``measured`` tells whether the wrench that holds the links is logged.
     """
 
     q: Array
     qd: Array
-    locked: bool = False
+    locked: tuple[int, ...] = ()
     stop: Stop | None = None
+    measured: bool = False
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+from generator.cli.main import main
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification import stiffness_results
@@ -25,6 +26,7 @@ from identification.report.stiffness import report as stiffness_report
 from tests import test_gains_command as lifter
 from tests import test_stiffness_command as stiff
 from tests.recorded import TRUTH, recorded, two_links
+from tests.test_output_error import robot_text
 
 
 def identified(folder: Path) -> Subject:
@@ -45,7 +47,24 @@ def pages(folder: Path) -> dict[str, bytes]:
         "steps": stiffness_report.report(steps, stiffness_results.of_steps(steps)),
         "locked": stiffness_report.report(locked, stiffness_results.of_locked(locked)),
         "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
+        **_of_commands(folder / "commands"),
     }
+
+
+def _of_commands(folder: Path) -> dict[str, bytes]:
+    """What excite and output-error leave of two simulated links."""
+    folder.mkdir()
+    robot, run = folder / "two_links.yaml", folder / "A.csv"
+    robot.write_text(robot_text())
+    few = ["--duration", "6", "--noise", "0.3", "--parameters", "twin"]
+    made = {
+        "excite": ["excite", robot, "--evaluations", "200", "--parameters", "twin"],
+        "output_error": ["output-error", robot, "--data", run, "--test", f"{run}@1:5", "--starts", "2"],
+    }
+    assert main(["simulate", str(robot), *few, "--out", str(run)]) == 0
+    for kind, words in made.items():
+        assert main([*map(str, words), "--out", str(folder / kind)]) == 0
+    return {kind: (folder / kind / "report.html").read_bytes() for kind in made}
 
 
 def _robot() -> Robot:
@@ -74,6 +93,15 @@ class Page(HTMLParser):
         self._name = self._inside = ""
         self._parameters = False
         self.feed(page.decode())
+
+    @property
+    def loads(self) -> list[str]:
+        """Tags that would make a browser fetch something."""
+        attributes = {"src", "srcset", "data", "poster", "action", "background"}
+        tags = {"link", "iframe", "img", "object", "embed", "base"}
+        links = [given["href"] or "" for _, given in self.tags if "href" in given]
+        found = [tag for tag, given in self.tags if attributes & set(given) or tag in tags]
+        return found + [link for link in links if not link.startswith("#")]
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = dict(attrs)

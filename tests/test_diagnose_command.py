@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +18,7 @@ from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.scene import Scene
 from identification.observation import Regressors
-from tests.commands import Done, process
+from tests.commands import Done, command, process
 from tests.plant.effect import Effect
 from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
@@ -47,30 +48,26 @@ class Case:
 
     @cached_property
     def result(self) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads((self.folder / "out" / "diagnosis.json").read_text(encoding="utf-8"))
-        return found
+        return result(self.folder / "out")
+
+
+def result(folder: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
+    return found
 
 
 def diagnose(folder: Path, *arguments: str) -> Done:
     return process("diagnose", *arguments, cwd=folder)
 
 
-def case(folder: Path, effects: tuple[Effect, ...]) -> Case:
-    (folder / "arm.yaml").write_text(robot_file(ARM), encoding="utf-8")
-    a, b, c, d = record(folder, (1, 2, 3, 4), effects)
-    done = diagnose(folder, "arm.yaml", a, b, "--validate", c, "--test", d, "--out", "out")
-    assert done.status == 0, done.err
-    return Case(folder, done)
-
-
 @pytest.fixture(scope="module")
 def hidden(tmp_path_factory: pytest.TempPathFactory) -> Case:
-    return case(tmp_path_factory.mktemp("hidden"), (HIDDEN,))
-
-
-@pytest.fixture(scope="module")
-def nothing(tmp_path_factory: pytest.TempPathFactory) -> Case:
-    return case(tmp_path_factory.mktemp("nothing"), ())
+    folder = tmp_path_factory.mktemp("hidden")
+    (folder / "arm.yaml").write_text(robot_file(ARM), encoding="utf-8")
+    a, b, c = record(folder, (1, 2, 3), (HIDDEN,))
+    done = diagnose(folder, "arm.yaml", a, "--validate", b, "--test", c, "--out", "out")
+    assert done.status == 0, done.err
+    return Case(folder, done)
 
 
 def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
@@ -105,21 +102,15 @@ def test_the_gap_closes_on_the_run_that_nothing_touched(hidden: Case) -> None:
     for joint in (1, 3):
         assert each["after"][joint] == pytest.approx(each["before"][joint], rel=0.05)
     used = [one["file"] for runs in hidden.result["data"].values() for one in runs]
-    assert not any(name.endswith("4.csv") for name in used)
-
-
-def test_without_anything_hidden_nothing_is_named(nothing: Case) -> None:
-    assert nothing.result["verdict"] == "no_discrepancy"
-    assert nothing.result["findings"] == []
-    assert "no_discrepancy" in nothing.done.out
+    assert not any(name.endswith("3.csv") for name in used)
 
 
 def test_the_repaired_robot_lacks_nothing_on_fresh_runs(hidden: Case) -> None:
     folder = hidden.folder
-    a, b, c = record(folder, (5, 6, 7), (HIDDEN,))
-    done = diagnose(folder, "out/three_axis.yaml", a, b, "--validate", c, "--test", "4.csv", "--out", "again")
+    a, b = record(folder, (5, 6), (HIDDEN,))
+    done = diagnose(folder, "out/three_axis.yaml", a, "--validate", b, "--test", "3.csv", "--out", "again")
     assert done.status == 0, done.err
-    again = json.loads((folder / "again" / "diagnosis.json").read_text(encoding="utf-8"))
+    again = result(folder / "again")
     assert (again["verdict"], again["findings"]) == ("no_discrepancy", [])
 
 
@@ -138,47 +129,53 @@ def test_an_effect_of_the_file_is_not_offered_again(hidden: Case) -> None:
 
 
 def test_a_dry_run_only_locates(hidden: Case) -> None:
-    done = diagnose(hidden.folder, "arm.yaml", "1.csv", "2.csv", "--validate", "3.csv", "--test", "4.csv",
-                    "--dry-run", "--out", "dry")  # fmt: skip
+    folder = hidden.folder
+    done = diagnose(folder, "arm.yaml", "1.csv", "--validate", "2.csv", "--test", "3.csv", "--dry-run", "--out", "dry")
     assert done.status == 0, done.err
     assert "where            joint 2" in done.out
-    written = sorted(path.name for path in (hidden.folder / "dry").iterdir())
-    assert written == ["diagnosis.json", "report.html"]
-    result = json.loads((hidden.folder / "dry" / "diagnosis.json").read_text(encoding="utf-8"))
-    assert result["findings"] == [] and result["robot_file"] is None and result["verdict"] == "unexplained"
+    assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]
+    dry = result(folder / "dry")
+    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("unexplained", [], None)
 
 
-def expect_one_line(done: Done, folder: Path, *parts: str) -> None:
-    """One line says what is wrong, and nothing is written."""
-    assert done.status == 2
+def cut_off(folder: Path) -> str:
+    """A run that ends too soon."""
+    lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines(keepends=True)
+    (folder / "short.csv").write_text("".join(lines[:20]), encoding="utf-8")
+    return "short.csv"
+
+
+def without_last_column(folder: Path) -> str:
+    lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines()
+    (folder / "cut.csv").write_text("\n".join(line.rpartition(",")[0] for line in lines) + "\n", encoding="utf-8")
+    return "cut.csv"
+
+
+@pytest.mark.parametrize(
+    ("run", "options", "parts"),
+    [
+        ("2.csv", ("--prior", "knwon"), ("arm.yaml", "no parameter set 'knwon'", "known")),
+        (cut_off, (), ("short.csv", "a run of 0.04 s, expected 2 s at least")),
+        (without_last_column, (), ("cut.csv",)),
+        ("gone.csv", (), ("gone.csv",)),
+    ],
+    ids=["prior", "short", "column", "absent"],
+)
+def test_bad_input_is_one_line_and_nothing_is_written(
+    hidden: Case,
+    run: str | Callable[[Path], str],
+    options: tuple[str, ...],
+    parts: tuple[str, ...],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    name = run if isinstance(run, str) else run(hidden.folder)
+    done = command(
+        "diagnose", "arm.yaml", "1.csv", name, "--validate", "2.csv", "--test", "3.csv", *options, "--out", "bad",
+        capsys=capsys,
+    )  # fmt: skip
     last = done.err.strip().splitlines()[-1]
-    assert last.startswith("error: ") and "Traceback" not in done.err
-    for part in parts:
-        assert part in last
-    assert not (folder / "bad").exists()
-
-
-def test_an_unknown_prior_set(hidden: Case) -> None:
-    done = diagnose(hidden.folder, "arm.yaml", "1.csv", "2.csv", "3.csv", "--prior", "knwon", "--out", "bad")
-    expect_one_line(done, hidden.folder, "arm.yaml", "no parameter set 'knwon'", "known")
-
-
-def test_a_run_that_is_too_short(hidden: Case) -> None:
-    lines = (hidden.folder / "1.csv").read_text(encoding="utf-8").splitlines(keepends=True)
-    (hidden.folder / "short.csv").write_text("".join(lines[:20]), encoding="utf-8")
-    done = diagnose(hidden.folder, "arm.yaml", "1.csv", "short.csv", "--validate", "2.csv", "--test", "3.csv",
-                    "--out", "bad")  # fmt: skip
-    expect_one_line(done, hidden.folder, "short.csv")
-
-
-def test_a_run_that_lacks_a_column(hidden: Case) -> None:
-    lines = (hidden.folder / "1.csv").read_text(encoding="utf-8").splitlines()
-    cut = "\n".join(line.rpartition(",")[0] for line in lines)
-    (hidden.folder / "cut.csv").write_text(cut + "\n", encoding="utf-8")
-    done = diagnose(hidden.folder, "arm.yaml", "1.csv", "2.csv", "cut.csv", "--out", "bad")
-    expect_one_line(done, hidden.folder, "cut.csv")
-
-
-def test_a_run_that_is_not_there(hidden: Case) -> None:
-    done = diagnose(hidden.folder, "arm.yaml", "1.csv", "2.csv", "gone.csv", "--out", "bad")
-    expect_one_line(done, hidden.folder, "gone.csv")
+    assert done.status == 2 and last.startswith("error: ") and "Traceback" not in done.err
+    assert all(part in last for part in parts), last
+    assert not (hidden.folder / "bad").exists()

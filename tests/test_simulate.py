@@ -246,7 +246,7 @@ def test_locked_links_stand_still_while_the_drive_trains_show_their_stiffness(ma
 def pressed() -> Iterator[tuple[Machine, Simulated]]:
     settings = Settings(
         trajectory="force_steps",
-        trajectory_settings={"steps": 2.0, "force": 3000.0},
+        trajectory_settings={"steps": 2.0, "force": 3000.0, "contact": "sliding"},
         flexible=True,
         pose=(0.2, -1.2, 1.0, 0.0, 0.7, 0.0),
         duration=15.0,

@@ -215,7 +215,7 @@ def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (("--locked", "7", "--data", path), "kr500 has no moving joint 7, expected 1, 2, 3, 4, 5, 6"),
         (("--locked", "1", "--data", here / "free.csv"), "joint 1 moves by 0.4 rad, expected a blocked output"),
         (("--locked", "3", "--data", path), "k3 cannot be told: relative std"),
-        (("--locked", "2", "--data", f"{path}@0:5"), "expected at least"),
+        (("--locked", "2", "--data", f"{path}@0:0.5"), "expected at least"),
         (("--pressed", "--data", path), "there are no columns of the wrench, expected one at least of fx fy fz"),
         (("--pressed", "--data", here / "fz.csv"), "joint 1 moves by 0.4 rad, expected a robot pressed on a stop"),
         (

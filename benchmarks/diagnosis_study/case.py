@@ -22,7 +22,10 @@ class Hidden:
 
 @dataclass(frozen=True)
 class Case:
-    """``cell`` is the part of the study that the case counts in; ``motion`` a key of ``runs.MOTIONS``."""
+    """``cell`` is the part of the study that the case counts in; ``motion`` a key of ``runs.MOTIONS``.
+
+    ``beside`` are more effects of the robot, which its file holds by the textbook's law.
+    """
 
     cell: str
     robot: str
@@ -30,6 +33,7 @@ class Case:
     seed: int
     hidden: tuple[Hidden, ...] = ()
     motion: str = "fourier"
+    beside: tuple[Hidden, ...] = ()
 
     @property
     def name(self) -> str:
@@ -44,4 +48,5 @@ class Case:
 
 def case(record: Mapping[str, Any]) -> Case:
     """The case of a record."""
-    return Case(**{**record, "hidden": tuple(Hidden(**one) for one in record["hidden"])})
+    effects = {key: tuple(Hidden(**one) for one in record[key]) for key in ("hidden", "beside")}
+    return Case(**{**record, **effects})

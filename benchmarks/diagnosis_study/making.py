@@ -11,7 +11,7 @@ from typing import Any
 from benchmarks.diagnosis_study.case import KNOWN, Case, Hidden
 from benchmarks.diagnosis_study.prior import drawn, relative
 from benchmarks.diagnosis_study.runs import FITTED, MOTIONS, NAMES
-from benchmarks.diagnosis_study.sizing import INVISIBLE, NOTHING, Size, null_mismatch, sized
+from benchmarks.diagnosis_study.sizing import INVISIBLE, NOTHING, Size, mismatch, sized
 from tests.plant.effect import Effect
 from tests.plant.known_effects import entry
 from tests.plant.robot import Robot
@@ -19,6 +19,9 @@ from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
 from tests.plant.run import Run, write_csv
 from tests.plant.simulate import make_run, own_effects
+
+#: Part of its law's typical size that an effect beside the hidden ones has.
+_BESIDE = 0.2
 
 #: Laws that the plant has in any case, by the effect of the robot file that stands for them.
 _SIMPLE = {"viscous": "viscous_friction", "coulomb": "coulomb_friction", "offset": "offset"}
@@ -72,14 +75,18 @@ def made(case: Case) -> Made:
     stand_ins, effects, sizes = set(), [], []
     for one in case.hidden:
         stand_ins.add(_place(one, robot))
-    own = [effect for effect in own_effects(robot) if _place(effect, robot) not in stand_ins]
+    typical = [Effect(one.law, one.joint) for one in case.beside]
+    more = [one.sized(_BESIDE * one.amount(robot)) for one in typical]
+    own = [effect for effect in (*own_effects(robot), *more) if _place(effect, robot) not in stand_ins]
     for one in case.hidden:
         wanted = Effect(one.law, one.joint, other=one.other)
         effect, size = sized(robot, trajectories[:FITTED], own, wanted, one.size, case.mode == KNOWN, noise)
         effects.append(effect)
         sizes.append(size)
     runs = [make_run(robot, one, effects, seed=noise + k, own=own) for k, one in enumerate(trajectories)]
-    return Made(case, file_of(robot, own, case.seed), runs, effects, sizes, null_mismatch(runs[:FITTED]))
+    plain = runs if not effects else [make_run(robot, one, seed=noise, own=own) for one in trajectories[:FITTED]]
+    left = mismatch(plain[:FITTED], case.mode == KNOWN)
+    return Made(case, file_of(robot, own, case.seed), runs, effects, sizes, left)
 
 
 def file_of(robot: Robot, own: Sequence[Effect], seed: int) -> str:

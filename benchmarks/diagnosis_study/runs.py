@@ -24,5 +24,10 @@ def _mixed(seed: int) -> list[Trajectory]:
     return [periodic[0], slow_reversals(5 * seed + 1, periods=3), point_to_point(5 * seed + 2, 30.0), *periodic[3:]]
 
 
-#: Motions by name, each a function of a seed: periodic excitation alone, or with slow reversals and point to point.
-MOTIONS: Mapping[str, Callable[[int], list[Trajectory]]] = {"fourier": _periodic, "mixed": _mixed}
+def _short(seed: int) -> list[Trajectory]:
+    return [fourier(5 * seed + k, period=5.0, periods=3, harmonics=6) for k in range(len(NAMES))]
+
+
+#: Motions by name, each a function of a seed: periodic excitation alone, or with slow reversals and point to point;
+#: and one that is quick to play, for tests.
+MOTIONS: Mapping[str, Callable[[int], list[Trajectory]]] = {"fourier": _periodic, "mixed": _mixed, "short": _short}

@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmarks.diagnosis_study.prior import deviation
 from tests.plant.effect import Effect
+from tests.plant.known_effects import textbook
 from tests.plant.law import value_of
 from tests.plant.library import LAWS
 from tests.plant.robot import BODY, Array, Robot
@@ -33,6 +34,10 @@ _ACTS = 0.1
 #: Speed over its rms below which a joint stands; rows about such a row that are left out as well.
 _SLOW, _ABOUT = 0.04, 25
 _TOLERANCE, _TRIES = 0.05, 6
+#: Torque [N m, N] that is none.
+_SAME = 1e-9
+#: Multiples of a law's typical size that are still plausible.
+_PLAUSIBLE = 10.0
 
 
 class OutOfReach(Exception):
@@ -93,7 +98,7 @@ class Fit:
         flat = e.reshape(-1)
         left = (flat - self._W @ (self._inverse @ (self._W.T @ flat))).reshape(e.shape)
         of_joint = np.sqrt(np.sum(e**2, axis=0) / rows)
-        acts = of_joint >= _ACTS * max(of_joint.max(), 1e-300)
+        acts = of_joint >= _ACTS * float(of_joint.max(initial=0.0))
 
         def over(x: Array) -> float:
             return float(np.sqrt(np.mean(np.sum(x[:, acts] ** 2, axis=0)) / rows))
@@ -101,7 +106,7 @@ class Fit:
         strongest = int(np.argmax(of_joint))
         rms = float(np.sqrt(np.mean(np.concatenate([tau[:, strongest] for tau in torques]) ** 2)))
         raw = over(e)
-        part = float(np.linalg.norm(left) / max(np.linalg.norm(e), 1e-300))
+        part = float(np.linalg.norm(left)) / max(float(np.linalg.norm(e)), 1e-300)
         return Size(raw, over(left), part, tuple(int(j) + 1 for j in np.flatnonzero(acts)), rms)
 
 
@@ -122,26 +127,20 @@ def deviations(run: Run, effect: Effect | None, columns: int) -> Array:
     return np.array(result)
 
 
-def null_mismatch(runs: Sequence[Run]) -> float:
-    """What sign(speed) in the place of the plant's dry friction changes, over the noise, on the worst joint.
-
-    All other laws of a robot without a hidden effect are those of its file.
-    """
-    squares: Array = np.zeros(runs[0].robot.joints)
-    rows: Array = np.zeros(runs[0].robot.joints)
+def mismatch(runs: Sequence[Run], known: bool) -> float:
+    """What the laws of the robot file leave unexplained of the robot's own, over the noise, after the fit."""
+    torques = []
     for run in runs:
-        kept, torque = moving(run), np.zeros_like(run.truth.q)
+        torque = np.zeros_like(run.truth.q)
         for k, effect in enumerate(run.machine.torques):
-            if effect.law in ("coulomb", "wrist_friction"):
-                along = effect.along(run.robot)
-                speed = run.truth.thd @ along
-                viscous = speed / effect.value("speed", run.robot) if effect.law == "wrist_friction" else 0.0
-                textbook = effect.amount(run.robot) * (np.sign(speed) + viscous)
-                torque += np.outer(run.truth.torque[:, k] - textbook, along)
-        white = whiten(run, torque * kept, LIMIT)
-        squares += np.sum(white**2, axis=0)
-        rows += len(white) * np.mean(kept, axis=0)
-    return float(np.max(np.sqrt(squares / rows)))
+            # Friction turns with the motors.
+            law = textbook(effect, run.robot, run.truth.th, run.truth.thd)
+            if law is not None:
+                torque += np.outer(run.truth.torque[:, k] - law, effect.along(run.robot))
+        torques.append(torque)
+    if max(float(np.max(np.abs(tau * moving(run)))) for run, tau in zip(runs, torques, strict=True)) < _SAME:
+        return 0.0
+    return Fit(runs, None, known).size(runs, torques).left
 
 
 def sized(
@@ -156,11 +155,11 @@ def sized(
     """The effect as large as wanted on the runs together, to a twentieth; at its typical size where ``target`` is None
     or where the mode cannot see it.
 
-    Raises OutOfReach.
+    Raises OutOfReach where no size below the law's largest, and below ten times its typical one, will do.
     """
     law = LAWS[effect.law]
     amount = effect.amount(robot)
-    largest = value_of(law.largest, robot, effect.joint - 1)
+    largest = min(value_of(law.largest, robot, effect.joint - 1), _PLAUSIBLE * abs(amount))
     fit: Fit | None = None
     for _ in range(_TRIES):
         tried = effect.sized(amount)

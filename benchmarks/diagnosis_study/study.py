@@ -29,7 +29,8 @@ class Expected:
 @dataclass(frozen=True)
 class Study:
     """``laws`` by name; ``outside`` laws must not be named; ``reserved`` laws are in no test of the development;
-    ``pairs`` hide each other.
+    ``pairs`` hide each other; ``power`` are the laws of the power curve; ``beside`` those that a robot may have and its
+    file know.
     """
 
     seed: int
@@ -39,6 +40,7 @@ class Study:
     reserved: tuple[str, ...]
     pairs: tuple[tuple[str, str], ...]
     power: tuple[str, ...]
+    beside: tuple[str, ...]
 
 
 def _expected(record: Mapping[str, Any]) -> Expected:
@@ -63,6 +65,7 @@ def _read() -> Study:
         reserved=tuple(record["reserved"]),
         pairs=tuple((first, second) for first, second in record["pairs"]),
         power=tuple(record["power"]),
+        beside=tuple(record["beside"]),
     )
 
 

@@ -27,7 +27,7 @@ EFFECT = Effect(
             "motion in which the friction builds up",
             0.0,
             prismatic="m",
-            tried=(3e-4, 1e-3, 3e-3, 1e-2, 3e-2),
+            tried=(3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1),
         ),
     ),
     states=(State("zd", ("1", "1"), "part of the friction that is built up, -1 to 1"),),

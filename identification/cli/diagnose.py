@@ -39,6 +39,8 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification.diagnosis.command import Request, diagnosed
+        from identification.report.diagnose.report import report
+        from identification.report.page import REPORT
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise diagnose"), f"{error.name} is not installed", extra) from None
@@ -48,7 +50,7 @@ def run(arguments: argparse.Namespace) -> None:
         robot = read(path)
     folder = arguments.out or Path("diagnosed") / robot.name
     wanted = Request(arguments.data, arguments.validate, arguments.test, arguments.prior, arguments.dry_run)
-    found, new, files = diagnosed(path, robot, wanted, folder)
+    found, new, files = diagnosed(path, robot, wanted, folder, lambda *about: {REPORT: report(*about)})
     print("\n".join([*summary(found), *tested(new)]))
     print(f"files            {', '.join(files)} in {folder}/")
 

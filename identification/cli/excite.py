@@ -2,7 +2,8 @@
 
 The motion is a finite Fourier series of every joint within the limits of the robot file. DIR receives trajectory.csv
 with times, wanted positions qr1 .. and speeds qd1 .., which a controller or "counterpoise simulate --trajectory played"
-plays, and excitation.json with the standard deviation that identification will reach for each base parameter.
+plays, and excitation.json and report.html with the standard deviation that identification will reach for each base
+parameter.
 """
 
 from __future__ import annotations
@@ -64,6 +65,8 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         from identification.excitation.results import save
         from identification.observation import Regressors
+        from identification.report.excite.report import report
+        from identification.report.page import REPORT
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise excite"), f"{error.name} is not installed", extra) from None
@@ -76,7 +79,7 @@ def run(arguments: argparse.Namespace) -> None:
         regressors = Regressors(robot)
     found = _designed(arguments, robot, regressors)
     folder = arguments.out or Path("excitation") / robot.name
-    files = save(found, folder)
+    files = save(found, folder, {REPORT: report(found)})
     print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")
 

@@ -1,8 +1,8 @@
 """Identify the dynamic parameters of a robot by output error: simulated in open loop, its positions follow the runs.
 
 Runs are as in `counterpoise identify`, whose estimate from them is the first start. The simulation begins anew in each
-segment, at a state that is sought as well. DIR receives results.json, the robot file with the parameters in it, and the
-result of each start as it comes: the same command goes on where it was interrupted.
+segment, at a state that is sought as well. DIR receives results.json, report.html, the robot file with the parameters
+in it, and the result of each start as it comes: the same command goes on where it was interrupted.
 """
 
 from __future__ import annotations
@@ -52,6 +52,8 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         from identification.output_error.multi_start import output_error
         from identification.output_error.results import save, summary
+        from identification.report.output_error.report import report
+        from identification.report.page import REPORT
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise output-error"), f"{error.name} is not installed", extra) from None
@@ -65,7 +67,7 @@ def run(arguments: argparse.Namespace) -> None:
         found = output_error(
             robot, arguments.data, arguments.test, settings, arguments.starts, executor, folder, counted
         )
-    files = save(found, path, folder)
+    files = save(found, path, folder, {REPORT: report(found)})
     print(f"{robot.name}: {len(found.best.names)} parameters by output error")
     print("\n".join(summary(found)))
     print(f"files            {', '.join(files)} in {folder}/")

@@ -57,6 +57,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--resolution", metavar="RAD", type=float, nargs="+", default=[0.0], help="step of the motors' encoders"
     )
     log.add_argument("--noise", metavar="A", type=float, nargs="+", default=[0.0], help="rms of the currents' noise")
+    log.add_argument(
+        "--wrench-noise", metavar="N", type=float, nargs="+", default=[0.0], help="rms of the forces' noise, [N m] too"
+    )
     log.add_argument("--delay", metavar="S", type=float, default=0.0, help="of the motors' positions")
     log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="of the links' positions")
     parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", help="a body on the tool, as M=150 MZ=-15")
@@ -120,6 +123,7 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         largest=arguments.largest,
         resolution=arguments.resolution,
         noise=arguments.noise,
+        wrench_noise=arguments.wrench_noise,
         delay=arguments.delay,
         link_delay=arguments.link_delay,
         friction_drift=arguments.friction_drift,

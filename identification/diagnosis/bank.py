@@ -84,7 +84,9 @@ class Bank:
         """Columns of a hypothesis with a shape; None where that is impossible along a run or acts nowhere."""
         per_run = []
         for run, scene in zip(self.runs, self.scenes, strict=True):
-            columns = hypothesis.columns(scene, shape)
+            # A shape that the motion makes impossible shows in numbers that are not finite.
+            with np.errstate(all="ignore"):
+                columns = hypothesis.columns(scene, shape)
             if not np.all(np.isfinite(columns)):
                 return None
             per_run.append(columns)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,8 +18,6 @@ from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import roles
 from identification.observation import Regressors
-from identification.report.diagnose.report import report
-from identification.report.page import REPORT
 from identification.results import written
 
 #: Name of the machine-readable result.
@@ -37,8 +35,16 @@ class Request:
     dry: bool = False
 
 
-def diagnosed(path: Path, robot: Robot, wanted: Request, folder: Path) -> tuple[Diagnosis, Mended | None, list[str]]:
+def diagnosed(
+    path: Path,
+    robot: Robot,
+    wanted: Request,
+    folder: Path,
+    pages: Callable[[Diagnosis, Mended | None], Mapping[str, bytes]],
+) -> tuple[Diagnosis, Mended | None, list[str]]:
     """The diagnosis of the robot file ``path``, the mended robot, and the names of what was written into ``folder``.
+
+    ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Raises InputError for runs and parameter sets that cannot be used.
     """
@@ -61,7 +67,7 @@ def diagnosed(path: Path, robot: Robot, wanted: Request, folder: Path) -> tuple[
     found = diagnose(regressors, runs, chosen, known, told, wanted.dry)
     new = None if wanted.dry else mended(path, found, wanted.prior, folder, stage)
     with stage("writing the report"):
-        pages = {RESULTS: written(document(found, new)).encode(), REPORT: report(found, new)}
-        replace(folder, pages)
+        files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}
+        replace(folder, files)
     made = [] if new is None else [f"{robot.name}.yaml", "generated"]
-    return found, new, [*pages, *made]
+    return found, new, [*files, *made]

@@ -87,13 +87,14 @@ class EffectColumns:
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state from zero, exact where its rate is linear in it: z + h f phi(h f'), phi = (e^x - 1)/x."""
+        """The effect's state from that of a long motion the first way, exact where its rate is linear in it: z + h f phi(h f'), phi = (e^x - 1)/x."""
         assert self._rates is not None
         stride = max(1, int(1 / (scene.period * _STEPS)))
         speed = scene.motion.qd[self._k, ::stride]
         h = stride * scene.period
         z = np.empty(len(speed))
-        now = 0.0
+        # What moved before the record began has come to its end.
+        now = float(np.sign(speed[0]))
         for i, v in enumerate(speed.tolist()):
             z[i] = now
             f, slope = self._rates(*values, v, now)

@@ -17,7 +17,7 @@ from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.hypothesis import BODY
 from identification.diagnosis.normal import Prior
-from identification.diagnosis.played import Played, Player, compiled, play
+from identification.diagnosis.played import Played, Player, aligned, compiled, play
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
@@ -53,7 +53,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """The robot file ``path`` with the findings of a diagnosis in it, written to ``folder``, its code beside it.
 
     With a ``prior`` set the old model plays with that set and the new parameters stay near it; without, both are
-    fitted to the runs that the diagnosis fitted.
+    fitted to the runs that the diagnosis fitted and validated with.
 
     Raises InputError where ``folder`` cannot be written.
     """
@@ -64,9 +64,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
         more = {key: value for one in additions for key, value in one.parameters.items()}
-        fit = refit(_sampled(found.roles.train, regressors), regressors, known, more, _description(found.findings))
+        fit = refit(_sampled(found.roles.known, regressors), regressors, known, more, _description(found.findings))
         if prior is None:
-            values = refit(_sampled(found.roles.train, old_regressors), old_regressors).values
+            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).values
         else:
             mean = prior_of(old_regressors.model, prior).mean.tolist()
             values = dict(zip(old_regressors.names, mean, strict=True))
@@ -76,13 +76,14 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("playing the untouched runs"):
         before = _played(found.roles.test, Player(old_regressors), values)
         after = _played(found.roles.test, player, fit.values)
+        pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
     return Mended(
         text,
         new.robot,
         tuple(additions),
         fit,
-        before,
-        after,
+        tuple(old for old, _ in pairs),
+        tuple(now for _, now in pairs),
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
         folder / GENERATED / found.robot.name,
@@ -114,7 +115,10 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
 def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
     robot = regressors.model.robot
     recipe = recipes.recipe_of(robot.name)
-    return [sampled(load(source, robot, recipe.columns), recipe, regressors) for source in sources]
+    runs = [load(source, robot, recipe.columns, resting=True) for source in sources]
+    # Parts of runs that were split may be too short for the filters of an identification.
+    enough = [run for run in runs if run.samples >= recipe.at(run.rate).fewest]
+    return [sampled(run, recipe, regressors) for run in enough or runs]
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

@@ -14,10 +14,10 @@ from generator.errors import InputError
 from generator.generation import Stage, generate, silent
 from generator.python_library import build_library, load_library
 from generator.symbolic.effect_torques import STATES, WARMTH
-from identification.filtering import decimated, kept_indices
+from identification.filtering import decimated, kept_indices, kept_rows
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
-from identification.sampling import Sampled, kept_rows
+from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
@@ -86,6 +86,11 @@ class Played:
     model: Array
     kept: NDArray[np.bool_]
 
+    def part(self, start: int, count: int) -> Played:
+        """``count`` rows from number ``start``."""
+        rows = slice(start, start + count)
+        return Played(self.t[rows], self.measured[:, rows], self.model[:, rows], self.kept[:, rows])
+
     @property
     def residuals(self) -> Residuals:
         """Of the kept rows, by joint (coordinates from 0)."""
@@ -111,3 +116,11 @@ def play(one: Sampled, player: Player, values: Mapping[str, float]) -> Played:
     t = one.times[kept_indices(one.motion.samples, factor)]
     kept = np.stack([kept_rows(left_out, factor) for left_out in one.left_out])
     return Played(t, decimated(one.tau, factor), decimated(model, factor), kept)
+
+
+def aligned(one: Played, other: Played) -> tuple[Played, Played]:
+    """Both over the rows that they have in common: a corrected delay moves the ends of a run."""
+    step = float(np.median(np.diff(one.t)))
+    shift = round(float(other.t[0] - one.t[0]) / step)
+    count = min(len(one.t) - max(shift, 0), len(other.t) - max(-shift, 0))
+    return one.part(max(shift, 0), count), other.part(max(-shift, 0), count)

@@ -5,21 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from identification.dataset import Run
 
 #: Parts of a run's time that are fitted and that validate, where there are too few runs; the rest tests.
 _FITTED, _VALIDATED = 0.55, 0.2
 #: Time between such parts [s] and, in a short run, its part of the time.
 _GAP, _SHORT = 0.5, 0.02
+#: Places that are tried for the validating block, and the least part of a run that is worth fitting.
+_PLACES, _LEAST = 7, 0.2
 
 
 @dataclass(frozen=True)
 class Roles:
-    """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how."""
+    """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how.
+
+    ``known`` are all but those that test, whole where parts of them have a role: what a last fit is made of.
+    """
 
     train: tuple[str, ...]
     validate: tuple[str, ...]
     test: tuple[str, ...]
+    known: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
 
@@ -36,34 +44,63 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
             notes.append(f"{chosen_validate[0]} validates: it is not fitted")
         if not test:
             notes.append(f"{chosen_test[0]} tests: it is touched by nothing before the report")
-        return Roles(tuple(rest), chosen_validate, chosen_test, tuple(notes))
+        return Roles(tuple(rest), chosen_validate, chosen_test, (*rest, *chosen_validate), tuple(notes))
     if not missing:
-        return Roles(tuple(names), tuple(validate), tuple(test))
+        return Roles(tuple(names), tuple(validate), tuple(test), (*names, *validate))
     return _split(data, validate, test)
 
 
 def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
-    """Blocks of time of every run, with gaps between them."""
+    """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates."""
     share = 0.0 if validate else _VALIDATED
     tested = 0.0 if test else 1 - _FITTED - _VALIDATED
-    train, held, last = [], [], []
+    train, held, last, known = [], [], [], list(validate)
     for run in data:
         start, length = run.start, (run.samples - 1) * run.period
         gap = min(_GAP, _SHORT * length)
-        first = start + length * (1 - share - tested)
-        second = first + length * share
-        train.append(_part(run.name, start, first))
-        if not validate:
-            held.append(_part(run.name, first + gap, second))
+        end = start + length * (1 - tested)
+        known.append(_part(run.name, start, end) if not test else run.name)
         if not test:
-            last.append(_part(run.name, second + gap, start + length))
+            last.append(_part(run.name, end + gap, start + length))
+        if validate:
+            train.append(_part(run.name, start, end))
+            continue
+        first = _liveliest(run, end, share * length, gap)
+        held.append(_part(run.name, first, first + share * length))
+        around = ((start, first - gap), (first + share * length + gap, end))
+        train += [_part(run.name, a, b) for a, b in around if b - a > _LEAST * length]
     parts = [text for text, wanted in (("validates", not validate), ("tests", not test)) if wanted]
     fitted = 100 * (1 - share - tested)
     note = (
-        f"of every run the first {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
+        f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
-    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), (note,))
+    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last), tuple(known), (note,))
+
+
+def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
+    """Where a block of ``length`` [s] before ``end`` begins that leaves every joint's motion to both sides as asked.
+
+    A joint's motion is its squared speed; parts too short to be fitted are lost.
+    """
+    power = np.gradient(run.q, run.period, axis=-1) ** 2
+    total = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=-1)], axis=-1)
+    moves = total[:, -1] > 1e-9 * total[:, -1].max()
+    whole, count = int((end - run.start) / run.period), int(length / run.period)
+    least, between = _LEAST * run.samples, int(gap / run.period)
+    part = count / whole
+
+    def least_share(first: int, last: int) -> float:
+        """Of all joints, the least part of its motion that lies between two samples."""
+        return float(((total[:, last] - total[:, first]) / total[:, whole].clip(1e-300))[moves].min())
+
+    def goodness(k: int) -> float:
+        around = [(0, max(k - between, 0)), (min(k + count + between, whole), whole)]
+        kept = sum(least_share(a, b) for a, b in around if b - a > least)
+        return min(least_share(k, k + count) / part, kept / (1 - part))
+
+    places = np.unique(np.linspace(0, whole - count, _PLACES).astype(int))
+    return float(run.start + max(places.tolist(), key=goodness) * run.period)
 
 
 def _part(name: str, start: float, end: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -53,15 +54,16 @@ class Excitation:
         return self.periods / self.design.series.frequency
 
 
-def save(found: Excitation, folder: Path) -> list[str]:
-    """Writes the run, its sidecar and excitation.json into ``folder``; returns their names.
+def save(found: Excitation, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
+    """Writes the run, its sidecar, excitation.json and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
     notes = "designed, not measured; qr and qd are wanted positions and speeds, at rest at both ends"
-    beside = f"robot: {found.robot.name}\nnotes: {notes}\n"
-    files = {RUN: _run(found), BESIDE: beside, RESULTS: written(document(found))}
-    replace(folder, {name: text.encode() for name, text in files.items()})
+    sidecar = f"robot: {found.robot.name}\nnotes: {notes}\n"
+    texts = {RUN: _run(found), BESIDE: sidecar, RESULTS: written(document(found))}
+    files = {name: text.encode() for name, text in texts.items()} | dict(beside or {})
+    replace(folder, files)
     return sorted(files)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -81,8 +82,8 @@ def document(found: OutputError) -> dict[str, Any]:
     }
 
 
-def save(found: OutputError, robot_file: Path, folder: Path) -> list[str]:
-    """Writes results.json and ROBOT.yaml into ``folder``; returns their names.
+def save(found: OutputError, robot_file: Path, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
+    """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
@@ -90,7 +91,7 @@ def save(found: OutputError, robot_file: Path, folder: Path) -> list[str]:
     values = outcome.values_of_set(parameters(found))
     one = ParameterSet(SET, "base parameters by output error in open loop", f"output error from {runs}", values)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
-    files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode()}
+    files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode(), **(beside or {})}
     replace(folder, files)
     return sorted(files)
 

@@ -11,7 +11,7 @@ from generator.review.markup import Markup, element
 from generator.review.page import sections
 from generator.version import VERSION
 
-#: Name of the file, beside results.json.
+#: Name of the file, beside results.json or diagnosis.json.
 REPORT = "report.html"
 
 

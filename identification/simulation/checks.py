@@ -38,6 +38,9 @@ def check(settings: Settings, robot: Robot) -> None:
         ("--noise", settings.noise),
     ):
         each(values, n, option)
+    if len(settings.wrench_noise) not in (1, 2):
+        problem = f"{len(settings.wrench_noise)} numbers"
+        raise InputError(command_line("--wrench-noise"), problem, "one of forces, or one of forces and one of moments")
     for name in settings.further:
         if name not in FURTHER:
             raise InputError(command_line("--also"), f"columns {name!r}", f"one of {', '.join(FURTHER)}")
@@ -65,6 +68,7 @@ def _check_numbers(settings: Settings) -> None:
     for option, values in (
         ("--resolution", settings.resolution),
         ("--noise", settings.noise),
+        ("--wrench-noise", settings.wrench_noise),
         ("--delay", [settings.delay]),
         ("--link-delay", [settings.link_delay]),
         ("--temperature-rise", [settings.rise]),

@@ -14,7 +14,7 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.simulation import cascade
 from identification.simulation.checks import each
-from identification.simulation.contact import Contact
+from identification.simulation.contact import Contact, Foot
 from identification.simulation.machine import Machine
 from identification.simulation.settings import Settings
 from identification.trajectory import Array, Reference
@@ -63,8 +63,8 @@ class Loop:
         )
         self._steps = cascade.steps(module, model, robot, links, motors, settings.period)
         numbers = [robot.moving[k].number for k in self._elastic]
-        stiffness = np.array([cascade.value_of(module, model, f"k{number}") for number in numbers])
-        self._plant = self._placed(np.concatenate([start, -load[self._elastic] / stiffness]))
+        self._stiffness = np.array([cascade.value_of(module, model, f"k{number}") for number in numbers])
+        self._plant = self._placed(np.concatenate([start, -load[self._elastic] / self._stiffness]))
         self._encoders = Encoders(robot, settings, start)
 
     def run(self, progress: Progress) -> Log:
@@ -77,12 +77,14 @@ class Loop:
         for _ in range(round(_REST * settings.rate)):
             tau = self._sample(reference.q[0], still, None)
         if reference.locked:
-            self._model.update({f"Fc{joint.number}": _LOCK for joint in self._machine.robot.moving})
+            moving = self._machine.robot.moving
+            self._model.update({f"Fc{moving[k].number}": _LOCK for k in reference.locked})
             self._plant = self._placed(self._plant.q.copy())
         contact = None if reference.stop is None else Contact(self._model, reference.stop, self._links())
+        foot = Foot(self._model, reference.locked) if reference.measured else None
         rows = len(reference.q)
         q, torques, links = (np.empty((rows, self._n)) for _ in range(3))
-        wrench = None if contact is None else np.empty((rows, 6))
+        wrench = None if contact is None and foot is None else np.empty((rows, 6))
         news = max(1, round(_NEWS * settings.rate))
         frictions = self._frictions()
         for k in range(rows):
@@ -92,12 +94,15 @@ class Loop:
                 part = 1 + settings.friction_drift * float(settings.warmth(np.array(k * settings.period)))
                 if settings.friction_drift:
                     self._model.update({name: part * value for name, value in frictions.items()})
-            links[k] = self._links()
+            links[k], twisted = self._links(), self._twisted()
             before = tau
             tau = self._sample(reference.q[k], reference.qd[k], contact)
             q[k], torques[k] = self._encoders.q, (before + tau) / 2
-            if contact is not None and wrench is not None:
+            if wrench is not None and contact is not None:
                 wrench[k] = contact.wrench
+            if wrench is not None and foot is not None:
+                foot.carry(links[k], twisted)
+                wrench[k] = foot.wrench
         self._check(rows)
         return Log(q, torques, links, wrench)
 
@@ -120,6 +125,12 @@ class Loop:
         state = self._plant.qd if speeds else self._plant.q
         result: Array = state[: self._n].copy()
         result[self._elastic] += state[self._n :]
+        return result
+
+    def _twisted(self) -> Array:
+        """Torques of the elastic drive trains on their links (n) [N m, N], zero where they are rigid."""
+        result = np.zeros(self._n)
+        result[self._elastic] = -self._stiffness * self._plant.q[self._n :]
         return result
 
     def _frictions(self) -> dict[str, float]:

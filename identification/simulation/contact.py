@@ -1,7 +1,8 @@
-"""A tool on a rigid stop: the force between them and the torques that it puts on the links."""
+"""A tool on a rigid stop: the force between them and the torques that it puts on the links; and links that are held."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -31,3 +32,24 @@ class Contact:
         self.wrench = np.concatenate([pose[:3, :3].T @ (force * self._normal), np.zeros(3)])
         result: Array = -self._model.wrench_torque(q, self.wrench)
         return result
+
+
+class Foot:
+    """What holds the ``locked`` links without a torque about the others: in an arm with a spherical wrist whose first
+    three links stand, a ball joint in the wrist's centre.
+
+    ``wrench`` (6) is that of the robot on it, in the tool frame: force [N], moment [N m] at the tool's origin.
+    """
+
+    def __init__(self, model: Any, locked: Sequence[int]) -> None:
+        self._model, self._locked = model, list(locked)
+        self.wrench: Array = np.zeros(6)
+
+    def carry(self, q: Array, tau: Array) -> None:
+        """Takes what drive trains put on the links (n) [N m, N] beyond the weight at link positions ``q`` (n)."""
+        still, held = np.zeros(len(q)), np.zeros(len(q))
+        weight = self._model.inverse_dynamics(q, still, still)
+        held[self._locked] = (tau - weight)[self._locked]
+        world = np.linalg.solve(self._model.tool_jacobian(q).T, held)
+        turn = self._model.tool_transform(q)[:3, :3].T
+        self.wrench = np.concatenate([turn @ world[:3], turn @ world[3:]])

@@ -56,6 +56,7 @@ def _sidecar(run: Simulated, robot: str, digest: str) -> str:
         "largest": [one for one in settings.largest if one != np.inf],
         "resolution": settings.resolution,
         "noise": settings.noise,
+        "wrench_noise": settings.wrench_noise,
         "delay": settings.delay,
         "link_delay": settings.link_delay,
         "friction_drift": settings.friction_drift,

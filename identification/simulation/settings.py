@@ -24,7 +24,8 @@ class Settings:
 
     ``bandwidth`` [Hz] is that of the speed loops, ``largest`` [A, else N m, N of the rotor] cuts the current.
     ``resolution`` [rad, m] is a step of the motors' encoders (the joints' where there are no drives), ``noise`` the
-    rms of the logged effort in its unit. ``delay`` [s] is how late controller and log see the motors, ``link_delay``
+    rms of the logged effort in its unit, ``wrench_noise`` that of logged forces [N], and of moments [N m] if it has
+    two values. ``delay`` [s] is how late controller and log see the motors, ``link_delay``
     how late the log sees the links. ``payload`` is on the tool in the whole run.
 
     At warmth 1 frictions have changed by ``friction_drift``, torque constants by ``constant_drift`` (parts of their
@@ -46,6 +47,7 @@ class Settings:
     largest: Sequence[float] = (np.inf,)
     resolution: Sequence[float] = (0.0,)
     noise: Sequence[float] = (0.0,)
+    wrench_noise: Sequence[float] = (0.0,)
     delay: float = 0.0
     link_delay: float = 0.0
     friction_drift: float = 0.0

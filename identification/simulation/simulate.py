@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,9 @@ from identification.simulation.machine import Machine
 from identification.simulation.payload import carried, whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectory import Array, Reference, Task, Value
+
+#: Stems of the columns of efforts.
+_EFFORTS = ("tau", "taum", "i")
 
 
 @dataclass(frozen=True)
@@ -56,11 +59,34 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
         raise InputError(command_line("--trajectory"), problem, expected or "settings that the robot allows") from None
     log = Loop(machine, model, settings, reference).run(progress)
     columns = _columns(machine, model, settings, reference, log)
-    return Simulated(columns, settings, values, start, parameters)
+    clean = Simulated(columns, replace(settings, noise=(0.0,), wrench_noise=(0.0,)), values, start, parameters)
+    seed = settings.seed if settings.noise_seed is None else settings.noise_seed
+    return noisy(clean, settings.noise, settings.wrench_noise, seed)
+
+
+def noisy(run: Simulated, noise: Sequence[float], wrench_noise: Sequence[float] = (0.0,), seed: int = 0) -> Simulated:
+    """A run without noise as it is logged with noise, which the controller never sees: see ``Settings``.
+
+    The run is simulated once for any number of seeds.
+    """
+    if any(run.settings.noise) or any(run.settings.wrench_noise):
+        raise ValueError("this run has its noise already")
+    efforts = [name for name in run.columns if name.rstrip("0123456789") in _EFFORTS]
+    wrench = [name for name in run.columns if name in WRENCH]
+    forces, moments = (*wrench_noise, 0.0)[:2]
+    columns = dict(run.columns)
+    for stream, names, sizes in (
+        (1, efforts, each(noise, len(efforts), "--noise")),
+        (2, wrench, np.array([forces] * 3 + [moments] * 3)[: len(wrench)]),
+    ):
+        drawn = np.random.default_rng([seed, stream]).normal(size=(len(columns["t"]), len(names)))
+        columns |= {name: columns[name] + size * x for name, size, x in zip(names, sizes, drawn.T, strict=True)}
+    settings = replace(run.settings, noise=noise, wrench_noise=wrench_noise, noise_seed=seed)
+    return replace(run, columns=columns, settings=settings)
 
 
 def _columns(machine: Machine, model: Any, settings: Settings, reference: Reference, log: Log) -> dict[str, Array]:
-    """What is logged, with the noise of the efforts."""
+    """What is logged, without noise."""
     robot, kept = machine.robot, slice(None, None, settings.every)
     rows, n = log.q.shape
     numbers = [joint.number for joint in robot.moving]
@@ -70,9 +96,6 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     warmth = settings.warmth(t)
     drift = 1 + settings.constant_drift * warmth
     effort = log.tau @ np.linalg.inv(N) / constants / drift[:, None]
-    seed = settings.seed if settings.noise_seed is None else settings.noise_seed
-    noise = np.random.default_rng([seed, 1]).normal(size=effort.shape)
-    effort = effort + each(settings.noise, n, "--noise") * noise
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
     parts = {
         "qm" if robot.drives else "q": log.q @ N.T,

@@ -21,7 +21,7 @@ def _plan(task: Task) -> Reference:
     angle = task.number("angle") * elastic
     q = task.pose + np.outer(grown * np.sin(w * t), angle)
     qd = np.outer(growth * np.sin(w * t) + grown * w * np.cos(w * t), angle)
-    return Reference(q, qd, locked=True)
+    return Reference(q, qd, locked=tuple(range(len(task.pose))))
 
 
 TRAJECTORY = Trajectory(

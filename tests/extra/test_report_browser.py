@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.diagnosed_arm import case
 from tests.extra.browser import document, visit
 from tests.reports import pages
 
-KINDS = ("identify", "gains", "steps", "locked", "compare")
+KINDS = ("identify", "gains", "steps", "locked", "compare", "excite", "output_error", "diagnose")
 
 #: Run in a copy of the page: where the charts are and what they say of themselves; then all buttons are pressed.
 _MEASURE = """
@@ -44,7 +45,8 @@ document.body.append(holder);
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    return pages(tmp_path_factory.mktemp("reports"))
+    folder = tmp_path_factory.mktemp("reports")
+    return {**pages(folder), "diagnose": case(folder, "stribeck").page}
 
 
 def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:

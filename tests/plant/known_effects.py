@@ -8,12 +8,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tests.plant.effect import Effect
-from tests.plant.robot import Robot
+from tests.plant.robot import Array, Robot
 
 
 @dataclass(frozen=True)
 class Entry:
-    """An effect of a robot file by its id, on a joint (from 1): ``values`` as text, ``parameters`` by stem."""
+    """An effect of a robot file by its id, on a joint (from 1): ``values`` as text, ``parameters`` by stem.
+
+    Parameters that the joint has already are added to.
+    """
 
     effect: str
     joint: int
@@ -57,6 +60,17 @@ def entry(effect: Effect, robot: Robot) -> Entry | None:
         return None
     units = _SLIDING if robot.chain[effect.joint - 1].prismatic else _TURNING
     return make(effect, robot, units)
+
+
+def textbook(effect: Effect, robot: Robot, q: Array, qd: Array) -> Array | None:
+    """Torque (T) of the entry's law with the effect's values along a motion (T x n), None where the plant's law is the
+    textbook's.
+    """
+    make = _TEXTBOOK.get(effect.law)
+    if make is None:
+        return None
+    along = effect.along(robot)
+    return np.asarray(make(effect, robot, q @ along, qd @ along))
 
 
 def _spring_balancer(effect: Effect, robot: Robot, units: _Units) -> Entry:
@@ -130,7 +144,9 @@ def _load(effect: Effect, robot: Robot, units: _Units) -> Entry:
 def _gradual(effect: Effect, robot: Robot, units: _Units) -> Entry:
     size = effect.amount(robot)
     shape = {"v0": f"{effect.value('speed', robot)!r} {units.speed}"}
-    return Entry("gradual_friction", effect.joint, shape, {"Fg": (size, units.torque)})
+    # It stands in the place of as much Coulomb friction.
+    parts = {"Fg": (size, units.torque), "Fc": (-size, units.torque)}
+    return Entry("gradual_friction", effect.joint, shape, parts)
 
 
 _ENTRIES: Mapping[str, Callable[[Effect, Robot, _Units], Entry]] = {
@@ -147,4 +163,13 @@ _ENTRIES: Mapping[str, Callable[[Effect, Robot, _Units], Entry]] = {
     "stribeck": _stribeck,
     "wrist_friction": _coupled_rotor,
     "wrist_inertia": _coupled_rotor,
+}
+
+_TEXTBOOK: Mapping[str, Callable[[Effect, Robot, Array, Array], Array]] = {
+    "cable_spring": lambda e, robot, q, v: e.amount(robot) * (q - e.value("rest", robot)),
+    "coulomb": lambda e, robot, q, v: e.amount(robot) * np.sign(v),
+    "gradual_rise": lambda e, robot, q, v: e.amount(robot) * (np.tanh(v / e.value("speed", robot)) - np.sign(v)),
+    "position_friction": lambda e, robot, q, v: e.amount(robot) * np.cos(q - e.value("phase", robot)) * np.sign(v),
+    "stribeck": lambda e, robot, q, v: e.amount(robot) * np.exp(-((v / e.value("speed", robot)) ** 2)) * np.sign(v),
+    "wrist_friction": lambda e, robot, q, v: e.amount(robot) * (np.sign(v) + v / e.value("speed", robot)),
 }

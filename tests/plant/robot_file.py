@@ -23,9 +23,9 @@ def robot_file(
 ) -> str:
     """YAML with the geometry, the drives, rotor inertia, friction, offset and the robot's own effects.
 
-    ``leave_out`` are ids of the generator's effects, or such with a joint (from 1). ``known`` are effects beside the simple ones, the robot's own if
-    None. ``told`` turns a parameter's name and true value into the value in the file and its relative standard
-    deviation [%], None for none. Elastic drive trains are not written.
+    ``leave_out`` are ids of the generator's effects, or such with a joint (from 1). ``known`` are effects beside the
+    simple ones, the robot's own if None. ``told`` turns a parameter's name and true value into the value in the file
+    and its relative standard deviation [%], None for none. Elastic drive trains are not written.
     """
     lines = [f"name: {robot.name}", "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]"]
     if any(robot.base):
@@ -60,7 +60,9 @@ def robot_file(
     for one in _entries(robot.own if known is None else known, robot):
         if one.effect not in leave_out and (one.effect, one.joint) not in leave_out:
             uses.append(one.line)
-            values |= {f"{stem}{one.joint}": value for stem, value in one.parameters.items()}
+            for stem, (value, unit) in one.parameters.items():
+                name = f"{stem}{one.joint}"
+                values[name] = (values.get(name, (0.0, unit))[0] + value, unit)
     lines += ["effects:", *uses] if uses else ["effects: []"]
     lines += ["parameters:", f"  {PRIOR}:", "    description: values of the simulation", "    values:"]
     for name, (value, unit) in values.items():

@@ -6,50 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.quantities import signals
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending import Mended
-from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.played import Played
-
-Array = NDArray[np.float64]
-
-#: Least gap to the noise, in squares of the residual, of which a share is told.
-_GAP = 0.25
-
-
-@dataclass(frozen=True)
-class Tried:
-    """A joint of the untouched runs: rms of the residual before, after, and of noise; spread of its torque [N m, N]."""
-
-    before: float
-    after: float
-    floor: float
-    spread: float
-
-    @property
-    def relative_before(self) -> float:
-        """In % of the torque's spread."""
-        return 100 * self.before / self.spread
-
-    @property
-    def relative_after(self) -> float:
-        """In % of the torque's spread."""
-        return 100 * self.after / self.spread
-
-    @property
-    def relative_floor(self) -> float:
-        """In % of the torque's spread."""
-        return 100 * self.floor / self.spread
-
-    @property
-    def closed(self) -> float | None:
-        """The share of the gap between ``before`` and the noise that is closed; None where there is no gap."""
-        gap = self.before**2 - self.floor**2
-        return (self.before**2 - self.after**2) / gap if gap > _GAP * self.before**2 else None
+from identification.diagnosis.untouched import Untouched, untouched
 
 
 @dataclass(frozen=True)
@@ -84,24 +45,8 @@ class Subject:
         return list(zip(names, self.mended.before, self.mended.after, strict=True))
 
     @cached_property
-    def tried(self) -> dict[int, Tried]:
-        """Untouched runs together, by the joint's number; joints without rows are not there."""
-        result = {}
-        for k, number in enumerate(self.numbers):
-            parts = [(one, other, one.kept[k] & other.kept[k]) for _, one, other in self.tested]
-            y = np.concatenate([one.measured[k, rows] for one, _, rows in parts] or [np.empty(0)])
-            if not len(y):
-                continue
-            before, after = (
-                np.concatenate([(pair[i].measured - pair[i].model)[k, pair[2]] for pair in parts]) for i in (0, 1)
-            )
-            floor = noise_floor(self.found.found.bank, k, self._rate)
-            first, last = (float(np.sqrt(np.mean(e**2))) for e in (before, after))
-            result[number] = Tried(first, last, floor, float(y.std()) or np.inf)
-        return result
-
-    @property
-    def _rate(self) -> float:
-        """Rows a second of the untouched runs [Hz]."""
-        one = self.tested[0][1]
-        return 1 / float(np.median(np.diff(one.t)))
+    def tried(self) -> dict[int, Untouched]:
+        """Untouched runs together, by the joint's number."""
+        if self.mended is None or not self.mended.before:
+            return {}
+        return untouched(self.found.found.bank, self.mended.before, self.mended.after)

@@ -70,8 +70,8 @@ def finding(subject: Subject, one: Finding) -> Iterator[str]:
         f"{plain(rms, 3)}\u00a0{unit(subject.torque_units[number])} on joint {number}"
         for number, rms in sorted(one.amplitude.items(), key=lambda pair: -pair[1])[:3]
     ]
-    yield f"Its torque is {listed(amplitude)} (rms);"
-    yield f"{plain(one.evidence.size, 2)} times the noise of it can be laid to nothing else in the model."
+    yield f"Its torque is {listed(amplitude)} (rms); what of it nothing else in the model can stand for is"
+    yield f"{plain(one.evidence.size, 2)} times the noise."
     e = one.evidence
     yield f"It is {one.status}: chance would explain as much with a probability {_probability(e.p)}, and the sum of"
     yield f"squares of runs that were not fitted falls by {plain(e.validation, 3)}, in variances of the noise."
@@ -92,8 +92,9 @@ def change(subject: Subject) -> Iterator[str]:
     acted = [number for number in subject.found.findings[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
-        yield f"On the untouched runs joint {number} is left with {plain(one.relative_after, 3)}\u202f% of its torque's"
-        yield f"spread, instead of {plain(one.relative_before, 3)}\u202f%;"
+        before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
+        yield f"On the untouched runs joint {number} is left with {after}\u202f% of its torque's spread, instead of"
+        yield f"{before}\u202f%;"
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
         if one.closed is not None:
             yield f"{plain(100 * one.closed, 3)}\u202f% of the gap between the two, in squares, is closed."

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from generator.review.markup import Markup, element, join
 from generator.review.words import plural
 from identification.diagnosis.diagnosis import NAMED, NOTHING
+from identification.diagnosis.untouched import rms
 from identification.report.diagnose import words
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import card, plain
@@ -39,7 +40,7 @@ def _cards(subject: Subject) -> Iterator[Markup]:
     left = max(found.after.lack, key=lambda one: one.size)
     yield card(f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs")
     if subject.tried:
-        number = max(subject.tried, key=lambda k: subject.tried[k].before - subject.tried[k].after)
+        number = max(subject.tried, key=lambda k: rms(subject.tried[k].before) - rms(subject.tried[k].after))
         one = subject.tried[number]
-        change = f"{plain(one.relative_before, 3)} → {plain(one.relative_after, 3)}\u202f%"
+        change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
         yield card(change, f"left on joint {number}", "untouched runs, of the spread")

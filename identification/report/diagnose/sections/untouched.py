@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.words import unit
+from identification.diagnosis.untouched import rms
 from identification.report.chart import ESTIMATED, MEASURED, RESIDUAL, axis, chart
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
@@ -31,8 +32,8 @@ def render(subject: Subject) -> Markup | None:
 def _bars(subject: Subject) -> Markup:
     names = [f"joint {number}" for number in subject.tried]
     kinds = (
-        ("before", RESIDUAL, [one.relative_before for one in subject.tried.values()]),
-        ("after", ESTIMATED, [one.relative_after for one in subject.tried.values()]),
+        ("before", RESIDUAL, [one.before.relative_to_mean for one in subject.tried.values()]),
+        ("after", ESTIMATED, [one.after.relative_to_mean for one in subject.tried.values()]),
         ("noise", MEASURED, [one.relative_floor for one in subject.tried.values()]),
     )
     data = [{"type": "bar", "name": n, "x": names, "y": numbers(y), "marker": {"color": c}} for n, c, y in kinds]
@@ -45,8 +46,10 @@ def _table(subject: Subject) -> Markup:
     for joint, one in subject.tried.items():
         symbol = f"\u202f{unit(subject.torque_units[joint])}"
         closed = NONE if one.closed is None else percent(100 * one.closed)
-        sizes = [[number(value, 4), symbol] for value in (one.before, one.after, one.floor)]
-        rows.append([str(joint), *sizes, percent(one.relative_before), percent(one.relative_after), closed])
+        sizes = [[number(value, 4), symbol] for value in (rms(one.before), rms(one.after), one.floor)]
+        rows.append(
+            [str(joint), *sizes, percent(one.before.relative_to_mean), percent(one.after.relative_to_mean), closed]
+        )
     heads = ("joint", "before, rms", "after", "noise", "before, of the spread", "after", "gap closed")
     return table(heads, rows, class_="numbers")
 

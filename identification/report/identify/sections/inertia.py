@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from generator.review.markup import Markup, element, join
-from identification.report.chart import COLOURS, axis, chart, line, log_axis
+from identification.report.chart import axis
 from identification.report.choice import choice
+from identification.report.eigenvalues import eigenvalue_chart
 from identification.report.identify.subject import Subject
-from identification.report.numbers import plain
-from identification.report.series import line as thinned
 from identification.report.series import points_each
 
 TITLE = "Inertia matrix along the runs"
@@ -30,18 +27,6 @@ def render(subject: Subject) -> Markup:
 
 def _panel(subject: Subject, model: str, run: str) -> Markup:
     t, values = subject.eigenvalues[model][run]
-    units = set(subject.torque_units.values())
-    of = "kg m2" if units == {"N m"} else "kg" if units == {"N"} else ""
-    positive = bool(np.min(values) > 0)
     count = points_each(len(subject.runs) * len(subject.models) * values.shape[1])
-    curves = [
-        line(*thinned(t, values[:, k], count), f"λ{k + 1}", COLOURS[k % len(COLOURS)]) for k in range(values.shape[1])
-    ]
-    name = "eigenvalue of M"
-    upward = log_axis(name, of, values.ravel().tolist()) if positive else axis(name, of)
-    layout = {"xaxis": axis("time", "s"), "yaxis": upward}
-    verdict = "all are positive" if positive else "not positive: these parameters are not those of bodies"
-    caption = (
-        f"Least eigenvalue {plain(float(np.min(values)), 4)}, largest {plain(float(np.max(values)), 4)}; {verdict}."
-    )
-    return chart(curves, layout, f"Eigenvalues of the inertia matrix in {run} with {model}", caption, height=320)
+    described = f"Eigenvalues of the inertia matrix in {run} with {model}"
+    return eigenvalue_chart(t, values, axis("time", "s"), subject.torque_units.values(), described, count)

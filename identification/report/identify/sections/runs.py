@@ -20,12 +20,21 @@ def render(subject: Subject) -> Markup:
         "weights": method["least_squares"] + (", Huber's weights against outliers" if method["robust"] else ""),
         "std": method["std"],
         "residual variance": method["residual_variance"],
-        "standstill": f"rows of joints slower than {method['standstill']:g} rad/s or m/s are left out",
+        "standstill": f"rows of joints slower than {_slowest(subject)} are left out",
         "essential": f"ratio of relative standard deviations below {results['essential']['ratio']:g} (report eq. 47)",
         "given": ", ".join(f"{name} = {plain(value, 6)}" for name, value in method["fixed"].items()) or "nothing",
     }
     kinds = {"fitted": results["data"]["train"], "held out": results["data"]["test"]}
     return join(runs_table(kinds), element("h3", "Method"), facts(about), _sensitivity(subject))
+
+
+def _slowest(subject: Subject) -> str:
+    """The joints' thresholds, once where they are the same."""
+    limits = [
+        f"{limit:g} {unit}/s"
+        for limit, unit in zip(subject.results["method"]["standstill"], subject.position_units.values(), strict=True)
+    ]
+    return limits[0] if len(set(limits)) == 1 else f"{', '.join(limits)} (joint by joint)"
 
 
 def _sensitivity(subject: Subject) -> Markup | None:

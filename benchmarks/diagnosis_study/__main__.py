@@ -1,0 +1,60 @@
+"""``python -m benchmarks.diagnosis_study [--cases N] [--cells A B ...]``: the study, its JSON and its page."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping
+from math import inf
+from typing import Any
+
+from benchmarks.diagnosis_study.drawing import MODES, cells
+from benchmarks.diagnosis_study.page import JSON, tables, write
+from benchmarks.diagnosis_study.runner import Plan, run
+
+
+def main() -> int:
+    """Run what is missing, then write all that there is."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cases", type=int, default=200, help="of each cell and mode")
+    parser.add_argument("--cells", nargs="+", choices=cells(), default=list(cells()))
+    parser.add_argument("--modes", nargs="+", choices=MODES, default=list(MODES))
+    parser.add_argument("--baselines", type=int, default=20, help="cases of each that simpler ways are asked as well")
+    parser.add_argument("--minutes", type=float, default=inf, help="after which no case begins")
+    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--development", action="store_true", help="without the reserved laws, and nothing is written")
+    told = parser.parse_args()
+    wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
+    plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
+    results = []
+    for one in run(plan):
+        results.append(one)
+        print(_line(one), flush=True)
+    found = tables(results)
+    if told.development:
+        print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))
+        return 0
+    record = {"cases": told.cases, **found, "results": [_short(one) for one in results]}
+    JSON.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    write(results, found)
+    return int(any("failed" in one for one in results))
+
+
+def _line(one: Mapping[str, Any]) -> str:
+    case = one["case"]
+    hidden = ", ".join(f"{what['law']} {what['joint']}" for what in case["hidden"]) or "nothing"
+    said = one.get("skipped") or one.get("failed")
+    if said is None:
+        score = one["score"]
+        said = f"{score['verdict']}: {', '.join(score['named']) or 'nothing'} ({one['seconds']:.0f} s)"
+    return f"{case['cell']} {case['mode']} {case['robot']} {case['motion']} {case['seed']}: {hidden} -> {said}"
+
+
+def _short(one: Mapping[str, Any]) -> dict[str, Any]:
+    """Without what the files of single cases keep."""
+    return {key: value for key, value in one.items() if key not in ("answer", "truth")}
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,133 @@
+"""What simpler ways name on the same runs: stepwise BIC, a held-out gate alone, sparse regression (STLSQ).
+
+They see the rows and the candidates that the diagnosis made, each joint weighted by its noise, as weighted least
+squares has it; BIC is asked on the white rows of the diagnosis as well. Their names are ``(effect, joint)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.diagnosis_study.case import KNOWN, Case
+from benchmarks.diagnosis_study.runs import FITTED, NAMES
+from generator.robot.readers import read
+from identification.dataset import load
+from identification.diagnosis.bank import Variant
+from identification.diagnosis.loop import Search, search
+from identification.diagnosis.prepared import prepared
+from identification.diagnosis.priors import prior_of
+from identification.diagnosis.selection import Selection
+from identification.diagnosis.whitening import Colour
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from tests.plant.robot import Array
+from tests.plant.robot_file import PRIOR
+
+Name = tuple[str, int]
+
+#: Where each of them stops, if nothing else stops it.
+_MOST = 12
+#: Of sparse regression: least part of a standardised torque, ridge, and rounds (Brunton, Proctor and Kutz 2016).
+_THRESHOLD, _RIDGE, _ROUNDS = 0.05, 1e-6, 20
+
+
+def stepwise(selection: Selection, worth: Callable[[Selection, Variant, list[Variant]], float]) -> list[Name]:
+    """Forward selection: the candidate of the largest ``worth`` beside the chosen ones, while it is above zero."""
+    chosen: list[Variant] = []
+    while len(chosen) < _MOST:
+        offered = selection.evidence(chosen)
+        found = [(worth(selection, one.variant, chosen), k) for k, one in enumerate(offered)]
+        best, k = max(found, default=(0.0, 0))
+        if best <= 0:
+            break
+        chosen.append(offered[k].variant)
+    return [_name(one) for one in chosen]
+
+
+def information(selection: Selection, variant: Variant, chosen: list[Variant]) -> float:
+    """Drop of the sum of squares less k ln(rows), for a shape too: the Bayesian criterion (Schwarz 1978)."""
+    normal = selection.normal
+    drop = _misfit(selection, chosen) - _misfit(selection, [*chosen, variant])
+    count = len(variant.columns) + len(variant.hypothesis.shapes)
+    return drop - count * float(np.log(normal.rows))
+
+
+def held_out(selection: Selection, variant: Variant, chosen: list[Variant]) -> float:
+    """Drop of the sum of squares on the run that was not fitted."""
+    before, after = _columns(chosen), _columns([*chosen, variant])
+    misfits = [selection.held.misfit(at, selection.normal.solution(at)[0]) for at in (before, after)]
+    return misfits[0] - misfits[1]
+
+
+def sparse(selection: Selection) -> list[Name]:
+    """Sequentially thresholded least squares on every candidate's best shape; a name is kept if a coefficient is."""
+    S, p = selection.normal.schur, selection.normal.base
+    whole = np.diag(selection.normal.gram)
+    variants = [one.variant for one in selection.evidence([]) if np.all(whole[list(one.variant.columns)] > 0)]
+    at = np.array(_columns(variants)) - p
+    whose = [k for k, one in enumerate(variants) for _ in one.columns]
+    size = np.sqrt(np.maximum(np.diag(S)[at], 1e-12 * whole[at + p]))
+    A = S[np.ix_(at, at)] / np.outer(size, size)
+    b = S[at, -1] / size / np.sqrt(max(float(S[-1, -1]), 1e-300))
+    kept = np.arange(len(at))
+    x: Array = np.zeros(0)
+    for _ in range(_ROUNDS):
+        x = np.linalg.solve(A[np.ix_(kept, kept)] + _RIDGE * np.eye(len(kept)), b[kept])
+        strong = np.abs(x) >= _THRESHOLD
+        if strong.all():
+            break
+        kept = kept[strong]
+    return [_name(variants[k]) for k in dict.fromkeys(whose[i] for i in kept)]
+
+
+def named_by_baselines(folder: Path, case: Case) -> dict[str, list[list[Any]]]:
+    """Their names on a case's files, by the baseline."""
+    found = _search(folder, case)
+    plain = weighted(found)
+    names = {
+        "stepwise BIC, white rows": stepwise(found.selection, information),
+        "stepwise BIC": stepwise(plain, information),
+        "held-out gate": stepwise(plain, held_out),
+        "STLSQ": sparse(plain),
+    }
+    return {way: [list(one) for one in named] for way, named in names.items()}
+
+
+def weighted(found: Search) -> Selection:
+    """The same rows and candidates, each joint weighted by its residual's standard deviation alone.
+
+    The bank of the search is what is weighted: its own selection is of no use afterwards.
+    """
+    bank, weights = found.bank, found.weights
+    colours = []
+    for run in range(len(bank.runs)):
+        left = [bank.residual(run, joint, weights, white=False) for joint in range(bank.dof)]
+        kept = [bank.raw(run, joint)[3] for joint in range(bank.dof)]
+        colours.append([Colour((np.ones(1),), (float(np.std(e[k])),)) for e, k in zip(left, kept, strict=True)])
+    bank.whiten(colours)
+    return Selection(bank, found.train, found.validate, found.selection.normal.prior)
+
+
+def _search(folder: Path, case: Case) -> Search:
+    robot = read(folder / "robot.yaml")
+    regressors = Regressors(robot)
+    runs = [prepared(load(str(folder / f"{name}.csv"), robot), Recipe(), regressors) for name in NAMES[: FITTED + 1]]
+    prior = prior_of(regressors.model, PRIOR) if case.mode == KNOWN else None
+    return search(runs, range(FITTED), [FITTED], regressors, prior)
+
+
+def _misfit(selection: Selection, chosen: Sequence[Variant]) -> float:
+    at = _columns(chosen)
+    return selection.normal.misfit(at, selection.normal.solution(at)[0])
+
+
+def _columns(variants: Sequence[Variant]) -> list[int]:
+    return [number for one in variants for number in one.columns]
+
+
+def _name(variant: Variant) -> Name:
+    return variant.hypothesis.effect, variant.hypothesis.joint

@@ -1,0 +1,158 @@
+"""Cases run: made, given to the command line, scored; a result file each, so that a study can go on where it was."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from hashlib import sha256
+from itertools import islice
+from math import inf
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from benchmarks.diagnosis_study.baselines import named_by_baselines
+from benchmarks.diagnosis_study.case import KNOWN, Case
+from benchmarks.diagnosis_study.drawing import cases
+from benchmarks.diagnosis_study.making import made
+from benchmarks.diagnosis_study.runs import FITTED, NAMES
+from benchmarks.diagnosis_study.scoring import scored
+from benchmarks.diagnosis_study.sizing import OutOfReach
+from tests.plant.robot_file import PRIOR
+
+ROOT = Path(__file__).parents[2]
+#: Where results of cases are kept, by the code that they came from.
+RESULTS = ROOT / "build" / "diagnosis_study"
+#: What a result depends on.
+_SOURCES = ("generator", "identification", "tests/plant", "benchmarks/diagnosis_study")
+#: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
+MISMATCH = 0.05
+#: Seconds after which a diagnosis counts as broken.
+_PATIENCE = 600
+#: Processes share the cores by cases.
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+#: Draws for each case that is wanted: not every law reaches every size on every joint.
+_DRAWS = 6
+
+#: Cells in which simpler ways are asked as well.
+BASELINES = ("null", "one_3x", "one_1x", "outside")
+
+Command = Callable[[Path, Case], dict[str, Any]]
+
+
+def diagnose(folder: Path, case: Case) -> dict[str, Any]:
+    """What ``counterpoise diagnose`` answers on the files in a folder; the last line of its complaint if it fails."""
+    runs = [str(folder / f"{name}.csv") for name in NAMES]
+    words = ["diagnose", str(folder / "robot.yaml"), *runs[:FITTED], "--validate", runs[FITTED], "--test", runs[-1]]
+    if case.mode == KNOWN:
+        words += ["--prior", PRIOR]
+    out = folder / "out"
+    done = subprocess.run(
+        [sys.executable, "-m", "generator", *words, "--out", str(out)],
+        capture_output=True,
+        env={**os.environ, **_ONE_THREAD},
+        text=True,
+        timeout=_PATIENCE,
+        check=False,
+    )
+    if done.returncode:
+        lines = done.stderr.strip().splitlines()
+        return {"failed": f"exit status {done.returncode}: {lines[-1] if lines else 'nothing said'}"}
+    return dict(json.loads((out / "diagnosis.json").read_text(encoding="utf-8")))
+
+
+def result(
+    case: Case, command: Command = diagnose, keep: Path | None = None, baselines: bool = False
+) -> dict[str, Any]:
+    """Truth, answer and score of a case; its files go to ``keep``, if given."""
+    with TemporaryDirectory() as temporary:
+        folder = keep or Path(temporary)
+        try:
+            done = made(case)
+        except (OutOfReach, ValueError) as error:
+            return {"case": case.record(), "skipped": str(error)}
+        done.write(folder)
+        start = time.perf_counter()
+        answer = command(folder, case)
+        seconds = time.perf_counter() - start
+        record = {"case": case.record(), "truth": done.truth, "seconds": round(seconds, 1), "answer": answer}
+        if "failed" in answer:
+            return {**record, "failed": answer["failed"]}
+        record["score"] = scored(done.truth, answer).record()
+        if baselines:
+            record["baselines"] = named_by_baselines(folder, case)
+        return record
+
+
+def folder_of_results() -> Path:
+    """The folder of RESULTS for the code as it is: what another code answered does not count."""
+    digest = sha256()
+    for source in _SOURCES:
+        for file in sorted((ROOT / source).rglob("*")):
+            if file.suffix in (".py", ".c", ".in", ".h", ".json"):
+                digest.update(file.read_bytes())
+    return RESULTS / digest.hexdigest()[:16]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """``count`` cases of each of ``cells`` (with its mode), of which ``baselines`` are given to simpler ways too.
+
+    No case begins after ``minutes``. Without ``reserved`` laws that are kept from the development are left out.
+    """
+
+    cells: tuple[tuple[str, str], ...]
+    count: int
+    baselines: int
+    minutes: float = inf
+    reserved: bool = True
+    processes: int = 1
+
+
+def run(plan: Plan) -> Iterator[dict[str, Any]]:
+    """Results of the plan's cases, made or read from earlier runs, as they come.
+
+    Cells take turns, so that a study that is stopped has some of each.
+    """
+    folder = folder_of_results()
+    folder.mkdir(parents=True, exist_ok=True)
+    end = time.monotonic() + 60 * plan.minutes
+    draws = _DRAWS * plan.count
+    drawn = {key: list(islice(cases(*key, plan.reserved), draws)) for key in plan.cells}
+    counted = dict.fromkeys(plan.cells, 0)
+    with ProcessPoolExecutor(plan.processes) as pool:
+        for attempt in range(draws):
+            left = [key for key in plan.cells if counted[key] < plan.count]
+            wanted = [(drawn[key][attempt], counted[key] < plan.baselines) for key in left]
+            for some in _batched(wanted, plan.processes):
+                if time.monotonic() > end:
+                    return
+                for one in pool.map(partial(_kept, folder), *zip(*some, strict=True)):
+                    if "skipped" not in one:
+                        counted[one["case"]["cell"], one["case"]["mode"]] += 1
+                    yield one
+
+
+def _batched(items: list[Any], size: int) -> Iterator[list[Any]]:
+    return (items[at : at + size] for at in range(0, len(items), size))
+
+
+def _kept(folder: Path, case: Case, baselines: bool) -> dict[str, Any]:
+    file = folder / f"{case.name}.json"
+    if file.exists():
+        return dict(json.loads(file.read_text(encoding="utf-8")))
+    try:
+        done = result(case, baselines=baselines and case.cell in BASELINES)
+    except subprocess.TimeoutExpired:
+        done = {"case": case.record(), "failed": f"no answer within {_PATIENCE} s"}
+    half = file.with_suffix(".part")
+    half.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
+    half.replace(file)
+    return done

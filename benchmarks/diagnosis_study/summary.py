@@ -1,0 +1,186 @@
+"""Scores of many cases as the rows of tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from statistics import median
+from typing import Any
+
+from benchmarks.diagnosis_study.case import FREE, KNOWN
+from benchmarks.diagnosis_study.drawing import SIZES
+from benchmarks.diagnosis_study.intervals import Share, share
+from benchmarks.diagnosis_study.runner import MISMATCH
+from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
+from benchmarks.diagnosis_study.study import STUDY
+
+Result = Mapping[str, Any]
+Row = dict[str, object]
+
+MODES = {FREE: "free fit", KNOWN: "known parameters"}
+
+
+def rows_of_cells(results: Sequence[Result]) -> list[Row]:
+    """What is asked of each cell, by mode."""
+    rows: list[Row] = []
+    for cell, questions in _QUESTIONS.items():
+        for mode, title in MODES.items():
+            scores = [one["score"] for one in of(results, cell, mode)]
+            for question, answer in questions.items():
+                flags = [flag for flag in map(answer, scores) if flag is not None]
+                if flags:
+                    rows.append({"cell": TITLES[cell], "mode": title, "": question, "cases": str(share(flags))})
+    return rows
+
+
+def rows_apart(results: Sequence[Result]) -> list[Row]:
+    """Cases whose robot file's laws are further from the robot's own: names beside the hidden ones are no mistake."""
+    cases = [one for one in results if "score" in one and _apart(one)]
+    rows: list[Row] = []
+    for cell, title in TITLES.items():
+        scores = [one["score"] for one in cases if one["case"]["cell"] == cell]
+        if scores:
+            found = [score["found"] == score["visible"] for score in scores if score["visible"]]
+            rows.append(
+                {
+                    "cell": title,
+                    "all hidden ones named": str(share(found)),
+                    "something else named": str(share([score["extra"] > 0 for score in scores])),
+                    "called unexplained": str(share([score["verdict"] == UNEXPLAINED for score in scores])),
+                }
+            )
+    return rows
+
+
+def rows_of_laws(results: Sequence[Result]) -> list[Row]:
+    """Each law of one hidden effect at three times the noise, both modes together."""
+    rows: list[Row] = []
+    cases = [one for mode in MODES for one in of(results, "one_3x", mode)]
+    for law in STUDY.laws:
+        mine = [one for one in cases if one["truth"]["hidden"][0]["law"] == law]
+        if not mine:
+            continue
+        scores = [one["score"] for one in mine]
+        seen = [score for score in scores if score["visible"]]
+        wrong = [name for score in seen if not score["found"] for name in score["named"][:1] or ["nothing"]]
+        rows.append(
+            {
+                "law": f"{law} (reserved)" if law in STUDY.reserved else law,
+                "first": str(share([_first(score) for score in seen])),
+                "nothing else": str(share([not score["extra"] for score in seen])),
+                "joint": str(share([bool(score["joint_right"]) for score in seen])),
+                "variable": str(
+                    share([score["variable_right"] for score in seen if score["variable_right"] is not None])
+                ),
+                "invisible": str(share([score["invisible_told"] > 0 for score in scores if score["invisible"]])),
+                "named instead": ", ".join(sorted({name.split()[0] for name in wrong})),
+            }
+        )
+    return rows
+
+
+def rows_of_numbers(results: Sequence[Result]) -> list[Row]:
+    """Parameters within two deviations, and the gap that closed, of correct cases with one effect at three times."""
+    rows: list[Row] = []
+    for mode, title in MODES.items():
+        scores = [one["score"] for one in of(results, "one_3x", mode) if one["score"]["found"]]
+        within, closed = _said(scores, "within"), _said(scores, "closed")
+        rows.append(
+            {
+                "mode": title,
+                "parameter within 2 std": str(share(within)),
+                "explainable gap closed on the untouched run, median": f"{100 * median(closed):.0f} %"
+                if closed
+                else "",
+                "cases": len(closed),
+            }
+        )
+    return rows
+
+
+def power(results: Sequence[Result]) -> dict[str, list[tuple[float, Share]]]:
+    """For each law of the power curve the share of cases in which it is firmly named, over the size."""
+    curves: dict[str, list[tuple[float, Share]]] = {}
+    for law in STUDY.power:
+        for size in SIZES:
+            cases = [one for mode in MODES for one in of(results, f"power_{size:g}x", mode)]
+            flags = [one["score"]["found"] > 0 for one in cases if one["truth"]["hidden"][0]["law"] == law]
+            if flags:
+                curves.setdefault(law, []).append((size, share(flags)))
+    return curves
+
+
+def counts(results: Sequence[Result]) -> dict[str, int]:
+    """Cases scored, left out since no size would do, broken off, and nulls scored apart."""
+    return {
+        "scored": sum("score" in one for one in results),
+        "out of reach": sum("skipped" in one for one in results),
+        "failed": sum("failed" in one for one in results),
+        "scored apart": sum("score" in one and _apart(one) for one in results),
+    }
+
+
+def _said(scores: Sequence[Mapping[str, Any]], what: str) -> list[Any]:
+    return [score[what] for score in scores if score[what] is not None]
+
+
+def _apart(one: Result) -> bool:
+    return bool(one["truth"]["mismatch"] > MISMATCH)
+
+
+def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
+    """Scored cases of a cell and mode, without those that are scored apart."""
+    return [
+        one
+        for one in results
+        if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode) and "score" in one and not _apart(one)
+    ]
+
+
+def _first(score: Mapping[str, Any]) -> bool:
+    return bool(score["first"])
+
+
+Question = Callable[[Mapping[str, Any]], bool | None]
+
+
+def _if_seen(answer: Callable[[Mapping[str, Any]], bool]) -> Question:
+    return lambda score: answer(score) if score["visible"] else None
+
+
+_ONE: Mapping[str, Question] = {
+    "right effect and joint first": _if_seen(_first),
+    "first, or listed as an equal alternative": _if_seen(lambda s: s["first"] or bool(s["listed"])),
+    "nothing else named": _if_seen(lambda s: not s["extra"]),
+    "the right joint in `where`": lambda s: s["joint_right"],
+    "the right variable in `where`": lambda s: s["variable_right"],
+    "invisible ones answered as such": lambda s: s["invisible_told"] > 0 if s["invisible"] else None,
+}
+_ALL: Mapping[str, Question] = {
+    "all named": _if_seen(lambda s: s["found"] == s["visible"]),
+    "all and only those named": _if_seen(lambda s: s["found"] == s["visible"] and not s["extra"]),
+}
+_QUESTIONS: Mapping[str, Mapping[str, Question]] = {
+    "null": {
+        "nothing named": lambda s: not s["named"],
+        "answered `no_discrepancy`": lambda s: s["verdict"] == NOTHING,
+    },
+    "one_3x": _ONE,
+    "one_1x": _ONE,
+    "two": _ALL,
+    "pair": _ALL,
+    "three": _ALL,
+    "outside": {
+        "nothing firmly named": lambda s: not s["named"],
+        "called unexplained": lambda s: s["verdict"] == UNEXPLAINED,
+        "the right joint in `where`": lambda s: s["joint_right"],
+    },
+}
+TITLES = {
+    "null": "nothing hidden",
+    "one_3x": "one effect, 3 x noise",
+    "one_1x": "one effect, 1 x noise",
+    "two": "two effects, 3 x noise",
+    "pair": "two that hide each other",
+    "three": "three effects, 3 x noise",
+    "outside": "outside the library",
+}

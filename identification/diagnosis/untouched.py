@@ -1,0 +1,57 @@
+"""What the runs that nobody touched say of the old and the new model, and how far both are from the noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from identification.diagnosis.bank import Bank
+from identification.diagnosis.noise_floor import noise_floor
+from identification.diagnosis.played import Played
+from identification.diagnosis.results import together
+from identification.residuals import Residual
+
+#: Least gap to the noise, in squares of the residual, of which a share is told.
+_GAP = 0.25
+
+
+@dataclass(frozen=True)
+class Untouched:
+    """A joint of the untouched runs: residual of the model before and of the one after, rms of noise [N m, N]."""
+
+    before: Residual
+    after: Residual
+    floor: float
+
+    @property
+    def relative_floor(self) -> float:
+        """What noise alone would leave, in % of the torque's spread."""
+        return 100 * self.floor * float(np.sqrt(self.after.rows)) / self.after.spread if self.after.spread else 0.0
+
+    @property
+    def closed(self) -> float | None:
+        """The share of the gap between ``before`` and the noise that is closed, in squares; None without a gap."""
+        before, after = (rms(one) ** 2 for one in (self.before, self.after))
+        gap = before - self.floor**2
+        return (before - after) / gap if gap > _GAP * before else None
+
+
+def rms(one: Residual) -> float:
+    """Root mean square of a residual [N m, N]."""
+    return one.norm / float(np.sqrt(max(one.rows, 1)))
+
+
+def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> dict[int, Untouched]:
+    """By the joint's number, all runs together; joints without rows are left out.
+
+    The noise is that of the runs in ``bank``, at the rate of these rows.
+    """
+    old, new = together(before).per_joint, together(after).per_joint
+    rate = 1 / float(np.median(np.diff(after[0].t)))
+    return {
+        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, rate))
+        for k, joint in enumerate(bank.scenes[0].robot.moving)
+        if old[k].rows and new[k].rows
+    }
