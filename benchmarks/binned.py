@@ -24,7 +24,7 @@ text { font: 13px system-ui, sans-serif; fill: #24292f; }
 
 @dataclass(frozen=True)
 class Curve:
-    """Means over a variable, named; ``after`` ones are dashed. ``colour`` is a number, the same for what belongs together."""
+    """Means over a variable, named; ``after`` ones are dashed. Those with the same ``colour`` belong together."""
 
     name: str
     x: Sequence[float]

@@ -1,7 +1,7 @@
 """The worked example of docs/diagnosis.md: a simulated KR500 with two effects that its robot file lacks.
 
 ``python -m benchmarks.example_diagnosis`` simulates four runs, diagnoses them, writes the numbers and pictures of the
-page anew. The report's screenshot needs a Chromium; without one the old picture stays.
+page and the README anew. The report's screenshot needs a Chromium; without one the old picture stays.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from benchmarks.binned import Curve, binned
 from benchmarks.chart import Group, chart
-from benchmarks.documents import ROOT, replaced
+from benchmarks.documents import README, ROOT, replaced
 from benchmarks.table import table
 from generator.cli.progress import stage
 from generator.resources import find_robot
@@ -27,6 +27,7 @@ from identification.diagnosis.mending import Mended
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.results import together
+from identification.report.diagnose.report import report
 from identification.report.page import REPORT
 from identification.robot_file import with_parameter_set
 from identification.simulation.machine import compiled
@@ -142,16 +143,20 @@ def screenshot(report: Path, picture: Path) -> bool:
 
 
 def main() -> None:
-    """Simulates, diagnoses, writes the page."""
+    """Simulates, diagnoses, writes the pages."""
     a, b, c, d = record()
     path = find_robot(ROBOT)
-    found, new, files = diagnosed(path, read(path), Request([a, b], [c], [d]), FOLDER / "out")
+    found, new, files = diagnosed(
+        path, read(path), Request([a, b], [c], [d]), FOLDER / "out", lambda *about: {REPORT: report(*about)}
+    )
     assert new is not None
     printed = [*summary(found), *tested(new), f"files            {', '.join(files)} in out/"]
-    text = (ROOT / PAGE).read_text(encoding="utf-8")
-    text = replaced(text, "example output", "\n".join(["```text", *printed, "```"]))
-    text = replaced(text, "example numbers", numbers(found))
-    for name, content in ({PAGE: text} | pictures(found, new)).items():
+    output = "\n".join(["```text", *printed, "```"])
+    readme, page = (
+        replaced((ROOT / name).read_text(encoding="utf-8"), "example output", output) for name in (README, PAGE)
+    )
+    page = replaced(page, "example numbers", numbers(found))
+    for name, content in ({README: readme, PAGE: page} | pictures(found, new)).items():
         (ROOT / name).write_text(content, encoding="utf-8")
     if not screenshot(FOLDER / "out" / REPORT, ROOT / PICTURES / "diagnosis_report.png"):
         print("no browser: docs/images/diagnosis_report.png stays as it was")

@@ -19,9 +19,7 @@ PERIOD, COUNT = 200, 1000
 def one_run(period: int = PERIOD, name: str = "A.csv") -> Any:
     kept = np.arange(COUNT) % 17 != 0
     run = SimpleNamespace(name=name)
-    return SimpleNamespace(
-        period=period, t=np.arange(COUNT) / 50, kept=kept[None], sampled=SimpleNamespace(run=run)
-    )
+    return SimpleNamespace(period=period, t=np.arange(COUNT) / 50, kept=kept[None], sampled=SimpleNamespace(run=run))
 
 
 def lack(e: Array, period: int = PERIOD) -> Lack:
@@ -61,9 +59,10 @@ def test_what_differs_between_periods_is_not_called_common() -> None:
 
 def test_without_periods_power_is_compared() -> None:
     draw = np.random.default_rng(5)
-    assert 1e-3 < lack(draw.normal(size=COUNT), 0).p
+    assert lack(draw.normal(size=COUNT), 0).p > 1e-3
     found = lack(1.5 * draw.normal(size=COUNT), 0)
-    assert not found.repeats and found.p < 1e-10
+    assert not found.repeats
+    assert found.p < 1e-10
     assert found.size == pytest.approx(np.sqrt(1.5**2 - 1), rel=0.15)
 
 

@@ -91,7 +91,8 @@ def test_columns_added_late_count_as_those_from_the_start() -> None:
     late.whiten([[known], [known]])
     for i in (1, 2):
         variant = late.add(offered(i), {})
-        assert variant is not None and variant.columns == (3 + i,)
+        assert variant is not None
+        assert variant.columns == (3 + i,)
     for r in range(2):
         rows = known.white(np.vstack([base(), columns[:, r], tau[r]]), kept[r])
         assert late.grams[r] == pytest.approx(rows @ rows.T, rel=1e-9, abs=1e-6)
@@ -107,4 +108,5 @@ def test_columns_that_are_nothing_or_no_numbers_are_refused() -> None:
     before = one.count
     assert one.add(hypothesis("nothing", lambda r, shape: np.zeros(COUNT)), {}) is None
     assert one.add(hypothesis("impossible", lambda r, shape: np.full(COUNT, np.nan)), {}) is None
-    assert one.count == before and not one.variants
+    assert one.count == before
+    assert not one.variants

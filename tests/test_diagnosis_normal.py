@@ -135,7 +135,8 @@ def test_bounds_hold_and_what_is_explained_is_told(seed: int) -> None:
     A, y = draw.normal(size=(60, 2)), draw.normal(size=60)
     lower, upper = np.zeros(2), np.array([np.inf, 0.1])
     x, drop = bounded(A.T @ A, A.T @ y, lower, upper, np.sum(A**2, axis=0))
-    assert np.all(x >= lower) and np.all(x <= upper)
+    assert np.all(x >= lower)
+    assert np.all(x <= upper)
     assert drop == pytest.approx(float(y @ y - np.sum((y - A @ x) ** 2)), abs=1e-9)
     # No better than the best within the bounds; as good where the bounds are not met.
     best = lsq_linear(A, y, (lower, upper))
@@ -147,4 +148,5 @@ def test_bounds_hold_and_what_is_explained_is_told(seed: int) -> None:
 
 def test_a_column_of_which_nothing_is_left_is_not_used() -> None:
     x, drop = bounded(np.array([[1e-6]]), np.array([1.0]), np.array([-np.inf]), np.array([np.inf]), np.array([1.0]))
-    assert x.tolist() == [0.0] and drop == 0.0
+    assert x.tolist() == [0.0]
+    assert drop == 0.0

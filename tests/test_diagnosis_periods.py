@@ -105,12 +105,15 @@ def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: l
     for k, (name, start, end) in enumerate([("A", 5.0, 15.0), ("B", 0.0, 30.0)]):
         times = [x for role in mine for x in role[k][1:]]
         assert {role[k][0] for role in mine} == {name}
-        assert times[0] == start and times[-1] == pytest.approx(end)
+        assert times[0] == start
+        assert times[-1] == pytest.approx(end)
         gaps = [after - before for before, after in zip(times[1::2], times[2::2], strict=False)]
-        assert all(gap >= 0.19 for gap in gaps) and len(gaps) == len(mine) - 1
+        assert all(gap >= 0.19 for gap in gaps)
+        assert len(gaps) == len(mine) - 1
         assert times[1] - times[0] >= 0.54 * (end - start)
     (note,) = found.notes
-    assert ("validates" in note) == (not validate) and ("tests" in note) == (not test)
+    assert ("validates" in note) == (not validate)
+    assert ("tests" in note) == (not test)
 
 
 def test_a_part_of_a_run_is_split_by_the_file_s_own_times() -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -100,7 +98,9 @@ def test_mean_and_covariance_are_those_of_the_linear_map(regressors: Regressors)
     inverse = np.linalg.inv(found.precision[np.ix_(known, known)])
     size = np.sqrt(np.diag(covariance)[known])
     # A millionth of each variance is added, so that sums of the same parameters stay apart.
-    assert inverse / np.outer(size, size) == pytest.approx(covariance[np.ix_(known, known)] / np.outer(size, size), abs=2e-6)
+    assert inverse / np.outer(size, size) == pytest.approx(
+        covariance[np.ix_(known, known)] / np.outer(size, size), abs=2e-6
+    )
 
 
 def test_what_the_set_does_not_tell_is_not_known(regressors: Regressors) -> None:
@@ -114,4 +114,5 @@ def test_what_the_set_does_not_tell_is_not_known(regressors: Regressors) -> None
 def test_an_unknown_set_is_refused(regressors: Regressors) -> None:
     with pytest.raises(InputError) as refused:
         prior_of(regressors.model, "drawings")
-    assert "no parameter set 'drawings'" in str(refused.value) and "drawing" in str(refused.value)
+    assert "no parameter set 'drawings'" in str(refused.value)
+    assert "drawing" in str(refused.value)

@@ -74,7 +74,9 @@ def test_what_is_there_is_found_and_nothing_else(seed: int) -> None:
     assert evidence.coefficients == pytest.approx([0.4], abs=0.1)
     # Drop, size and validation as sums over the columns themselves.
     W = np.concatenate([data.base[r] for r in TRAIN], axis=1).T
-    y = np.concatenate([(np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]) for r in TRAIN])
+    y = np.concatenate(
+        [(np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]) for r in TRAIN]
+    )
     x = np.concatenate([right[r] for r in TRAIN])
     before, after = W, np.column_stack([W, x])
     solutions = [np.linalg.lstsq(A, y, rcond=None)[0] for A in (before, after)]
@@ -83,10 +85,7 @@ def test_what_is_there_is_found_and_nothing_else(seed: int) -> None:
     assert evidence.size == pytest.approx(np.sqrt(evidence.drop / len(y)))
     r = VALIDATE[0]
     held = np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]
-    left = [
-        held - np.column_stack([data.base[r].T, right[r]])[:, : len(s)] @ s
-        for s in solutions
-    ]
+    left = [held - np.column_stack([data.base[r].T, right[r]])[:, : len(s)] @ s for s in solutions]
     assert evidence.validation == pytest.approx(float(left[0] @ left[0] - left[1] @ left[1]))
 
 
@@ -141,8 +140,10 @@ def test_what_differs_between_runs_does_not_pass_validation() -> None:
     one = data.bank(signs[:, None] * column, [fixed("drifting", column)])
     selection = Selection(one, TRAIN, VALIDATE, None)
     (evidence,) = selection.evidence([])
-    assert evidence.drop > 1000 and evidence.validation < 0
-    assert not evidence.passes and "not fitted" in evidence.why_not
+    assert evidence.drop > 1000
+    assert evidence.validation < 0
+    assert not evidence.passes
+    assert "not fitted" in evidence.why_not
     assert selection.search() == []
 
 

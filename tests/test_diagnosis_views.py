@@ -110,7 +110,8 @@ def test_the_means_are_those_of_the_bins() -> None:
         next(one for one in SEEN.views(np.sign(SEEN.qd)) if one.variable == "load" and one.direction == side)
         for side in (-1, 1)
     )
-    assert backward.mean == pytest.approx(-1.0, abs=1e-9) and forward.mean == pytest.approx(1.0, abs=1e-9)
+    assert backward.mean == pytest.approx(-1.0, abs=1e-9)
+    assert forward.mean == pytest.approx(1.0, abs=1e-9)
     assert backward.count.sum() + forward.count.sum() <= int(np.sum(np.abs(SEEN.qd) > 0.02))
 
 

@@ -64,7 +64,7 @@ def test_the_rows_are_white_and_of_deviation_one() -> None:
 
 def test_a_short_stretch_is_whitened_as_its_covariance_says() -> None:
     order, count = 4, 9
-    # Levinson's prediction errors of each order from exact covariances; x' C^-1 x is what rows of deviation 1 add up to.
+    # Levinson's prediction errors of each order from exact covariances; x' C^-1 x is the sum of the white squares.
     c = covariances(count)
     filters, deviations = [np.ones(1)], [float(np.sqrt(c[0]))]
     for m in range(1, order + 1):
@@ -100,7 +100,8 @@ def test_the_spectrum_holds_the_power() -> None:
     inside = slice(4, -4)
     ratio = known.spectrum(at[inside], rate) / measured[inside]
     assert np.median(ratio) == pytest.approx(1.0, abs=0.05)
-    assert ratio.max() < 1.4 and ratio.min() > 0.7
+    assert ratio.max() < 1.4
+    assert ratio.min() > 0.7
 
 
 def test_freedom_makes_up_for_what_a_fit_took() -> None:
