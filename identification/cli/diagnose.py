@@ -83,7 +83,8 @@ def summary(found: Diagnosis) -> list[str]:
         for name, value in one.parameters.items():
             lines.append(f"                 {name} {value.value:.6g} +- {value.std:.2g} {value.unit}")
         for name, number in one.shape.items():
-            lines.append(f"                 {name} {number:.4g}")
+            std = f" +- {one.shape_std[name]:.2g}" if name in one.shape_std else ""
+            lines.append(f"                 {name} {number:.4g}{std}")
         for other in one.alternatives:
             text = f"or {other.title} on {', '.join(map(str, other.joints))}; apart by: {other.separating_experiment}"
             lines.append(f"                 {text}")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
@@ -25,12 +25,31 @@ _NOTHING = 1e-9
 
 @dataclass(frozen=True)
 class Variant:
-    """A hypothesis with one shape, and the numbers of its columns."""
+    """A hypothesis with one shape, the numbers of its columns, and the coordinates on which it acts.
+
+    ``used`` are the coefficients that the columns belong to: all, or those that bounds leave.
+    """
 
     hypothesis: Hypothesis
     shape: Mapping[str, float]
     columns: tuple[int, ...]
     joints: tuple[int, ...]
+    used: tuple[int, ...] = ()
+
+    @property
+    def coefficients(self) -> tuple[Coefficient, ...]:
+        """Those of the columns."""
+        return tuple(self.hypothesis.coefficients[i] for i in self.used)
+
+    def only(self, used: Sequence[int]) -> Variant:
+        """With some of its columns, by their places among them."""
+        return Variant(
+            self.hypothesis,
+            self.shape,
+            tuple(self.columns[i] for i in used),
+            self.joints,
+            tuple(self.used[i] for i in used),
+        )
 
 
 @dataclass
@@ -83,7 +102,7 @@ class Bank:
     def add(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Variant | None:
         """Columns of a hypothesis with a shape; None where that is impossible along a run or acts nowhere."""
         per_run = []
-        for run, scene in zip(self.runs, self.scenes, strict=True):
+        for scene in self.scenes:
             # A shape that the motion makes impossible shows in numbers that are not finite.
             with np.errstate(all="ignore"):
                 columns = hypothesis.columns(scene, shape)
@@ -103,7 +122,7 @@ class Bank:
                 self.grams[r] = _grown(self.grams[r], len(numbers))
             for j in acts:
                 self._extend(r, j, numbers, run.decimated(columns[:, j]))
-        variant = Variant(hypothesis, dict(shape), numbers, tuple(acts))
+        variant = Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
         self.variants.append(variant)
         return variant
 

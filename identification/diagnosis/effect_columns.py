@@ -87,7 +87,10 @@ class EffectColumns:
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state from that of a long motion the first way, exact where its rate is linear in it: z + h f phi(h f'), phi = (e^x - 1)/x."""
+        """The effect's state, at first that of a long motion the same way.
+
+        Exact where its rate is linear in it: z + h f phi(h f'), phi = (e^x - 1)/x.
+        """
         assert self._rates is not None
         stride = max(1, int(1 / (scene.period * _STEPS)))
         speed = scene.motion.qd[self._k, ::stride]

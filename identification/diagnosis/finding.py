@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice, Evidence
+from identification.diagnosis.shape_uncertainty import deviations
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
@@ -42,9 +43,10 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Finding:
-    """An effect on ``joints`` that the model lacks; ``parameters`` by name, shape values among them with std None.
+    """An effect on ``joints`` that the model lacks: ``parameters`` and ``shape`` values by name.
 
     ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
+    ``shape_std`` are standard deviations of the shape values that were searched.
     """
 
     hypothesis: Hypothesis
@@ -55,24 +57,24 @@ class Finding:
     evidence: Evidence
     alternatives: tuple[Alternative, ...]
     amplitude: Mapping[int, float]
+    shape_std: Mapping[str, float]
     homogeneous: bool = True
 
 
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
     """The choices of a search, the one with the most evidence first; all tentative where not ``firm``."""
     columns = [number for one in found.choices for number in one.evidence.variant.columns]
-    solution, covariance = found.selection.normal.solution(columns)
-    std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    solution, _ = found.selection.normal.solution(columns)
+    std, shape_std = deviations(found, columns, solution)
     place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}
     result = []
     for one in found.choices:
         variant = one.evidence.variant
         at = [place[number] for number in variant.columns]
         hypothesis = variant.hypothesis
-        values = {
-            c.name: Value(float(solution[i]), float(std[i]), c.unit)
-            for c, i in zip(hypothesis.coefficients, at, strict=True)
-        }
+        values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
+        for c, i in zip(variant.coefficients, at, strict=True):
+            values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         result.append(
             Finding(
                 hypothesis,
@@ -83,6 +85,7 @@ def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
                 one.evidence,
                 tuple(_alternative(hypothesis, other) for other in one.alternatives),
                 _amplitude(found, one, solution[at]),
+                shape_std.get(id(one), {}),
                 _homogeneous(found, one),
             )
         )

@@ -23,7 +23,7 @@ RATE = 50.0
 #: Speed below which a joint stands, in parts of its own rms.
 _SLOW = 0.04
 #: Time before and after standing still [s] in which friction is not yet what it will be.
-_SETTLING = 0.05
+_SETTLING = 0.03
 #: Shortest run that anything can be told from [s].
 _SHORTEST = 2.0
 #: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.

@@ -92,7 +92,10 @@ def _finding(one: Finding) -> dict[str, Any]:
         "status": one.status,
         "parameters": {
             **{name: {"value": v.value, "std": v.std, "unit": v.unit} for name, v in one.parameters.items()},
-            **{name: {"value": value, "std": None, "unit": shapes.get(name, "")} for name, value in one.shape.items()},
+            **{
+                name: {"value": value, "std": one.shape_std.get(name), "unit": shapes.get(name, "")}
+                for name, value in one.shape.items()
+            },
         },
         "amplitude": {str(number): value for number, value in one.amplitude.items()},
         "evidence": {

@@ -34,6 +34,7 @@ _COMMON = (
     "coulomb_friction",
     "offset",
     "payload",
+    "coupled_rotor",
     "gas_balancer",
     "spring_balancer",
 )
@@ -103,6 +104,7 @@ class Selection:
         others = sum(int(self.bank.rows(r).sum()) for r in self._validate)
         self.normal = Normal(np.sum(train, axis=0), p, rows, self._prior)
         self.held = Normal(np.sum(held, axis=0), p, others)
+        self.all = Normal(self.normal.gram + self.held.gram, p, rows + others, self._prior)
         self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
 
     # -- evidence -------------------------------------------------------------------------------------------------
@@ -137,13 +139,14 @@ class Selection:
 
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base
-        lower, upper = _bounds(variant.hypothesis)
+        lower, upper = _bounds(variant)
         size = np.diag(self.normal.gram)[list(variant.columns)]
         return bounded(S[np.ix_(at, at)], S[at, -1], lower, upper, size)
 
     def _judged(self, found: tuple[float, Variant, Array], others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = found
-        used = int(np.count_nonzero(x))
+        variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
+        used = len(x)
         tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
         p = min(1.0, tries * float(chi2.sf(drop, max(used, 1))))
         bic = drop - used * np.log(self.normal.rows) - 2 * np.log(tries)
@@ -229,10 +232,11 @@ class Selection:
         chosen += sorted(balancers, key=lambda one: -self._solve(S, one)[1])[:1]
         while chosen:
             found = [self.of(one, [other for other in chosen if other is not one]) for one in chosen]
-            failing = [one for one in found if not one.passes]
+            failing = [k for k, one in enumerate(found) if not one.passes]
             if not failing:
+                chosen = [one.variant for one in found]
                 break
-            chosen.remove(min(failing, key=lambda one: one.drop).variant)
+            del chosen[min(failing, key=lambda k: found[k].drop)]
         return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
@@ -252,7 +256,7 @@ class Selection:
                     refined = self._refined(best.variant, others)
                     mine = self.of(refined, others)
                 place = chosen.index(one)
-                chosen[place : place + 1] = [refined] if mine.passes else []
+                chosen[place : place + 1] = [mine.variant] if mine.passes else []
             if chosen == before:
                 break
         return chosen
@@ -289,6 +293,7 @@ class Selection:
                     tried = self.bank.add(variant.hypothesis, {**best.shape, shape.name: value})
                     if tried is None:
                         continue
+                    tried = tried.only(variant.used)
                     self.refresh()
                     drop = self.of(tried, others).drop
                     if drop > score + 0.5:
@@ -303,9 +308,7 @@ class Selection:
         best: tuple[float, list[Variant]] = (0.0, [])
         for one, other in combinations([each.variant for each in single], 2):
             at = np.array([*one.columns, *other.columns]) - self.normal.base
-            bounds = [
-                np.concatenate(pair) for pair in zip(_bounds(one.hypothesis), _bounds(other.hypothesis), strict=True)
-            ]
+            bounds = [np.concatenate(pair) for pair in zip(_bounds(one), _bounds(other), strict=True)]
             size = np.diag(self.normal.gram)[[*one.columns, *other.columns]]
             _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
             if drop > best[0]:
@@ -373,7 +376,7 @@ def _columns(chosen: Sequence[Variant]) -> list[int]:
     return [number for one in chosen for number in one.columns]
 
 
-def _bounds(one: Hypothesis) -> tuple[Array, Array]:
+def _bounds(one: Variant) -> tuple[Array, Array]:
     lower = np.array([-np.inf if c.lower is None else c.lower for c in one.coefficients])
     upper = np.array([np.inf if c.upper is None else c.upper for c in one.coefficients])
     return lower, upper

@@ -1,0 +1,58 @@
+"""Uncertainty of coefficients when the shapes are uncertain too: shapes become columns, by how the torque changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.loop import Search
+from identification.diagnosis.normal import inverse
+
+Array = NDArray[np.float64]
+
+#: Relative step of a shape value.
+_STEP = 0.02
+
+
+def deviations(
+    found: Search, columns: Sequence[int], solution: Array
+) -> tuple[Array, Mapping[int, Mapping[str, float]]]:
+    """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by choice.
+
+    ``solution`` holds both. A searched shape counts as one more parameter, linear about its value.
+    """
+    bank, base = found.bank, len(found.bank.base)
+    value = dict(zip(columns, solution[base:].tolist(), strict=True))
+    steps: list[tuple[int, str, dict[int, float]]] = []
+    for choice in found.choices:
+        variant = choice.evidence.variant
+        for shape in variant.hypothesis.shapes:
+            here = variant.shape[shape.name]
+            if shape.whole or len(shape.grid()) < 3 or not here:
+                continue
+            step = _STEP * abs(here)
+            moved = bank.add(variant.hypothesis, {**variant.shape, shape.name: here + step})
+            if moved is None:
+                continue
+            moved = moved.only(variant.used)
+            change: dict[int, float] = {
+                number: sign * value[own] / step
+                for own, other in zip(variant.columns, moved.columns, strict=True)
+                for number, sign in ((other, 1.0), (own, -1.0))
+            }
+            steps.append((id(choice), shape.name, change))
+    found.selection.refresh()
+    normal = found.selection.normal
+    chosen = [*range(base), *columns]
+    T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
+    T[chosen, range(len(chosen))] = 1.0
+    for k, (_, _, change) in enumerate(steps):
+        for number, weight in change.items():
+            T[number, len(chosen) + k] += weight
+    std = np.sqrt(np.maximum(np.diag(inverse(T.T @ normal.whole @ T)), 0.0))
+    shapes: dict[int, dict[str, float]] = {}
+    for k, (which, name, _) in enumerate(steps):
+        shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
+    return std[: len(chosen)], shapes
