@@ -60,9 +60,9 @@ def test_the_shorter_period_is_not_skipped() -> None:
 
 
 def recorded(name: str, start: float = 0.0, seconds: float = 10.0) -> Run:
-    count = round(seconds / 0.01) + 1
-    still = np.zeros((1, count))
-    return Run(name, Place(name), start, 0.01, still, still)
+    """One joint that swings all the time."""
+    q = np.sin(2 * np.pi * 0.7 * np.arange(round(seconds / 0.01) + 1) * 0.01)[None]
+    return Run(name, Place(name), start, 0.01, q, np.zeros_like(q))
 
 
 def parts(names: tuple[str, ...]) -> list[tuple[str, float, float]]:
@@ -97,27 +97,39 @@ def test_the_last_of_many_runs_take_the_roles_that_are_missing() -> None:
 )
 def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: list[str]) -> None:
     found = roles([recorded("A", start=5.0), recorded("B", seconds=30.0)], validate, test)
-    mine = [parts(found.train)]
-    mine += [parts(found.validate)] if not validate else []
-    mine += [parts(found.test)] if not test else []
-    assert found.validate == tuple(validate) or not validate
-    assert found.test == tuple(test) or not test
-    for k, (name, start, end) in enumerate([("A", 5.0, 15.0), ("B", 0.0, 30.0)]):
-        times = [x for role in mine for x in role[k][1:]]
-        assert {role[k][0] for role in mine} == {name}
-        assert times[0] == start
-        assert times[-1] == pytest.approx(end)
-        gaps = [after - before for before, after in zip(times[1::2], times[2::2], strict=False)]
-        assert all(gap >= 0.19 for gap in gaps)
-        assert len(gaps) == len(mine) - 1
-        assert times[1] - times[0] >= 0.54 * (end - start)
+    split = [*parts(found.train), *([] if validate else parts(found.validate)), *([] if test else parts(found.test))]
+    assert not validate or found.validate == tuple(validate)
+    assert not test or found.test == tuple(test)
+    for name, start, end in (("A", 5.0, 15.0), ("B", 0.0, 30.0)):
+        mine = sorted((a, b) for path, a, b in split if path == name)
+        assert mine[0][0] >= start
+        assert mine[-1][1] <= end + 1e-9
+        assert all(after[0] - before[1] >= 0.19 for before, after in zip(mine, mine[1:], strict=False))
+        fitted = sum(b - a for path, a, b in parts(found.train) if path == name)
+        assert fitted > 0.3 * (end - start)
     (note,) = found.notes
     assert ("validates" in note) == (not validate)
     assert ("tests" in note) == (not test)
+    if not test:
+        # The end of each run, and nothing that is known reaches into it.
+        begins = {path: a for path, a, _ in parts(found.test)}
+        assert all(b < begins[path] for path, _, b in parts(tuple(one for one in found.known if "@" in one)))
+
+
+def test_the_validating_block_lies_where_every_joint_moves() -> None:
+    t = np.arange(2001) * 0.01
+    late = np.where((t > 9) & (t < 19), np.sin(5 * t), 0.0)
+    q = np.stack([np.sin(5 * t), late])
+    found = roles([Run("A", Place("A"), 0.0, 0.01, q, np.zeros_like(q))], [], ["T"])
+    ((_, start, end),) = parts(found.validate)
+    assert start > 8
+    fitted = parts(found.train)
+    assert sum(max(0.0, min(b, 19) - max(a, 9)) for _, a, b in fitted) > 2
+    assert all(b <= start or a >= end for _, a, b in fitted)
 
 
 def test_a_part_of_a_run_is_split_by_the_file_s_own_times() -> None:
     found = roles([recorded(str(Path("a@b") / "A.csv@5:15"), start=5.0)], [], ["T"])
-    ((path, start, _),) = parts(found.train)
-    assert path == str(Path("a@b") / "A.csv")
-    assert start == 5.0
+    split = [*parts(found.train), *parts(found.validate)]
+    assert {path for path, _, _ in split} == {str(Path("a@b") / "A.csv")}
+    assert min(start for _, start, _ in split) == 5.0
