@@ -131,7 +131,9 @@ def test_an_effect_of_the_file_is_not_offered_again(hidden: Case) -> None:
 
 def test_a_dry_run_only_locates(hidden: Case) -> None:
     folder = hidden.folder
-    done = diagnose(folder, "arm.yaml", "1.csv", "--validate", "2.csv", "--test", "3.csv", "--dry-run", "--out", "dry")
+    done = diagnose(
+        folder, "arm.yaml", "1.csv@0:10", "--validate", "2.csv@0:10", "--test", "3.csv", "--dry-run", "--out", "dry"
+    )
     assert done.status == 0, done.err
     assert "where            joint 2" in done.out
     assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]

@@ -12,6 +12,7 @@ from generator.errors import Place
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.roles import roles
+import itertools
 
 Array = NDArray[np.float64]
 
@@ -104,7 +105,7 @@ def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: l
         mine = sorted((a, b) for path, a, b in split if path == name)
         assert mine[0][0] >= start
         assert mine[-1][1] <= end + 1e-9
-        assert all(after[0] - before[1] >= 0.19 for before, after in zip(mine, mine[1:], strict=False))
+        assert all(after[0] - before[1] >= 0.19 for before, after in itertools.pairwise(mine))
         fitted = sum(b - a for path, a, b in parts(found.train) if path == name)
         assert fitted > 0.3 * (end - start)
     (note,) = found.notes
