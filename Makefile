@@ -78,6 +78,9 @@ diagnose: $(TESTING) ## robot=NAME data="A.csv B.csv" validate=C.csv test=D.csv 
 	$(IN_CALLER) diagnose "$$robot" $(data) $(if $(validate),--validate $(validate)) $(if $(test),--test $(test)) \
 	    $(if $(prior),--prior $(prior)) $(options)
 
+example-diagnosis: $(TESTING) ## simulate a robot with effects that its file lacks, find them, write docs/diagnosis.md's example anew
+	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.example_diagnosis
+
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests
 

@@ -66,7 +66,7 @@ def case(folder: Path, hidden: str) -> Case:
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
     recipe = recipes.recipe_of(robot.name)
     runs = [prepared(load(one, robot, recipe.columns), recipe, regressors) for one in sources[:2]]
-    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],)))
+    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2])))
     after = mended(folder / "arm.yaml", found, None, folder / "out") if hidden == "stribeck" else None
     return Case(found, after, report(found, after))
 

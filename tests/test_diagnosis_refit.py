@@ -19,6 +19,7 @@ from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.hypothesis import EFFECT, SIGNAL
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Player, compiled, play
+from identification.diagnosis.prepared import prepared
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import Repaired, repaired
 from identification.observation import Motion, Regressors
@@ -117,13 +118,13 @@ def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:
     assert not notes
     assert player.compiled
     assert player.folder == case.folder / "generated" / "scara"
-    one = case.sampled(2, case.regressors)
+    one = prepared(case.run(2, case.regressors.model.robot), case.recipe, case.regressors)
     after = play(one, player, fitted.values)
     own = play(one, Player(case.regressors), fitted.values)
     assert np.abs(after.model - own.model).max() < 1e-9 * np.abs(own.model).max()
     old = Regressors(robot_of(case.old.read_text(encoding="utf-8"), "old.yaml"))
     was = refit([case.sampled(k, old) for k in (0, 1)], old)
-    before = play(case.sampled(2, old), Player(old), was.values)
+    before = play(prepared(case.run(2, old.model.robot), case.recipe, old), Player(old), was.values)
     first, last = (one.residuals.per_joint[0].relative_to_mean for one in (before, after))
     assert last < 0.5 * first
     assert after.residuals.total.relative_to_mean < 1.0

@@ -51,11 +51,11 @@ def run(arguments: argparse.Namespace) -> None:
     folder = arguments.out or Path("diagnosed") / robot.name
     wanted = Request(arguments.data, arguments.validate, arguments.test, arguments.prior, arguments.dry_run)
     found, new, files = diagnosed(path, robot, wanted, folder, lambda *about: {REPORT: report(*about)})
-    print("\n".join([*summary(found), *_tested(new)]))
+    print("\n".join([*summary(found), *tested(new)]))
     print(f"files            {', '.join(files)} in {folder}/")
 
 
-def _tested(new: Mended | None) -> list[str]:
+def tested(new: Mended | None) -> list[str]:
     """Lines on the untouched runs."""
     if new is None:
         return []

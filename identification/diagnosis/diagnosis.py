@@ -87,9 +87,7 @@ def diagnose(
     validate = range(len(roles.train), len(runs))
     found = search(runs, train, validate, regressors, prior, told, dry)
     told("looking where the residual is")
-    base, _ = found.selection.normal.solution([])
-    start = dict(enumerate(base.tolist()))
-    before, after = (_where(found, weights) for weights in (start, found.weights))
+    before, after = (_where(found, weights) for weights in (found.start, found.weights))
     open_ = [lack for lack in after.lack if _large(lack, before)]
     verdict = UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
     named = findings(found, firm=not open_)
@@ -107,7 +105,7 @@ def diagnose(
         roles,
         tuple(runs),
         found,
-        tuple(_residuals(found, start)),
+        tuple(_residuals(found, found.start)),
         tuple(_residuals(found, found.weights)),
         tuple(notes),
     )
@@ -132,7 +130,7 @@ def _where(found: Search, weights: Mapping[int, float]) -> Where:
         white = [bank.residual(r, k, weights) for r in everything]
         lacks.append(lack_of_fit(bank.runs, white, k, number, 1.0))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
-        seen[number] = views(bank.runs, bank.scenes, raw, k)
+        seen[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     worst = max(lacks, key=lambda one: one.size)
     if worst.p > _CHANCE and worst.burst is None:
         return Where(0, "", "", {}, tuple(lacks), seen)

@@ -39,10 +39,19 @@ class Search:
     validate: tuple[int, ...]
 
     @property
+    def start(self) -> dict[int, float]:
+        """Values of the base columns without the choices, by number, fitted to all runs."""
+        return self._fitted(())
+
+    @property
     def weights(self) -> dict[int, float]:
-        """Values of all columns in use, by number."""
-        columns = [number for one in self.choices for number in one.evidence.variant.columns]
-        solution, _ = self.selection.normal.solution(columns)
+        """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
+        not look like something that the model lacks.
+        """
+        return self._fitted([number for one in self.choices for number in one.evidence.variant.columns])
+
+    def _fitted(self, columns: Sequence[int]) -> dict[int, float]:
+        solution, _ = self.selection.all.solution(columns)
         return dict(zip([*range(len(self.bank.base)), *columns], solution.tolist(), strict=True))
 
 

@@ -18,6 +18,7 @@ from identification.diagnosis.finding import Finding
 from identification.diagnosis.hypothesis import BODY
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Played, Player, aligned, compiled, play
+from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
@@ -122,4 +123,7 @@ def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
-    return tuple(play(one, player, values) for one in _sampled(sources, player.regressors))
+    robot = player.regressors.model.robot
+    recipe = recipes.recipe_of(robot.name)
+    runs = (load(source, robot, recipe.columns, resting=True) for source in sources)
+    return tuple(play(prepared(one, recipe, player.regressors), player, values) for one in runs)

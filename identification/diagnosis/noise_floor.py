@@ -9,8 +9,6 @@ from identification.diagnosis.bank import Bank
 
 Array = NDArray[np.float64]
 
-#: Corner of the filter before a decimation, in parts of the new Nyquist frequency (see ``filtering``).
-_CORNER = 0.8
 #: Points of the integral over the frequency.
 _POINTS = 400
 
@@ -25,6 +23,6 @@ def density(bank: Bank, k: int, frequency: Array) -> Array:
 
 
 def noise_floor(bank: Bank, k: int, rate: float) -> float:
-    """Root mean square [N m, N] of the noise of coordinate k in rows decimated to ``rate`` [Hz]."""
-    frequency = np.linspace(0.0, _CORNER * rate / 2, _POINTS)
+    """Root mean square [N m, N] of the noise of coordinate k in rows at ``rate`` [Hz], those of the diagnosis."""
+    frequency = np.linspace(0.0, rate / 2, _POINTS)
     return float(np.sqrt(np.trapezoid(density(bank, k, frequency), frequency)))

@@ -14,10 +14,9 @@ from generator.errors import InputError
 from generator.generation import Stage, generate, silent
 from generator.python_library import build_library, load_library
 from generator.symbolic.effect_torques import STATES, WARMTH
-from identification.filtering import decimated, kept_indices, kept_rows
+from identification.diagnosis.prepared import Prepared
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
-from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
@@ -102,20 +101,17 @@ class Played:
         return Residuals(each)
 
 
-def play(one: Sampled, player: Player, values: Mapping[str, float]) -> Played:
-    """A run's torques beside the model's along its filtered motion, both decimated as for an identification.
+def play(one: Prepared, player: Player, values: Mapping[str, float]) -> Played:
+    """A run's torques beside the model's along its filtered motion, in the rows that a diagnosis looks at.
 
     ``values`` are those of the base parameters by name [SI], and of a payload that the run's sidecar does not tell.
     """
-    model = player.torques(values, one.motion)
-    if one.run.payload is not None:
-        names = one.run.payload.names()
-        body = np.array([one.run.payload.known.get(stem, values.get(name, 0.0)) for stem, name in names.items()])
-        model = model + np.stack([body @ columns for columns in player.regressors.payload(one.motion)])
-    factor = one.filters.factor
-    t = one.times[kept_indices(one.motion.samples, factor)]
-    kept = np.stack([kept_rows(left_out, factor) for left_out in one.left_out])
-    return Played(t, decimated(one.tau, factor), decimated(model, factor), kept)
+    motion, payload = one.sampled.motion, one.sampled.run.payload
+    model = player.torques(values, motion)
+    if payload is not None:
+        body = np.array([payload.known.get(stem, values.get(name, 0.0)) for stem, name in payload.names().items()])
+        model = model + np.stack([body @ columns for columns in player.regressors.payload(motion)])
+    return Played(one.t, one.tau, one.decimated(model), one.kept)
 
 
 def aligned(one: Played, other: Played) -> tuple[Played, Played]:

@@ -104,6 +104,7 @@ class Selection:
         others = sum(int(self.bank.rows(r).sum()) for r in self._validate)
         self.normal = Normal(np.sum(train, axis=0), p, rows, self._prior)
         self.held = Normal(np.sum(held, axis=0), p, others)
+        self.all = Normal(self.normal.gram + self.held.gram, p, rows + others, self._prior)
         self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
 
     # -- evidence -------------------------------------------------------------------------------------------------

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.colour import inflation
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.whitening import Colour
 
 Array = NDArray[np.float64]
 
@@ -59,13 +59,15 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
     return result
 
 
-def views(runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int) -> tuple[View, ...]:
-    """All views of coordinate k's residuals, one (N rows) a run, the strongest variable first."""
+def views(
+    runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
+) -> tuple[View, ...]:
+    """All views of coordinate k's residuals, one (N rows) and one colour of noise a run, the strongest variable first."""
     kept = [run.kept[k] for run in runs]
     e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
     if len(e) < 4 * BINS:
         return ()
-    factor = inflation(e)
+    power = _of_means(noise, [int(rows.sum()) for rows in kept])
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
     forward = np.concatenate(
         [run.decimated(scene.motion.qd[k])[rows] for run, scene, rows in zip(runs, scenes, kept, strict=True)]
@@ -77,12 +79,12 @@ def views(runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence
         if np.ptp(x) <= 1e-12 * max(np.abs(x).max(), 1e-300):
             continue
         sides = (-1, 1) if name in ("q by direction", "load") else (0,)
-        found += _view(number, name, unit, x, e, forward, sides, factor)
+        found += _view(number, name, unit, x, e, forward, sides, power)
     return tuple(sorted(found, key=lambda one: (-one.share, one.variable, one.direction)))
 
 
 def _view(
-    number: int, name: str, unit: str, x: Array, e: Array, qd: Array, sides: Sequence[int], factor: float
+    number: int, name: str, unit: str, x: Array, e: Array, qd: Array, sides: Sequence[int], power: float
 ) -> list[View]:
     edges = np.linspace(x.min(), x.max(), BINS + 1)
     at = np.clip(np.digitize(x, edges) - 1, 0, BINS - 1)
@@ -94,18 +96,24 @@ def _view(
         total = np.bincount(at[rows], weights=e[rows] - e.mean(), minlength=BINS)
         used = count > 3
         mean = np.where(used, total / np.maximum(count, 1), 0.0)
-        band = np.where(used, 2 * np.sqrt(variance * factor / np.maximum(count, 1)), np.inf)
+        band = np.where(used, 2 * np.sqrt(power / np.maximum(count, 1)), np.inf)
         explained += float(count[used] @ mean[used] ** 2)
         bins += int(used.sum())
         parts.append((side, used, mean + e.mean(), band, count))
     # What bins of coloured noise would explain by chance.
-    chance = factor * variance * max(bins - 1, 0)
+    chance = power * max(bins - 1, 0)
     share = max(explained - chance, 0.0) / max(variance * len(e), 1e-300)
     centre = (edges[1:] + edges[:-1]) / 2
     return [
         View(number, name, unit, side, centre[used], mean[used], band[used], count[used], share)
         for side, used, mean, band, count in parts
     ]
+
+
+def _of_means(noise: Sequence[Colour], rows: Sequence[int]) -> float:
+    """Variance of a mean of noise times the rows in it: its power density at rest, that of white noise at least."""
+    each = [max(one.deviations[-1] / abs(float(one.filters[-1].sum())), one.deviations[0]) ** 2 for one in noise]
+    return float(np.average(each, weights=rows))
 
 
 def _since_reversal(scene: Scene, k: int) -> Array:

@@ -1,0 +1,60 @@
+"""Banks of the diagnosis on matrices that a test writes down, without a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.bank import Bank
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.whitening import Colour
+
+Array = NDArray[np.float64]
+
+#: Noise that is white already, of deviation 1.
+WHITE = Colour((np.ones(1),), (1.0,))
+
+
+def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int = 0) -> Any:
+    """A run of one joint: base columns W (p x N), torque tau (N), rows that are ``kept`` (N, all if None)."""
+    rows = np.ones(len(tau), dtype=bool) if kept is None else kept
+    return SimpleNamespace(
+        sampled=SimpleNamespace(motion=W[:, None, :]),
+        t=np.arange(len(tau), dtype=float) / 50,
+        tau=tau[None],
+        kept=rows[None],
+        period=period,
+        decimated=lambda x: x,
+    )
+
+
+def bank(runs: Sequence[Any]) -> Bank:
+    """The runs' base columns and torques; a scene is its run's number."""
+    names = tuple(f"p{i}" for i in range(len(runs[0].sampled.motion)))
+    regressors = SimpleNamespace(names=names, structure=[names], base=lambda motion: [motion[:, 0]])
+    scenes: Any = [SimpleNamespace(regressors=regressors, number=r) for r in range(len(runs))]
+    return Bank(runs, scenes)
+
+
+def whitened(one: Bank) -> Bank:
+    """With rows taken as white."""
+    one.whiten([[WHITE] for _ in one.runs])
+    return one
+
+
+def hypothesis(
+    effect: str,
+    columns: Callable[[int, Mapping[str, float]], Array],
+    shapes: Sequence[ShapeRange] = (),
+    bounds: tuple[float | None, float | None] = (None, None),
+) -> Hypothesis:
+    """An effect of one coefficient whose column in run r is ``columns(r, shape)`` (N)."""
+
+    def of(scene: Any, shape: Mapping[str, float]) -> Array:
+        return columns(scene.number, shape)[None, None]
+
+    return Hypothesis(effect, effect, 1, (Coefficient("c1", "1", *bounds),), of, shapes=tuple(shapes))

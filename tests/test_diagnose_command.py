@@ -1,0 +1,186 @@
+"""`counterpoise diagnose` as a user runs it, on runs of a simulated arm that shares no code with it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from generator.robot.readers import read
+from identification import recipe as recipes
+from identification.dataset import load
+from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.prepared import prepared
+from identification.diagnosis.scene import Scene
+from identification.observation import Regressors
+from tests.commands import Done, command, process
+from tests.plant.effect import Effect
+from tests.plant.robot_file import robot_file
+from tests.plant.robots import ROBOTS
+from tests.plant.run import write_csv
+from tests.plant.simulate import make_run
+from tests.plant.trajectories.fourier import fourier
+
+ARM = ROBOTS["three_axis"]
+#: Hidden in the runs: friction of joint 2 that changes with the position, and its size [N m].
+HIDDEN = Effect("position_friction", 2, 1.0 * ARM.chain[1].coulomb)
+
+
+def record(folder: Path, seeds: tuple[int, ...], effects: tuple[Effect, ...]) -> list[str]:
+    """Runs of three periods of 5 s."""
+    for seed in seeds:
+        run = make_run(ARM, fourier(seed, period=5.0, periods=3), effects, seed=seed)
+        write_csv(run, folder / f"{seed}.csv")
+    return [f"{seed}.csv" for seed in seeds]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A folder with the robot's file and runs; what the command said and wrote into ``out``."""
+
+    folder: Path
+    done: Done
+
+    @cached_property
+    def result(self) -> dict[str, Any]:
+        return result(self.folder / "out")
+
+
+def result(folder: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
+    return found
+
+
+def diagnose(folder: Path, *arguments: str) -> Done:
+    return process("diagnose", *arguments, cwd=folder)
+
+
+@pytest.fixture(scope="module")
+def hidden(tmp_path_factory: pytest.TempPathFactory) -> Case:
+    folder = tmp_path_factory.mktemp("hidden")
+    (folder / "arm.yaml").write_text(robot_file(ARM), encoding="utf-8")
+    a, b, c = record(folder, (1, 2, 3), (HIDDEN,))
+    done = diagnose(folder, "arm.yaml", a, "--validate", b, "--test", c, "--out", "out")
+    assert done.status == 0, done.err
+    return Case(folder, done)
+
+
+def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
+    result = hidden.result
+    assert (result["robot"], result["mode"], result["verdict"]) == ("three_axis", "free_fit", "effects_named")
+    (found,) = result["findings"]
+    assert (found["effect"], found["joints"], found["status"]) == ("position_friction", [2], "firm")
+    assert result["where"]["joint"] == 2
+    assert set(found["parameters"]) >= {"Fqc2", "Fqs2"}
+    assert "firm             " in hidden.done.out
+    assert "on 2" in hidden.done.out
+    assert "Traceback" not in hidden.done.err
+
+
+def test_every_key_of_the_contract_is_there(hidden: Case) -> None:
+    """docs/diagnosis.md has a row for each key."""
+    page = (Path(__file__).parents[1] / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    keys = set(hidden.result) | set(hidden.result["findings"][0]) | set(hidden.result["findings"][0]["evidence"])
+    keys |= set(hidden.result["where"]) | set(hidden.result["lack_of_fit"]["after"][0]) | set(hidden.result["residual"])
+    missing = [key for key in sorted(keys) if f"`{key}`" not in page]
+    assert not missing
+    assert (hidden.folder / "out" / hidden.result["robot_file"]).is_file()
+    assert (hidden.folder / "out" / hidden.result["generated"] / "c" / "three_axis.c").is_file()
+    assert (hidden.folder / "out" / "report.html").stat().st_size > 100_000
+
+
+def test_the_gap_closes_on_the_run_that_nothing_touched(hidden: Case) -> None:
+    each = {
+        kind: {one["joint"]: one["norm"] for one in hidden.result["residual"][kind]["per_joint"]}
+        for kind in ("before", "after")
+    }
+    assert each["after"][2] < 0.6 * each["before"][2]
+    for joint in (1, 3):
+        assert each["after"][joint] == pytest.approx(each["before"][joint], rel=0.05)
+    used = [one["file"] for runs in hidden.result["data"].values() for one in runs]
+    assert not any(name.endswith("3.csv") for name in used)
+
+
+def test_the_repaired_robot_lacks_nothing_on_fresh_runs(hidden: Case) -> None:
+    folder = hidden.folder
+    a, b = record(folder, (5, 6), (HIDDEN,))
+    done = diagnose(folder, "out/three_axis.yaml", a, "--validate", b, "--test", "3.csv", "--out", "again")
+    assert done.status == 0, done.err
+    again = result(folder / "again")
+    assert (again["verdict"], again["findings"]) == ("no_discrepancy", [])
+
+
+def test_an_effect_of_the_file_is_not_offered_again(hidden: Case) -> None:
+    offered = {}
+    for name in ("arm.yaml", "out/three_axis.yaml"):
+        robot = read(hidden.folder / name)
+        regressors, recipe = Regressors(robot), recipes.recipe_of(robot.name)
+        run = prepared(load(str(hidden.folder / "1.csv"), robot, recipe.columns), recipe, regressors)
+        scene = Scene(run.sampled, regressors, dict.fromkeys(regressors.names, 1.0))
+        offered[name] = {(one.effect, one.joint) for one in hypotheses([scene])}
+    assert ("position_friction", 2) in offered["arm.yaml"]
+    assert ("position_friction", 2) not in offered["out/three_axis.yaml"]
+    assert ("position_friction", 1) in offered["out/three_axis.yaml"]
+    assert not {("viscous_friction", j) for j in (1, 2, 3)} & offered["arm.yaml"]
+
+
+def test_a_dry_run_only_locates(hidden: Case) -> None:
+    folder = hidden.folder
+    done = diagnose(
+        folder, "arm.yaml", "1.csv@0:10", "--validate", "2.csv@0:10", "--test", "3.csv", "--dry-run", "--out", "dry"
+    )
+    assert done.status == 0, done.err
+    assert "where            joint 2" in done.out
+    assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]
+    dry = result(folder / "dry")
+    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("unexplained", [], None)
+
+
+def cut_off(folder: Path) -> str:
+    """A run that ends too soon."""
+    lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines(keepends=True)
+    (folder / "short.csv").write_text("".join(lines[:20]), encoding="utf-8")
+    return "short.csv"
+
+
+def without_last_column(folder: Path) -> str:
+    lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines()
+    (folder / "cut.csv").write_text("\n".join(line.rpartition(",")[0] for line in lines) + "\n", encoding="utf-8")
+    return "cut.csv"
+
+
+@pytest.mark.parametrize(
+    ("run", "options", "parts"),
+    [
+        ("2.csv", ("--prior", "knwon"), ("arm.yaml", "no parameter set 'knwon'", "known")),
+        (cut_off, (), ("short.csv", "a run of 0.038 s, expected 2 s at least")),
+        (without_last_column, (), ("cut.csv",)),
+        ("gone.csv", (), ("gone.csv",)),
+    ],
+    ids=["prior", "short", "column", "absent"],
+)
+def test_bad_input_is_one_line_and_nothing_is_written(
+    hidden: Case,
+    run: str | Callable[[Path], str],
+    options: tuple[str, ...],
+    parts: tuple[str, ...],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    name = run if isinstance(run, str) else run(hidden.folder)
+    done = command(
+        "diagnose", "arm.yaml", "1.csv", name, "--validate", "2.csv", "--test", "3.csv", *options, "--out", "bad",
+        capsys=capsys,
+    )  # fmt: skip
+    last = done.err.strip().splitlines()[-1]
+    assert done.status == 2
+    assert last.startswith("error: ")
+    assert "Traceback" not in done.err
+    assert all(part in last for part in parts), last
+    assert not (hidden.folder / "bad").exists()

@@ -1,0 +1,118 @@
+"""What is known of a robot's parameters, carried over to its base parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from generator.robot.readers import read
+from identification.diagnosis.priors import prior_of
+from identification.observation import Motion, Regressors
+from tests.newton_euler import Arm
+
+Array = NDArray[np.float64]
+
+#: Values with relative standard deviations [%]; None where the file tells none.
+VALUES: dict[str, tuple[float, str, float | None]] = {
+    "XX1": (2.0, "kg m2", 10), "YY1": (3.0, "kg m2", 5), "ZZ1": (4.0, "kg m2", 8), "MX1": (6.0, "kg m", 4),
+    "MY1": (1.5, "kg m", 12), "MZ1": (0.7, "kg m", 20), "M1": (30.0, "kg", 3), "Ia1": (5.0, "kg m2", 6),
+    "XX2": (0.9, "kg m2", 9), "YY2": (1.1, "kg m2", 7), "ZZ2": (1.4, "kg m2", 8), "XY2": (0.2, "kg m2", 30),
+    "MX2": (4.0, "kg m", None), "MY2": (-0.8, "kg m", 10), "MZ2": (0.5, "kg m", 15), "M2": (12.0, "kg", 2),
+    "Ia2": (1.2, "kg m2", 5), "Fv1": (8.0, "N m s/rad", 25), "Fv2": (5.0, "N m s/rad", 20),
+}  # fmt: skip
+ARM = """\
+name: arm
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+geometry:
+  d2: 0.6 m
+joints:
+  - {j: 1, sigma: 0, alpha: pi/2, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 0, alpha: pi/3, d: d2, theta: q2, r: 0.2 m}
+effects:
+  - {effect: rotor_inertia, joints: all}
+  - {effect: viscous_friction, joints: all}
+parameters:
+  drawing:
+    values:
+"""
+
+
+@pytest.fixture(scope="module")
+def regressors(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
+    path = tmp_path_factory.mktemp("prior") / "arm.yaml"
+    lines = [
+        f"      {name}: {{value: {value}, unit: {unit}{'' if spread is None else f', relative_std: {spread}'}}}"
+        for name, (value, unit, spread) in VALUES.items()
+    ]
+    path.write_text(ARM + "\n".join(lines) + "\n", encoding="utf-8")
+    return Regressors(read(path))
+
+
+def linear_map(regressors: Regressors) -> Array:
+    """Base parameters per standard parameter, from torques of an independent Newton-Euler along random motions."""
+    robot = regressors.model.robot
+    q, qd, qdd = np.random.default_rng(1).uniform(-2, 2, (3, 2, 60))
+    place = {name: k for k, name in enumerate(regressors.names)}
+    W = np.zeros((2, 60, len(place)))
+    for row, names, columns in zip(W, regressors.structure, regressors.base(Motion(q, qd, qdd)), strict=True):
+        row[:, [place[name] for name in names]] = columns.T
+
+    plain = {name: value for name, (value, _, _) in VALUES.items()}
+
+    def torques(values: dict[str, float]) -> Array:
+        arm = Arm(robot, values)
+        return np.array([arm.torques(*state) for state in zip(q.T, qd.T, qdd.T, strict=True)]).T
+
+    still = torques(plain)
+    columns = []
+    for name in VALUES:
+        if name.startswith(("Ia", "Fv")):
+            k = int(name[2]) - 1
+            column = np.zeros((2, 60))
+            column[k] = qdd[k] if name.startswith("Ia") else qd[k]
+        else:
+            column = torques({**plain, name: plain[name] + 1.0}) - still
+        columns.append(column.reshape(-1))
+    solution, *_ = np.linalg.lstsq(W.reshape(-1, len(place)), np.array(columns).T, rcond=None)
+    return np.asarray(solution)
+
+
+def test_mean_and_covariance_are_those_of_the_linear_map(regressors: Regressors) -> None:
+    found = prior_of(regressors.model, "drawing")
+    values = np.array([value for value, _, _ in VALUES.values()])
+    # What has no standard deviation is known to 5 %, or to a thousandth of the largest value of its unit.
+    largest = {"kg m": 6.0}
+    std = np.array(
+        [
+            abs(value) * spread / 100 if spread is not None else max(0.05 * abs(value), 1e-3 * largest[unit])
+            for value, unit, spread in VALUES.values()
+        ]
+    )
+    L = linear_map(regressors)
+    assert found.mean == pytest.approx(L @ values, rel=1e-7, abs=1e-9)
+    covariance = L @ np.diag(std**2) @ L.T
+    known = found.known
+    assert known.tolist() == (np.diag(covariance) > 1e-20).tolist()
+    inverse = np.linalg.inv(found.precision[np.ix_(known, known)])
+    size = np.sqrt(np.diag(covariance)[known])
+    # A millionth of each variance is added, so that sums of the same parameters stay apart.
+    assert inverse / np.outer(size, size) == pytest.approx(
+        covariance[np.ix_(known, known)] / np.outer(size, size), abs=2e-6
+    )
+
+
+def test_what_the_set_does_not_tell_is_not_known(regressors: Regressors) -> None:
+    """Offsets of bodies that the set leaves out are zero there, with no standard deviation of their own."""
+    found = prior_of(regressors.model, "drawing")
+    place = {name: k for k, name in enumerate(regressors.names)}
+    unknown = {name for name, k in place.items() if not found.known[k]}
+    assert unknown == {"XZ2", "YZ2"}
+
+
+def test_an_unknown_set_is_refused(regressors: Regressors) -> None:
+    with pytest.raises(InputError) as refused:
+        prior_of(regressors.model, "drawings")
+    assert "no parameter set 'drawings'" in str(refused.value)
+    assert "drawing" in str(refused.value)

@@ -1,0 +1,195 @@
+"""The search on matrices whose answer is known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from identification.diagnosis.bank import Bank
+from identification.diagnosis.hypothesis import Hypothesis, ShapeRange
+from identification.diagnosis.selection import Choice, Selection
+from tests.matrices import bank, hypothesis, run, whitened
+
+Array = NDArray[np.float64]
+
+#: Two runs are fitted, one validates.
+RUNS, COUNT = 3, 1500
+TRAIN, VALIDATE = (0, 1), (2,)
+
+
+class Data:
+    """Base columns, as many columns as wanted, and noise of deviation 1, all drawn."""
+
+    def __init__(self, seed: int) -> None:
+        self.draw = np.random.default_rng(seed)
+        self.base = self.draw.normal(size=(RUNS, 3, COUNT))
+        self.noise = self.draw.normal(size=(RUNS, COUNT))
+
+    def column(self) -> Array:
+        """One of rms 1 in every run (RUNS x COUNT)."""
+        return self.draw.normal(size=(RUNS, COUNT))
+
+    def bank(self, effect: Array | float, offered: Sequence[Hypothesis]) -> Bank:
+        """Runs with an effect, and columns of the hypotheses with all their shapes."""
+        tau = np.einsum("rpn,p->rn", self.base, [3.0, -1.0, 0.5]) + effect + self.noise
+        one = bank([run(W, y) for W, y in zip(self.base, tau, strict=True)])
+        for each in offered:
+            for shape in each.variants:
+                one.add(each, shape)
+        return whitened(one)
+
+
+def fixed(name: str, column: Array, bounds: tuple[float | None, float | None] = (None, None)) -> Hypothesis:
+    return hypothesis(name, lambda r, shape: column[r], bounds=bounds)
+
+
+def search(one: Bank) -> list[Choice]:
+    return Selection(one, TRAIN, VALIDATE, None).search()
+
+
+def names(found: Sequence[Choice]) -> set[str]:
+    return {one.evidence.variant.hypothesis.effect for one in found}
+
+
+def crowd(data: Data, count: int = 30) -> list[Hypothesis]:
+    return [fixed(f"other{i}", data.column()) for i in range(count)]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_noise_is_given_no_name(seed: int) -> None:
+    data = Data(seed)
+    assert search(data.bank(0.0, crowd(data))) == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_is_there_is_found_and_nothing_else(seed: int) -> None:
+    data = Data(100 + seed)
+    right = data.column()
+    (found,) = search(data.bank(0.4 * right, [*crowd(data), fixed("right", right)]))
+    evidence = found.evidence
+    assert evidence.variant.hypothesis.effect == "right"
+    assert evidence.coefficients == pytest.approx([0.4], abs=0.1)
+    # Drop, size and validation as sums over the columns themselves.
+    W = np.concatenate([data.base[r] for r in TRAIN], axis=1).T
+    y = np.concatenate(
+        [(np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]) for r in TRAIN]
+    )
+    x = np.concatenate([right[r] for r in TRAIN])
+    before, after = W, np.column_stack([W, x])
+    solutions = [np.linalg.lstsq(A, y, rcond=None)[0] for A in (before, after)]
+    misfits = [float(np.sum((y - A @ s) ** 2)) for A, s in zip((before, after), solutions, strict=True)]
+    assert evidence.drop == pytest.approx(misfits[0] - misfits[1])
+    assert evidence.size == pytest.approx(np.sqrt(evidence.drop / len(y)))
+    r = VALIDATE[0]
+    held = np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]
+    left = [held - np.column_stack([data.base[r].T, right[r]])[:, : len(s)] @ s for s in solutions]
+    assert evidence.validation == pytest.approx(float(left[0] @ left[0] - left[1] @ left[1]))
+
+
+def test_two_that_hide_each_other_are_found_together() -> None:
+    """Nearly opposite columns: either alone explains next to nothing."""
+    data = Data(7)
+    common, apart = data.column(), data.column()
+    one, other = common + 0.15 * apart, common - 0.15 * apart
+    one, other = one / one.std(), other / other.std()
+    effect = 2.0 * one - 2.0 * other
+    found = search(data.bank(effect, [fixed("one", one), fixed("other", other), *crowd(data, 10)]))
+    assert names(found) == {"one", "other"}
+
+
+def shaped(base: Callable[[int, float], Array], points: tuple[float, ...]) -> Hypothesis:
+    shape = ShapeRange("v", "1", min(points), max(points), points=points)
+    return hypothesis("shaped", lambda r, given: base(r, given["v"]), [shape])
+
+
+def test_a_shape_is_refined_between_the_tried_ones() -> None:
+    data = Data(8)
+    x = np.abs(data.column())
+
+    def law(r: int, v: float) -> Array:
+        return np.asarray(np.exp(-x[r] / v))
+
+    effect = np.stack([2.0 * law(r, 0.29) for r in range(RUNS)])
+    (found,) = search(data.bank(effect, [shaped(law, (0.05, 0.15, 0.45, 1.35))]))
+    assert found.evidence.variant.shape["v"] == pytest.approx(0.29, rel=0.25)
+    assert abs(np.log(found.evidence.variant.shape["v"] / 0.29)) < abs(np.log(0.45 / 0.29))
+
+
+@pytest.mark.parametrize("true", [0.01, 8.0])
+def test_a_shape_at_the_end_of_what_was_tried_is_refused(true: float) -> None:
+    data = Data(9)
+    x = data.column()
+
+    def law(r: int, v: float) -> Array:
+        # Bells whose place is the shape: the best one is at or past the end.
+        return np.asarray(np.exp(-((x[r] - np.log(v)) ** 2) / 8))
+
+    effect = np.stack([2.0 * law(r, true) for r in range(RUNS)])
+    one = data.bank(effect, [shaped(law, (0.2, 0.4, 0.8, 1.6))])
+    selection = Selection(one, TRAIN, VALIDATE, None)
+    assert selection.search() == []
+
+
+def test_what_differs_between_runs_does_not_pass_validation() -> None:
+    data = Data(10)
+    column = data.column()
+    signs = np.array([1.0, 1.0, -1.0])
+    one = data.bank(signs[:, None] * column, [fixed("drifting", column)])
+    selection = Selection(one, TRAIN, VALIDATE, None)
+    (evidence,) = selection.evidence([])
+    assert evidence.drop > 1000
+    assert evidence.validation < 0
+    assert not evidence.passes
+    assert "not fitted" in evidence.why_not
+    assert selection.search() == []
+
+
+def test_runs_that_disagree_on_the_amplitude_are_told() -> None:
+    data = Data(11)
+    column = data.column()
+    offered = [fixed("right", column)]
+    same = Selection(data.bank(0.5 * column, offered), TRAIN, VALIDATE, None)
+    amplitudes = np.array([1.0, 0.1, 0.55])
+    other = Selection(data.bank(amplitudes[:, None] * column, offered), TRAIN, VALIDATE, None)
+    assert same.homogeneous(same.bank.variants[0], [])
+    assert not other.homogeneous(other.bank.variants[0], [])
+
+
+def test_physical_bounds_refuse_a_name() -> None:
+    """Friction that pushes is none."""
+    data = Data(12)
+    column = data.column()
+    assert search(data.bank(-0.5 * column, [fixed("friction", column, (0.0, None))])) == []
+    assert names(search(data.bank(0.5 * column, [fixed("friction", column, (0.0, None))]))) == {"friction"}
+
+
+def test_what_is_tiny_beside_the_noise_is_refused() -> None:
+    data = Data(13)
+    data.noise = data.noise * 1.0
+    column = data.column()
+    one = data.bank(0.045 * column, [fixed("tiny", column)])
+    assert search(one) == []
+
+
+def test_an_equal_one_is_listed_and_a_worse_one_is_not() -> None:
+    data = Data(14)
+    right = data.column()
+    twin, worse = right + 1e-4 * data.column(), right + 0.7 * data.column()
+    (found,) = search(data.bank(0.5 * right, [fixed("right", right), fixed("twin", twin), fixed("worse", worse)]))
+    assert {found.evidence.variant.hypothesis.effect, *(e.variant.hypothesis.effect for e in found.alternatives)} == {
+        "right",
+        "twin",
+    }
+
+
+def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
+    data = Data(15)
+    hidden = data.base[:, 0] - 2 * data.base[:, 1] + 0.003 * data.column()
+    seen = data.base[:, 0] + data.column()
+    one = data.bank(0.3 * hidden, [fixed("hidden", hidden), fixed("seen", seen)])
+    selection = Selection(one, TRAIN, VALIDATE, None)
+    assert [each.effect for each in selection.invisible()] == ["hidden"]
+    assert selection.search() == []
