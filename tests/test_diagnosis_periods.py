@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,6 @@ from generator.errors import Place
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.roles import roles
-import itertools
 
 Array = NDArray[np.float64]
 

@@ -81,7 +81,9 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
         f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
-    return Roles(tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last) or tuple(held), tuple(known), (note,))
+    return Roles(
+        tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last) or tuple(held), tuple(known), (note,)
+    )
 
 
 def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
