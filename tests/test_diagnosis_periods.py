@@ -97,11 +97,11 @@ def test_the_last_of_many_runs_take_the_roles_that_are_missing() -> None:
     ("validate", "test"), [([], []), (["V"], []), ([], ["T"])], ids=["neither", "validates", "tests"]
 )
 def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: list[str]) -> None:
-    found = roles([recorded("A", start=5.0), recorded("B", seconds=30.0)], validate, test)
+    found = roles([recorded("A", start=5.0, seconds=25.0), recorded("B", seconds=30.0)], validate, test)
     split = [*parts(found.train), *([] if validate else parts(found.validate)), *([] if test else parts(found.test))]
     assert not validate or found.validate == tuple(validate)
     assert not test or found.test == tuple(test)
-    for name, start, end in (("A", 5.0, 15.0), ("B", 0.0, 30.0)):
+    for name, start, end in (("A", 5.0, 30.0), ("B", 0.0, 30.0)):
         mine = sorted((a, b) for path, a, b in split if path == name)
         assert mine[0][0] >= start
         assert mine[-1][1] <= end + 1e-9
@@ -115,6 +115,19 @@ def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: l
         # The end of each run, and nothing that is known reaches into it.
         begins = {path: a for path, a, _ in parts(found.test)}
         assert all(b < begins[path] for path, _, b in parts(tuple(one for one in found.known if "@" in one)))
+
+
+def test_where_runs_are_short_one_part_validates_and_tests() -> None:
+    found = roles([recorded("A", start=5.0), recorded("B", seconds=30.0)], [], [])
+    assert found.test == found.validate
+    assert found.known == ("A", "B")
+    for name, start, end in (("A", 5.0, 15.0), ("B", 0.0, 30.0)):
+        mine = sorted((a, b) for path, a, b in parts((*found.train, *found.validate)) if path == name)
+        assert mine[0][0] >= start
+        assert mine[-1][1] <= end + 1e-9
+        assert all(after[0] - before[1] >= 0.19 for before, after in itertools.pairwise(mine))
+    (note,) = found.notes
+    assert "since the runs are short, tests too" in note
 
 
 def test_the_validating_block_lies_where_every_joint_moves() -> None:

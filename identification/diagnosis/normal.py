@@ -1,7 +1,7 @@
 """Least squares on the Gram matrix of white rows, base parameters taken out once and for all.
 
-With G the products of base columns W, candidate columns C and torque y over the fitted runs, and a prior's rows added to
-W's, the Schur complement of W's block holds the products of what W cannot explain of C and y. Every question about
+With G the products of base columns W, candidate columns C and torque y over the fitted runs, and a prior's rows added
+to W's, the Schur complement of W's block holds the products of what W cannot explain of C and y. Every question about
 candidates is then a question about a few of its rows.
 """
 
