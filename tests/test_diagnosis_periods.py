@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.errors import Place
+from generator.errors import InputError, Place
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.roles import roles
@@ -128,6 +128,21 @@ def test_where_runs_are_short_one_part_validates_and_tests() -> None:
         assert all(after[0] - before[1] >= 0.19 for before, after in itertools.pairwise(mine))
     (note,) = found.notes
     assert "since the runs are short, tests too" in note
+
+
+@pytest.mark.parametrize("seconds", [2.2, 3.0, 4.5])
+@pytest.mark.parametrize(("validate", "test"), [([], []), ([], ["T"])], ids=["neither", "tests"])
+def test_every_part_of_a_short_run_is_a_second_long(seconds: float, validate: list[str], test: list[str]) -> None:
+    found = roles([recorded("A", seconds=seconds)], validate, test)
+    assert found.train
+    assert all(end - start >= 1.0 for _, start, end in parts((*found.train, *found.validate)))
+
+
+def test_a_run_too_short_to_be_split_is_refused() -> None:
+    with pytest.raises(InputError, match=r"A:1:1: a run of 1.5 s, expected 2.1 s at least, to be split in time"):
+        roles([recorded("A", seconds=1.5)], [], ["T"])
+    with pytest.raises(InputError, match=r"A:1:1: a run of 2 s, expected 2.1 s at least, to be split in time"):
+        roles([recorded("A", seconds=2.0)], ["V"], [])
 
 
 def test_the_validating_block_lies_where_every_joint_moves() -> None:
