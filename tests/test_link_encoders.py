@@ -80,7 +80,7 @@ def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path
 
 @pytest.mark.skipif(not DATA.is_dir(), reason="no recordings in ../shared/data")
 def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the maker's."""
+    """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the a-priori model's."""
     runs = [DATA / "A.csv", DATA / "B.csv"]
     robot = read(find_robot("kr300"))
     friction = identify(robot, [str(run) for run in runs], options=None).full.solution.values
