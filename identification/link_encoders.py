@@ -22,6 +22,7 @@ from identification.filtering import decimated, derivative, smoothed
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
+from identification.run_filters import filters_of
 
 Array = NDArray[np.float64]
 
@@ -76,10 +77,7 @@ def link_encoders(
     Raises InputError for runs that are too short and for runs without link-side encoders.
     """
     runs = [load(str(source), robot, recipe.columns) for source in sources]
-    filters = [recipe.at(run.rate) for run in runs]
-    for run, one in zip(runs, filters, strict=True):
-        if run.samples < one.fewest:
-            raise InputError(run.place, f"{run.samples} rows", f"at least {one.fewest} for the filters")
+    filters = [filters_of(run, recipe) for run in runs]
     latency, stiffness, mistaken, residuals, kept = {}, {}, {}, {}, {}
     notes = [note for run in runs for note in run.notes]
     for k, joint in enumerate(robot.moving):

@@ -74,7 +74,7 @@ def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path
     with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):
         link_encoders(machine.robot, [run])
     short = replace(RUN, duration=1.0)
-    with pytest.raises(InputError, match="1000 rows, expected at least"):
+    with pytest.raises(InputError, match=r"1000 rows \(1 s at 1000 Hz\), expected at least"):
         link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
 
 

@@ -9,7 +9,7 @@ from identification.report.output_error.subject import ShownRun, Subject
 from identification.report.series import points_each
 
 TITLE = "Measured and simulated position"
-ORDER = 30
+ORDER = 25
 
 #: Lines of a chart: measured, simulated, and what is left.
 _LINES = 3
