@@ -1,7 +1,7 @@
 """Least squares on the Gram matrix of white rows, base parameters taken out once and for all.
 
-With G the products of base columns W, candidate columns C and torque y over the fitted runs, and a prior's rows added to
-W's, the Schur complement of W's block holds the products of what W cannot explain of C and y. Every question about
+With G the products of base columns W, candidate columns C and torque y over the fitted runs, and a prior's rows added
+to W's, the Schur complement of W's block holds the products of what W cannot explain of C and y. Every question about
 candidates is then a question about a few of its rows.
 """
 
@@ -92,6 +92,16 @@ class Normal:
         result = S - S[:, at] @ inverse(S[np.ix_(at, at)]) @ S[at]
         result[at], result[:, at] = 0.0, 0.0
         return np.asarray(result)
+
+    def part(self, columns: Sequence[int], chosen: Sequence[int]) -> Array:
+        """The rows of ``columns`` and of the torque of the Schur complement after the columns ``chosen`` too."""
+        S = self.schur
+        at = [*(number - self.base for number in columns), len(S) - 1]
+        out = np.array(chosen, dtype=int) - self.base
+        part = S[np.ix_(at, at)]
+        if out.size:
+            part = part - S[np.ix_(at, out)] @ inverse(S[np.ix_(out, out)]) @ S[np.ix_(out, at)]
+        return np.asarray(part)
 
     def solution(self, chosen: Sequence[int], values: Array | None = None) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance.

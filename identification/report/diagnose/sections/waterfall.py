@@ -22,7 +22,7 @@ def render(subject: Subject) -> Markup | None:
     if not search.choices:
         return None
     order = sorted(search.choices, key=lambda one: -one.evidence.drop)
-    normal, held = search.selection.normal, search.selection.held
+    normal, held = search.weighing.normal, search.weighing.held
     columns: list[int] = []
     levels = [held.misfit(columns, normal.solution(columns)[0])]
     names = ["model before"]
