@@ -158,7 +158,7 @@ def without_last_column(folder: Path) -> str:
     ("run", "options", "parts"),
     [
         ("2.csv", ("--prior", "knwon"), ("arm.yaml", "no parameter set 'knwon'", "known")),
-        (cut_off, (), ("short.csv", "a run of 0.038 s, expected 2 s at least")),
+        (cut_off, (), ("short.csv", "a run of 0.038 s, expected 1 s at least")),
         (without_last_column, (), ("cut.csv",)),
         ("gone.csv", (), ("gone.csv",)),
     ],

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.errors import Place
+from generator.errors import InputError, Place
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.roles import roles
@@ -97,11 +97,11 @@ def test_the_last_of_many_runs_take_the_roles_that_are_missing() -> None:
     ("validate", "test"), [([], []), (["V"], []), ([], ["T"])], ids=["neither", "validates", "tests"]
 )
 def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: list[str]) -> None:
-    found = roles([recorded("A", start=5.0), recorded("B", seconds=30.0)], validate, test)
+    found = roles([recorded("A", start=5.0, seconds=25.0), recorded("B", seconds=30.0)], validate, test)
     split = [*parts(found.train), *([] if validate else parts(found.validate)), *([] if test else parts(found.test))]
     assert not validate or found.validate == tuple(validate)
     assert not test or found.test == tuple(test)
-    for name, start, end in (("A", 5.0, 15.0), ("B", 0.0, 30.0)):
+    for name, start, end in (("A", 5.0, 30.0), ("B", 0.0, 30.0)):
         mine = sorted((a, b) for path, a, b in split if path == name)
         assert mine[0][0] >= start
         assert mine[-1][1] <= end + 1e-9
@@ -115,6 +115,34 @@ def test_few_runs_are_split_in_time_without_overlap(validate: list[str], test: l
         # The end of each run, and nothing that is known reaches into it.
         begins = {path: a for path, a, _ in parts(found.test)}
         assert all(b < begins[path] for path, _, b in parts(tuple(one for one in found.known if "@" in one)))
+
+
+def test_where_runs_are_short_one_part_validates_and_tests() -> None:
+    found = roles([recorded("A", start=5.0), recorded("B", seconds=30.0)], [], [])
+    assert found.test == found.validate
+    assert found.known == ("A", "B")
+    for name, start, end in (("A", 5.0, 15.0), ("B", 0.0, 30.0)):
+        mine = sorted((a, b) for path, a, b in parts((*found.train, *found.validate)) if path == name)
+        assert mine[0][0] >= start
+        assert mine[-1][1] <= end + 1e-9
+        assert all(after[0] - before[1] >= 0.19 for before, after in itertools.pairwise(mine))
+    (note,) = found.notes
+    assert "since the runs are short, tests too" in note
+
+
+@pytest.mark.parametrize("seconds", [2.2, 3.0, 4.5])
+@pytest.mark.parametrize(("validate", "test"), [([], []), ([], ["T"])], ids=["neither", "tests"])
+def test_every_part_of_a_short_run_is_a_second_long(seconds: float, validate: list[str], test: list[str]) -> None:
+    found = roles([recorded("A", seconds=seconds)], validate, test)
+    assert found.train
+    assert all(end - start >= 1.0 for _, start, end in parts((*found.train, *found.validate)))
+
+
+def test_a_run_too_short_to_be_split_is_refused() -> None:
+    with pytest.raises(InputError, match=r"A:1:1: a run of 1.5 s, expected 2.1 s at least, to be split in time"):
+        roles([recorded("A", seconds=1.5)], [], ["T"])
+    with pytest.raises(InputError, match=r"A:1:1: a run of 2 s, expected 2.1 s at least, to be split in time"):
+        roles([recorded("A", seconds=2.0)], ["V"], [])
 
 
 def test_the_validating_block_lies_where_every_joint_moves() -> None:

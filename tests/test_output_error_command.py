@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -103,16 +104,12 @@ def starts_of(folder: Path, executor: Any, counted: Callable[[int, int], None] =
 
 def test_a_cluster_that_loses_a_worker_gives_the_same_result(folder: Path, serial: dict[str, Any]) -> None:
     """A worker is killed when the first start is done; the others are done by the one that is left."""
-    with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as workers,
-        distributed.Client(workers) as client,
-    ):
-        killed: list[int] = []
+    killed: list[int] = []
+    with two_workers() as workers:
 
         def kill(done: int, total: int) -> None:
             if done == 1 and not killed:
-                killed.append(next(iter(client.run(os.getpid).values())))
-                os.kill(killed[0], signal.SIGKILL)
+                killed.append(kill_one(workers))
 
         with cluster.opened(workers.scheduler_address) as executor:
             assert isinstance(executor, Cluster)
@@ -120,6 +117,44 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_result(folder: Path, seria
     assert killed
     assert len(found["scores"]) == STARTS
     assert found == serial
+
+
+def test_results_that_die_with_their_worker_are_made_again(tmp_path: Path) -> None:
+    """All tasks are done, on either worker, when one of them is killed with what was not fetched from it."""
+    killed: list[int] = []
+    with two_workers() as workers:
+
+        def kill(done: int, total: int) -> None:
+            if done == 1 and not killed:
+                while len(list(tmp_path.glob("done_*"))) < total:
+                    time.sleep(0.01)
+                killed.append(kill_one(workers))
+
+        with cluster.opened(workers.scheduler_address) as executor:
+            assert study(squared, tasks(tmp_path), executor, counted=kill) == SQUARES
+    assert killed
+
+
+def test_a_cluster_that_is_lost_is_told(tmp_path: Path) -> None:
+    with two_workers() as workers, cluster.opened(workers.scheduler_address) as executor:
+        lost = pytest.raises(InputError, match="--scheduler:1:1: the cluster is lost")
+        with lost:
+            study(
+                squared, tasks(tmp_path), executor, counted=lambda done, total: workers.close() if done == 1 else None
+            )
+
+
+def two_workers() -> Any:
+    """A cluster on this machine. No client of it is the process's default, as none is in the command."""
+    return distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+
+
+def kill_one(workers: Any) -> int:
+    """Kills a worker's process, whose number is returned."""
+    with distributed.Client(workers, set_as_default=False) as client:
+        number = int(next(iter(client.run(os.getpid).values())))
+    os.kill(number, signal.SIGKILL)
+    return number
 
 
 def test_the_command_writes_its_results_and_resumes(

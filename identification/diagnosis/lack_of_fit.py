@@ -1,8 +1,8 @@
 """How much of a joint's residual no noise explains: between repetitions, or beyond the noise's power; and events.
 
-Where a motion repeats, what the periods of the residual have in common is what the model lacks, and what differs is noise
-(an F test). Where nothing repeats the residual's power is compared with that of the noise, which is weaker: the noise was
-measured on the same rows.
+Where a motion repeats, what the periods of the residual have in common is what the model lacks, and what differs is
+noise (an F test). Where nothing repeats the residual's power is compared with that of the noise, which is weaker: the
+noise was measured on the same rows.
 """
 
 from __future__ import annotations

@@ -65,8 +65,9 @@ def search(
     told: Callable[[str], None] = lambda _: None,
     dry: bool = False,
 ) -> Search:
-    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``; none is looked for in a
-    ``dry`` search.
+    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``.
+
+    None is looked for in a ``dry`` search.
     """
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []

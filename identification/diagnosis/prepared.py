@@ -26,8 +26,8 @@ _SLOW = 0.04
 _CRAWLING = 0.12
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
-#: Shortest run that anything can be told from [s].
-_SHORTEST = 1.0
+#: Shortest run, or part of one, that anything can be told from [s].
+SHORTEST = 1.0
 #: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.
 _NEAR = 0.35
 
@@ -67,8 +67,8 @@ def windowed(x: Array, factor: int) -> Array:
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     """The run by the diagnosis' filters, which replace those of ``recipe``; raises InputError where it is too short."""
     length = run.samples * run.period
-    if length < _SHORTEST:
-        raise InputError(run.place, f"a run of {length:.3g} s", f"{_SHORTEST:g} s at least, better several periods")
+    if length < SHORTEST:
+        raise InputError(run.place, f"a run of {length:.3g} s", f"{SHORTEST:g} s at least, better several periods")
     period = period_of(run.q, run.period)
     wanted = run.rate / RATE
     factor = possible_factor(wanted) if wanted > 1 else 1

@@ -14,7 +14,7 @@ from identification.diagnosis.normal import Prior
 
 Array = NDArray[np.float64]
 
-#: Relative standard deviation of a value whose set tells none, and of what is zero, in parts of the largest of its unit.
+#: Relative standard deviation of a value whose set tells none, and that of zero, in parts of the largest of its unit.
 _UNTOLD, _ZERO = 0.05, 1e-3
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from generator.errors import InputError
 from identification.dataset import Run
+from identification.diagnosis.prepared import SHORTEST
 
 #: Parts of a run's time that are fitted and that validate, where there are too few runs; the rest tests.
 _FITTED, _VALIDATED = 0.55, 0.2
@@ -53,32 +55,40 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
 
 
 def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
-    """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates."""
+    """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates.
+
+    Raises InputError for a run too short to be split.
+    """
     share = 0.0 if validate else _VALIDATED
     rest = 1 - _FITTED - _VALIDATED
     shortest = min((run.samples * run.period for run in data), default=0.0)
     tested = 0.0 if test or (not validate and rest * shortest < _ENOUGH) else rest
-    train, held, last, known = [], [], [], list(validate)
+    train: list[str] = []
+    held: list[str] = []
+    last: list[str] = []
+    known = list(validate)
     for run in data:
-        start, length = run.start, (run.samples - 1) * run.period
+        start, length = run.start, _length(run)
         gap = min(_GAP, _SHORT * length)
-        end = start + length * (1 - tested)
-        known.append(_part(run.name, start, end) if tested else run.name)
+        end = start + length - (_block(run, tested) + gap if tested else 0.0)
+        least = _block(run, _LEAST) + (0.0 if validate else _block(run, share) + gap)
+        if end - start < least:
+            expected = f"{least + start + length - end:.2g} s at least, to be split in time"
+            raise InputError(run.place, f"a run of {length:.3g} s", expected)
         if tested:
             last.append(_part(run.name, end + gap, start + length))
-        if validate:
-            train.append(_part(run.name, start, end))
-            continue
-        first = _liveliest(run, end, share * length, gap)
-        held.append(_part(run.name, first, first + share * length))
-        around = ((start, first - gap), (first + share * length + gap, end))
-        train += [_part(run.name, a, b) for a, b in around if b - a > _LEAST * length]
+        known.append(_part(run.name, start, end) if tested else run.name)
+        around = [(start, end)]
+        if not validate:
+            first, final = _liveliest(run, end, _block(run, share), gap)
+            held.append(_part(run.name, first, final))
+            around = [(start, first - gap), (final + gap, end)]
+        train += [_part(run.name, a, b) for a, b in around if b - a > _block(run, _LEAST)]
     parts = [text for text, wanted in (("validates", not validate), ("tests", not test)) if wanted]
-    fitted = 100 * (1 - share - tested)
     if not test and not tested:
         parts = ["validates and, since the runs are short, tests too"]
     note = (
-        f"of every run {fitted:.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
+        f"of every run {100 * (1 - share - tested):.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
         "runs apart are stronger evidence"
     )
     return Roles(
@@ -86,8 +96,18 @@ def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) ->
     )
 
 
-def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
-    """Where a block of ``length`` [s] before ``end`` begins that leaves every joint's motion to both sides as asked.
+def _length(run: Run) -> float:
+    """From the first sample to the last [s]."""
+    return (run.samples - 1) * run.period
+
+
+def _block(run: Run, share: float) -> float:
+    """A ``share`` of the run [s], or what is long enough to tell something: two samples more, as ends lie between."""
+    return max(share * _length(run), SHORTEST + 2 * run.period)
+
+
+def _liveliest(run: Run, end: float, length: float, gap: float) -> tuple[float, float]:
+    """The block of ``length`` [s] before ``end``, from when to when, that leaves every joint's motion to both sides.
 
     A joint's motion is its squared speed; parts too short to be fitted are lost.
     """
@@ -95,7 +115,7 @@ def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
     total = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=-1)], axis=-1)
     moves = total[:, -1] > 1e-9 * total[:, -1].max()
     whole, count = int((end - run.start) / run.period), int(length / run.period)
-    least, between = _LEAST * run.samples, int(gap / run.period)
+    least, between = _block(run, _LEAST) / run.period, int(gap / run.period)
     part = count / whole
 
     def least_share(first: int, last: int) -> float:
@@ -108,7 +128,8 @@ def _liveliest(run: Run, end: float, length: float, gap: float) -> float:
         return min(least_share(k, k + count) / part, kept / (1 - part))
 
     places = np.unique(np.linspace(0, whole - count, _PLACES).astype(int))
-    return float(run.start + max(places.tolist(), key=goodness) * run.period)
+    first = float(run.start + max(places.tolist(), key=goodness) * run.period)
+    return first, first + length
 
 
 def _part(name: str, start: float, end: float) -> str:

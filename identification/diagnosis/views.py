@@ -62,7 +62,7 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
 def views(
     runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
 ) -> tuple[View, ...]:
-    """All views of coordinate k's residuals, one (N rows) and one colour of noise a run, the strongest variable first."""
+    """All views of coordinate k's residuals, one (N rows) and a colour of noise a run; the strongest variable first."""
     kept = [run.kept[k] for run in runs]
     e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
     if len(e) < 4 * BINS:

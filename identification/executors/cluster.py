@@ -30,11 +30,15 @@ class Cluster:
         # Tasks hold all that they need: data put on one worker would be lost with it.
         futures = {self._client.submit(function, task, pure=False): name for name, task in tasks.items()}
         try:
-            for future in distributed.as_completed(list(futures)):
+            # In this client's loop: the default is that of the process's default client, which need not be there.
+            for future in distributed.as_completed(list(futures), loop=self._client.loop):
                 yield futures[future], future.result()
         except distributed.KilledWorker:
             problem = f"a task has ended {_DEATHS} workers"
             raise InputError(command_line(OPTION), problem, "workers with memory and a C compiler") from None
+        except distributed.CancelledError:
+            problem = "the cluster is lost"
+            raise InputError(command_line(OPTION), problem, "a scheduler that answers until all is done") from None
         finally:
             self._client.cancel(list(futures))
 
