@@ -58,9 +58,7 @@ def information(weighing: Weighing, variant: Variant, chosen: list[Variant]) -> 
 
 def held_out(weighing: Weighing, variant: Variant, chosen: list[Variant]) -> float:
     """Drop of the sum of squares on the run that was not fitted."""
-    before, after = _columns(chosen), _columns([*chosen, variant])
-    misfits = [weighing.held.misfit(at, weighing.normal.solution(at)[0]) for at in (before, after)]
-    return misfits[0] - misfits[1]
+    return weighing.gain(variant, chosen)
 
 
 def sparse(weighing: Weighing) -> list[Name]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import Normal, Prior, bounded
 
@@ -26,14 +27,16 @@ _Found = tuple[float, Variant, Array]
 _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
-#: Least size beside the noise, and least part of what is unexplained above it.
-_FLOOR, _SHARE = 0.06, 0.01
+#: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
+_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.01, 0.1
 #: What nearly every robot has, a balancer once; and what many wrists have.
 _COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
 _WRIST = ("coupled_rotor",)
 BALANCERS = ("gas_balancer", "spring_balancer")
 #: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
 _BESIDE, _ALIKE = 0.03, 0.15
+#: The same part of a balancer for a second one.
+_SECOND = 0.5
 _OF_SPEED = ("qd", "time since reversal")
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
@@ -66,24 +69,31 @@ class Evidence:
 
 
 class Weighing:
-    """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not."""
+    """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
+
+    Without any to validate each fitted run is predicted by the others.
+    """
 
     def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
         self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self._held_out = HeldOut(bank, train, validate, prior)
         self._known_drops: dict[tuple[int, ...], list[float]] = {}
         self.refresh()
 
     def refresh(self) -> None:
         """After columns have been added."""
         p = len(self.bank.base)
-        train, held = ([self.bank.grams[r] for r in runs] for runs in (self._train, self._validate))
-        rows = sum(int(self.bank.rows(r).sum()) for r in self._train)
-        others = sum(int(self.bank.rows(r).sum()) for r in self._validate)
-        self.normal = Normal(np.sum(train, axis=0), p, rows, self._prior)
-        self.held = Normal(np.sum(held, axis=0), p, others)
-        self.all = Normal(self.normal.gram + self.held.gram, p, rows + others, self._prior)
+        self.normal = Normal(self._gram(self._train), p, self._count(self._train), self._prior)
+        both = (*self._train, *self._validate)
+        self.all = Normal(self._gram(both), p, self._count(both), self._prior) if self._validate else self.normal
         self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
+
+    def _gram(self, runs: Sequence[int]) -> Array:
+        return np.asarray(np.sum([self.bank.grams[r] for r in runs], axis=0))
+
+    def _count(self, runs: Sequence[int]) -> int:
+        return sum(int(self.bank.rows(r).sum()) for r in runs)
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
@@ -122,7 +132,11 @@ class Weighing:
         """Coefficients of a variant beside others, within their bounds, and the drop of the sum of squares."""
         part = self.normal.part(variant.columns, columns_of(others))
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        return bounded(part[:-1, :-1], part[:-1, -1], *bounds_of(variant), size)
+        return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)
+
+    def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """Drop of the sum of squares of what was not fitted."""
+        return self._held_out.gain(variant, columns_of(others))
 
     def unexplained(self, chosen: Sequence[Variant]) -> float:
         """What the sum of squares is above the noise."""
@@ -132,7 +146,7 @@ class Weighing:
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        return bounded(S[np.ix_(at, at)], S[at, -1], *bounds_of(variant), size)
+        return bounded(S[np.ix_(at, at)], S[at, -1], *variant.bounds, size)
 
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = found
@@ -146,13 +160,14 @@ class Weighing:
         one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
-        validation = self._validation(drop, variant, others)
+        validation = self.gain(variant, others)
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
-        promised = drop * self.held.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
+        promised = drop * self._held_out.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
-        if size < _FLOOR or drop < _SHARE * unexplained:
+        share = _SHARE if common(variant, others) else _RARE_SHARE
+        if size < _FLOOR or drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         if drop < self._imperfect(variant, others):
             return replace(one, why_not="may be what another effect's law lacks")
@@ -166,7 +181,9 @@ class Weighing:
         if common(variant, others):
             return least
         for other, drop in zip(others, self._drops(others), strict=True):
-            if set(other.joints) & set(variant.joints):
+            if {variant.hypothesis.effect, other.hypothesis.effect} <= set(BALANCERS):
+                least = max(least, _SECOND * drop)
+            elif set(other.joints) & set(variant.joints):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
                 least = max(least, (_ALIKE if alike else _BESIDE) * drop)
         return least
@@ -179,16 +196,6 @@ class Weighing:
                 self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen
             ]
         return self._known_drops[key]
-
-    def _validation(self, drop: float, variant: Variant, others: Sequence[Variant]) -> float:
-        """Drop of the sum of squares of the runs that are not fitted beside what the fitted ones predict of them.
-
-        It is what all runs together lose beyond the fitted ones: where those leave parameters uncertain, a prediction
-        is uncertain too and its error counts less.
-        """
-        part = self.all.part(variant.columns, columns_of(others))
-        size = np.diag(self.all.gram)[list(variant.columns)]
-        return bounded(part[:-1, :-1], part[:-1, -1], *bounds_of(variant), size)[1] - drop
 
     def homogeneous(self, variant: Variant, others: Sequence[Variant]) -> bool:
         """Whether the runs agree on one amplitude: each run's own along the common one, within four deviations."""
@@ -246,12 +253,6 @@ def key_of(variant: Variant) -> tuple[str, int]:
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
     return [number for one in chosen for number in one.columns]
-
-
-def bounds_of(one: Variant) -> tuple[Array, Array]:
-    lower = np.array([-np.inf if c.lower is None else c.lower for c in one.coefficients])
-    upper = np.array([np.inf if c.upper is None else c.upper for c in one.coefficients])
-    return lower, upper
 
 
 def _at_end(variant: Variant) -> bool:

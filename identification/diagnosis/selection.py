@@ -14,7 +14,6 @@ from identification.diagnosis.evidence import (
     BALANCERS,
     Evidence,
     Weighing,
-    bounds_of,
     columns_of,
     common,
     key_of,
@@ -167,7 +166,7 @@ class Selection:
         best: tuple[float, list[Variant]] = (0.0, [])
         for one, other in combinations([each.variant for each in single], 2):
             at = np.array([*one.columns, *other.columns]) - self.weighing.normal.base
-            bounds = [np.concatenate(pair) for pair in zip(bounds_of(one), bounds_of(other), strict=True)]
+            bounds = [np.concatenate(pair) for pair in zip(one.bounds, other.bounds, strict=True)]
             size = np.diag(self.weighing.normal.gram)[[*one.columns, *other.columns]]
             _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
             if drop > best[0]:
