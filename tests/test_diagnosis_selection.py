@@ -86,8 +86,34 @@ def test_what_is_there_is_found_and_nothing_else(seed: int) -> None:
     assert evidence.size == pytest.approx(np.sqrt(evidence.drop / len(y)))
     r = VALIDATE[0]
     held = np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]
-    left = [held - np.column_stack([data.base[r].T, right[r]])[:, : len(s)] @ s for s in solutions]
-    assert evidence.validation == pytest.approx(float(left[0] @ left[0] - left[1] @ left[1]))
+    own = np.column_stack([data.base[r].T, right[r]])
+    predicted = [surprise(held, own[:, : A.shape[1]], A, s) for A, s in zip((before, after), solutions, strict=True)]
+    assert evidence.validation == pytest.approx(predicted[0] - predicted[1])
+
+
+def surprise(y: Array, own: Array, fitted: Array, solution: Array) -> float:
+    """Square of a prediction's error in parts of what it may be: that of the noise, 1, and that of the parameters."""
+    e = y - own @ solution
+    V = np.eye(len(y)) + own @ np.linalg.inv(fitted.T @ fitted) @ own.T
+    return float(e @ np.linalg.solve(V, e))
+
+
+def test_without_a_run_that_validates_each_is_predicted_by_the_others() -> None:
+    data = Data(300)
+    right = data.column()
+    bank = data.bank(0.4 * right, [fixed("right", right)])
+    everything = (*TRAIN, *VALIDATE)
+    (evidence,) = Weighing(bank, everything, (), None).evidence([])
+    y = [np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r] for r in everything]
+    A = [np.column_stack([data.base[r].T, right[r]]) for r in everything]
+    expected = 0.0
+    for out in range(len(everything)):
+        others = [k for k in range(len(everything)) if k != out]
+        for count, sign in ((3, 1.0), (4, -1.0)):
+            fitted = np.concatenate([A[k][:, :count] for k in others])
+            solution = np.linalg.lstsq(fitted, np.concatenate([y[k] for k in others]), rcond=None)[0]
+            expected += sign * surprise(y[out], A[out][:, :count], fitted, solution)
+    assert evidence.validation == pytest.approx(expected)
 
 
 def test_two_that_hide_each_other_are_found_together() -> None:
