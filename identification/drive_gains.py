@@ -21,6 +21,7 @@ from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
+from identification.run_filters import filters_of
 from identification.sampling import Sampled, sampled
 from identification.sidecar import Payload
 from identification.total_least_squares import Fit, Part, solve
@@ -141,10 +142,7 @@ Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]
 
 def _run(source: str, robot: Robot, recipe: Recipe) -> Run:
     run = load(str(source), robot, recipe.columns, ("i",))
-    fewest = recipe.at(run.rate).fewest
-    if run.samples < fewest:
-        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
-        raise InputError(run.place, problem, f"at least {fewest} for the filters")
+    filters_of(run, recipe)
     return run
 
 

@@ -26,6 +26,7 @@ from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
+from identification.run_filters import filters_of
 from identification.signals import EFFORTS, WRENCH, NoColumns
 from identification.torque_constants import Turning, torque_constant
 
@@ -135,10 +136,7 @@ def _inertias(robot: Robot, values: Mapping[str, float]) -> Array:
 
 
 def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array, generated: Any) -> Pose:
-    filters = recipe.at(run.rate)
-    if run.samples < filters.fewest:
-        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
-        raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
+    filters = filters_of(run, recipe)
     if not any(name in run.others for name in WRENCH):
         raise InputError(run.place, "there are no columns of the wrench", f"one at least of {' '.join(WRENCH)}")
     for joint, positions in zip(robot.moving, run.q, strict=True):

@@ -22,6 +22,7 @@ from identification.own_load import under_own_load
 from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
+from identification.run_filters import filters_of
 from identification.sampling import sampled
 from identification.sidecar import Payload
 from identification.suspicion import suspect
@@ -140,10 +141,7 @@ def _loaded(source: str, robot: Robot, recipe: Recipe, options: Options) -> Run:
 
 
 def _observed(run: Run, recipe: Recipe, regressors: Regressors) -> Observed:
-    fewest = recipe.at(run.rate).fewest
-    if run.samples < fewest:
-        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
-        raise InputError(run.place, problem, f"at least {fewest} for the filters")
+    filters_of(run, recipe)
     return Observed(sampled(run, recipe, regressors), regressors)
 
 

@@ -22,6 +22,7 @@ from identification.filtering import decimated, derivative, smoothed
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
+from identification.run_filters import filters_of
 
 Array = NDArray[np.float64]
 
@@ -31,10 +32,28 @@ LIMIT = 0.1
 
 
 @dataclass(frozen=True)
+class Rows:
+    """Of one joint in all runs: ``twist`` q - qs (N) [rad, m], ``own`` columns of the motor's motion (N x p), those of
+    speed first, ``constants`` of the runs (N x runs), ``torque`` (N) [N m, N].
+    """
+
+    twist: Array
+    own: Array
+    constants: Array
+    torque: Array
+
+    def beside_motion(self) -> tuple[Array, Array]:
+        """What the motor's motion and the runs' constants cannot explain of the twist and of the torque (N each)."""
+        others = np.column_stack([self.own, self.constants])
+        return _left(self.twist, others), _left(self.torque, others)
+
+
+@dataclass(frozen=True)
 class LinkEncoders:
     """By name: ``latency`` [s] and ``stiffness`` k of the joints with a link-side encoder.
 
-    ``mistaken`` is what k would be if q - qs was all twist. ``residuals`` are of q - qs [rad, m] by joint (from 0).
+    ``mistaken`` is what k would be if q - qs was all twist. ``residuals`` are of q - qs [rad, m] and ``rows`` those of
+    the fit, by joint (from 0).
     """
 
     robot: Robot
@@ -43,19 +62,8 @@ class LinkEncoders:
     stiffness: Mapping[str, Value]
     mistaken: Mapping[str, Value]
     residuals: Mapping[int, Residual]
+    rows: Mapping[int, Rows]
     notes: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class _Rows:
-    """Of one joint in all runs: ``twist`` q - qs (N), ``own`` columns of the motor's motion (N x p), those of speed
-    first, ``constants`` of the runs (N x runs), ``torque`` (N) [N m, N].
-    """
-
-    twist: Array
-    own: Array
-    constants: Array
-    torque: Array
 
 
 def link_encoders(
@@ -69,17 +77,14 @@ def link_encoders(
     Raises InputError for runs that are too short and for runs without link-side encoders.
     """
     runs = [load(str(source), robot, recipe.columns) for source in sources]
-    filters = [recipe.at(run.rate) for run in runs]
-    for run, one in zip(runs, filters, strict=True):
-        if run.samples < one.fewest:
-            raise InputError(run.place, f"{run.samples} rows", f"at least {one.fewest} for the filters")
-    latency, stiffness, mistaken, residuals = {}, {}, {}, {}
+    filters = [filters_of(run, recipe) for run in runs]
+    latency, stiffness, mistaken, residuals, kept = {}, {}, {}, {}, {}
     notes = [note for run in runs for note in run.notes]
     for k, joint in enumerate(robot.moving):
         mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
         if not mine:
             continue
-        rows = _rows(mine, k, joint)
+        kept[k] = rows = _rows(mine, k, joint)
         viscous = _viscous(joint, friction or {})
         name = f"k{joint.number}"
         stiffness[name], latency[f"latency{joint.number}"], residuals[k] = _told(rows, joint, viscous)
@@ -90,10 +95,10 @@ def link_encoders(
         names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
         raise InputError(runs[0].place, "there are no columns of link-side encoders", names)
     found = tuple(zip(runs, filters, strict=True))
-    return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, tuple(notes))
+    return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
 
-def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> _Rows:
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> Rows:
     parts = []
     for number, (run, filters) in enumerate(runs):
         q, qs, torque = (
@@ -111,10 +116,10 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> _Rows:
         parts.append(np.concatenate([columns, constants]))
     joined = np.concatenate(parts, axis=1)
     count = len(runs)
-    return _Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
+    return Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
 
 
-def _told(rows: _Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
+def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
     """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
     moved = np.column_stack([rows.own[:, 1:], rows.constants, rows.own[:, 0]])
     compliance = _last(rows.twist, moved, rows.torque)
@@ -126,7 +131,7 @@ def _told(rows: _Rows, joint: Joint, viscous: float | None) -> tuple[Value, Valu
     if stiffness.value is not None and viscous is not None:
         latency += viscous * compliance[0]
     every = np.column_stack([others, columns])
-    e = rows.twist - every @ np.linalg.lstsq(every, rows.twist, rcond=None)[0]
+    e = _left(rows.twist, every)
     size, spread = float(np.linalg.norm(rows.twist)), float(np.linalg.norm(rows.twist - rows.twist.mean()))
     return stiffness, Value(latency, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
 
@@ -136,16 +141,27 @@ def _last(y: Array, others: Array, x: Array) -> tuple[float, float]:
 
     By what is left of y and x without the others (Frisch and Waugh 1933); infinite std where nothing is.
     """
-    scaled = others / np.maximum(np.linalg.norm(others, axis=0), np.finfo(float).tiny)
-    left = x - scaled @ np.linalg.lstsq(scaled, x, rcond=None)[0]
+    scaled = _scaled(others)
+    left = _left(x, others)
     power = float(left @ left)
     if power <= 1e-12 * float(x @ x):
         return 0.0, np.inf
     value = float(left @ y) / power
     every = np.column_stack([scaled, left / np.sqrt(power)])
-    e = y - every @ np.linalg.lstsq(every, y, rcond=None)[0]
+    e = _left(y, every)
     variance = float(e @ e) / max(len(y) - every.shape[1], 1) * inflation(e)
     return value, float(np.sqrt(variance / power))
+
+
+def _left(y: Array, others: Array) -> Array:
+    """What least squares with the columns ``others`` leave of y."""
+    scaled = _scaled(others)
+    return np.asarray(y - scaled @ np.linalg.lstsq(scaled, y, rcond=None)[0])
+
+
+def _scaled(columns: Array) -> Array:
+    """Columns of unit length; zero stays zero."""
+    return np.asarray(columns / np.maximum(np.linalg.norm(columns, axis=0), np.finfo(float).tiny))
 
 
 def _stiffness(compliance: float, std: float, joint: Joint) -> Value:

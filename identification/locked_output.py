@@ -23,6 +23,7 @@ from identification.least_squares import Problem, Solution
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
+from identification.run_filters import filters_of
 
 Array = NDArray[np.float64]
 
@@ -84,8 +85,8 @@ def locked_output(
     found, stacked, removed = [], [], []
     for source in sources:
         run = load(str(source), robot, recipe.columns, resting=True)
-        filters = recipe.at(run.rate)
-        _check(run, filters, k, joint)
+        filters = filters_of(run, recipe)
+        _check(run, k, joint)
         removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))
         stacked.append(_rows(run, filters, k, removed[-1]))
         found.append((run, filters))
@@ -120,10 +121,7 @@ def _joint(robot: Robot, number: int, sources: Sequence[str]) -> tuple[int, Join
     raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
 
 
-def _check(run: Run, filters: Filters, k: int, joint: Joint) -> None:
-    if run.samples < filters.fewest:
-        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
-        raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
+def _check(run: Run, k: int, joint: Joint) -> None:
     motion = float(np.ptp(run.q[k]))
     if motion > _BLOCKED:
         unit = "m" if joint.sigma == PRISMATIC else "rad"

@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 #: Cut-off of the Butterworth filter and new sampling rate, in frequencies of the dynamics. MATLAB's decimation by r
 #: passes 0.4 of the new rate, which makes twice the dynamics.
 _CUTOFF, _RATE = 5.0, 5.0
+#: Highest cut-off of a filter, in parts of the sampling rate.
+_HIGHEST = 0.45
 #: Periods of the cut-off that the filter's ends are given.
 _ENDS = 5.0
 #: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
@@ -63,6 +65,11 @@ class Recipe:
         """The recipe with the ``values`` that are not None in place of its own."""
         return replace(self, **{name: value for name, value in values.items() if value is not None})  # type: ignore[arg-type]
 
+    @property
+    def slowest(self) -> float:
+        """Sampling rate [Hz] below which a run does not hold the motion's dynamics."""
+        return min(self.dynamics, self.cutoff or self.dynamics) / _HIGHEST
+
     def standstills(self, robot: Robot) -> Array:
         """Speeds (n) [rad/s, m/s] below which the joints' rows are left out."""
         return np.array(
@@ -71,7 +78,7 @@ class Recipe:
 
     def at(self, rate: float) -> Filters:
         """The filters for runs sampled at ``rate`` [Hz]."""
-        cutoff = min(self.cutoff or _CUTOFF * self.dynamics, 0.45 * rate)
+        cutoff = min(self.cutoff or _CUTOFF * self.dynamics, _HIGHEST * rate)
         factor = self.factor or possible_factor(rate / (_RATE * self.dynamics))
         ends = round(_ENDS * rate / cutoff)
         first = ends if self.dropped_first is None else self.dropped_first

@@ -8,6 +8,8 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from generator.cli.main import main
 from generator.robot.description import Robot
 from generator.robot.readers import read
@@ -15,6 +17,7 @@ from identification import stiffness_results
 from identification.comparison import compare
 from identification.consistent_fit import consistent_fit
 from identification.inverse_model import identify
+from identification.link_encoders import LinkEncoders, link_encoders
 from identification.locked_output import locked_output
 from identification.observation import Regressors
 from identification.parameter_source import Known, Parameters
@@ -37,15 +40,27 @@ def identified(folder: Path) -> Subject:
     return identify_report.subject(found, consistent_fit(found, None, 0.03))
 
 
+def lagging(folder: Path) -> LinkEncoders:
+    """Two links whose encoders tell 3 ms late where they are; the second drive train twists, the first is rigid."""
+    links = two_links(folder)
+    run = recorded(links, TRUTH, rate=1000.0, noise=0.001)
+    columns = run.columns
+    late = {f"qs{j}": columns[f"q{j}"] - 3e-3 * np.gradient(columns[f"q{j}"], columns["t"]) for j in (1, 2)}
+    late["qs2"] = late["qs2"] - columns["tau2"] / 2e4
+    return link_encoders(links.model.robot, [str(run.with_columns(**late).save(folder / "late.csv"))])
+
+
 def pages(folder: Path) -> dict[str, bytes]:
     """A report of every kind by its name."""
     subject = identified(folder)
+    links = lagging(folder)
     steps, locked = stiff.steps(folder), locked_output(_robot(), 2, [stiff.blocked(folder / "blocked.csv")])
     return {
         "identify": identify_report.report(subject.found, subject.consistent),
         "gains": gains_report.report(lifter.found(_lifter(folder), folder)),
         "steps": stiffness_report.report(steps, stiffness_results.of_steps(steps)),
         "locked": stiffness_report.report(locked, stiffness_results.of_locked(locked)),
+        "links": stiffness_report.report(links, stiffness_results.of_link_encoders(links)),
         "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
         **_of_commands(folder / "commands"),
     }

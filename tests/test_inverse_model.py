@@ -331,6 +331,14 @@ def test_ten_rows_are_too_few(links: Regressors, folder: Path) -> None:
         identify(links.model.robot, [path], regressors=links)
 
 
+def test_times_in_milliseconds_are_found_out(links: Regressors, folder: Path) -> None:
+    run = recorded(links, TRUTH)
+    path = run.with_columns(t=1000 * run.columns["t"]).save(folder / "milliseconds.csv")
+    expected = r"milliseconds.csv:1:1: one sample in 5 s \(0.2 Hz\), expected at least 4.44 Hz; are the times in s\?"
+    with pytest.raises(InputError, match=expected):
+        identify(links.model.robot, [path], regressors=links)
+
+
 def test_negative_friction_is_told(links: Regressors, folder: Path) -> None:
     run = recorded(links, {**TRUTH, "Fv1": -8.0}, noise=0.01)
     found = identify(links.model.robot, [run.save(folder / "driven.csv")], regressors=links)

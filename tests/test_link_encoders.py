@@ -74,13 +74,13 @@ def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path
     with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):
         link_encoders(machine.robot, [run])
     short = replace(RUN, duration=1.0)
-    with pytest.raises(InputError, match="1000 rows, expected at least"):
+    with pytest.raises(InputError, match=r"1000 rows \(1 s at 1000 Hz\), expected at least"):
         link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
 
 
 @pytest.mark.skipif(not DATA.is_dir(), reason="no recordings in ../shared/data")
 def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the maker's."""
+    """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the a-priori model's."""
     runs = [DATA / "A.csv", DATA / "B.csv"]
     robot = read(find_robot("kr300"))
     friction = identify(robot, [str(run) for run in runs], options=None).full.solution.values

@@ -80,7 +80,9 @@ def held(q: Array, tau: Array, start: Array, period: float) -> Experiment:
     run = Run("made", read(find_robot("emps")).place, 0.0, period, q.T, tau.T)
     motion = Motion(q.T, nothing, nothing)
     filters = Filters(1 / period, 100.0, 4, 10, 0, 0)
-    return Experiment(run, filters, period, 1, tau[None], q[None], start[None], np.zeros(n), motion, tau, np.zeros(n))
+    return Experiment(
+        run, filters, period, 1, np.zeros(1), tau[None], q[None], start[None], np.zeros(n), motion, tau, np.zeros(n)
+    )
 
 
 def slopes(machine: Machine, values: Mapping[str, float], made: Experiment) -> dict[str, Array]:

@@ -23,7 +23,7 @@ from identification.report.welch import spectrum
 from tests.recorded import TRUTH
 from tests.reports import Page, identified, pages
 
-KINDS = ("identify", "gains", "steps", "locked", "compare", "excite", "output_error")
+KINDS = ("identify", "gains", "steps", "locked", "links", "compare", "excite", "output_error")
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +80,36 @@ def test_a_report_says_what_the_results_say(written: dict[str, bytes], subject: 
                 assert f'value="{one["norm"]!r}"' in text
                 assert f'value="{one["relative_percent"]!r}"' in text
                 assert f'value="{one["relative_to_mean_percent"]!r}"' in text
+
+
+def test_output_error_shows_what_the_simulation_misses(written: dict[str, bytes]) -> None:
+    """Two joints in a fitted and a held-out run: nearly the same motion, and not the same numbers."""
+    page = Page(written["output_error"])
+    shown = [one["data"] for one in page.charts if one["data"][0].get("name") == "measured"]
+    assert len(shown) == 4
+    for measured, simulated, left in shown:
+        assert (simulated["name"], left["name"]) == ("simulated", "residual, simulated")
+        assert len(set(measured["x"])) > 100
+        worst = max(abs(value) for value in left["y"] if value is not None)
+        assert 0 < worst < 0.06
+        t, q = (np.array([x for x in measured[axis] if x is not None]) for axis in "xy")
+        assert np.ptp(q) > 0.5
+        at = np.interp(np.array(simulated["x"], dtype=float), t, q)
+        assert np.array(simulated["y"], dtype=float) == pytest.approx(at, abs=0.1)
+
+
+def test_the_lag_of_link_side_encoders_is_shown(written: dict[str, bytes]) -> None:
+    over = {one["data"][-1]["name"]: one["data"] for one in Page(written["links"]).charts}
+    for number in (1, 2):
+        slope = over[f"latency{number}"][-1]
+        assert (slope["y"][1] - slope["y"][0]) / (slope["x"][1] - slope["x"][0]) == pytest.approx(3e-3, rel=0.02)
+    slope = over["1/k2"][-1]
+    assert (slope["x"][1] - slope["x"][0]) / (slope["y"][1] - slope["y"][0]) == pytest.approx(2e4, rel=0.05)
+    # A rigid drive train has no line: its points alone are there.
+    assert "1/k1" not in over
+    text = written["links"].decode()
+    assert "k1 cannot be told from these runs" in text
+    assert "differences q − qs are left unexplained" in text
 
 
 def test_the_same_result_gives_the_same_bytes(subject: Subject) -> None:

@@ -3,8 +3,8 @@
 --locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one a pose, in which the tool
 presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where
 they hold currents, torque constants are identified too. --link-encoders takes runs of a moving robot with columns qs;
-their latency is found and removed first. What the runs cannot show is refused by name. DIR receives results.json
-and the robot file with the values in it, and report.html but for --link-encoders.
+their latency is found and removed first. What the runs cannot show is refused by name. DIR receives results.json,
+report.html and the robot file with the values in it.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from generator.resources import find_robot
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
+    from identification.report.stiffness.subject import Found
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -58,21 +59,21 @@ def run(arguments: argparse.Namespace) -> None:
     method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
     own = method.RECIPE
     recipe = own if arguments.recipe is None else recipe_of(arguments.recipe)
-    pages: dict[str, bytes] = {}
     with stage(f"identifying stiffness from {len(arguments.data)} runs"):
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
             values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
-            pages = {REPORT: report(steps, document)}
+            found: Found = steps
         elif arguments.link_encoders:
             links = link_encoders.link_encoders(robot, arguments.data, prior, recipe)
             values, document = {**links.stiffness, **links.latency}, stiffness_results.of_link_encoders(links)
+            found = links
         else:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
             values, document = dict(locked.essential), stiffness_results.of_locked(locked)
-            pages = {REPORT: report(locked, document)}
+            found = locked
     folder = arguments.out or Path("identified") / f"{robot.name}_stiffness"
-    files = stiffness_results.save(document, values, robot, path, folder, pages)
+    files = stiffness_results.save(document, values, robot, path, folder, {REPORT: report(found, document)})
     total = document["residual"]["train"]["total"]
     lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]
     lines += outcome.table(values)

@@ -35,7 +35,8 @@ class Estimate:
     ``values`` [SI] are those of all parameters by name, ``names`` (b) those that were sought, in the order of
     ``covariance`` (b x b); ``hidden`` are those of them that no position shows alone, their variance is infinite.
     ``train`` and ``test`` (None if there is none) are the positions' errors [rad, m], on held-out runs with first
-    states of their own. ``poses`` (N x n) [rad, m] are those at which M(q) was looked at, ``eigenvalues`` (N x n) its
+    states of their own; ``errors`` and ``test_errors`` are measured less simulated positions (S x K x n), run by run.
+    ``poses`` (N x n) [rad, m] are those at which M(q) was looked at, ``eigenvalues`` (N x n) its
     own there, rising [kg m2, kg], ``margin`` the least that is allowed. ``condition`` is that of the sensitivities with
     columns of unit length, ``segments`` the number of simulations of one run through the data.
     """
@@ -46,6 +47,8 @@ class Estimate:
     hidden: tuple[str, ...]
     train: Residuals
     test: Residuals | None
+    errors: tuple[Array, ...]
+    test_errors: tuple[Array, ...]
     poses: Array
     eigenvalues: Array
     margin: float
@@ -109,17 +112,17 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
     hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
     density = noise_density(criterion)
-    tested = None
-    if tests:
-        others = replace(criterion, experiments=tuple(tests))
-        tested = _residuals(others, others.errors(_settled(others, point.chi)))
+    others = replace(criterion, experiments=tuple(tests))
+    tried = others.errors(_settled(others, point.chi)) if tests else ()
     return Estimate(
         names=criterion.sought,
         values=criterion.values(point.chi),
         covariance=covariance(criterion, at, reduced, inverse, density),
         hidden=tuple(np.array(criterion.sought)[hidden].tolist()),
         train=_residuals(criterion, errors),
-        test=tested,
+        test=_residuals(others, tried) if tests else None,
+        errors=errors,
+        test_errors=tried,
         poses=search.positivity.q,
         eigenvalues=search.positivity.eigenvalues(point.chi),
         margin=search.positivity.margin,

@@ -26,16 +26,18 @@ _FOURTH, _POWER = (1.0, -4.0, 6.0, -4.0, 1.0), 70.0
 class Experiment:
     """A run of n joints in S segments of L samples, ``period`` [s] apart, joint side.
 
-    ``tau`` (S x L x n) [N m, N] is held from each sample to the next. ``q`` (S x K x n) [rad, m] are the measured
-    positions at each ``stride``-th sample, ``start`` (S x 2n) is a first guess of the first states [q; qd], ``noise``
-    (n) the rms of the positions' noise. ``recorded`` are the torques (N x n) of the samples of ``motion``, the filtered
-    motion, ``slow`` (n) [rad/s, m/s] the speeds below which a joint counts as standing still.
+    ``began`` (S) are the times [s] at which segments begin. ``tau`` (S x L x n) [N m, N] is held from each sample to
+    the next. ``q`` (S x K x n) [rad, m] are the measured positions at each ``stride``-th sample, ``start`` (S x 2n) is
+    a first guess of the first states [q; qd], ``noise`` (n) the rms of the positions' noise. ``recorded`` are the
+    torques (N x n) of the samples of ``motion``, the filtered motion, ``slow`` (n) [rad/s, m/s] the speeds below which
+    a joint counts as standing still.
     """
 
     run: Run
     filters: Filters
     period: float
     stride: int
+    began: Array
     tau: Array
     q: Array
     start: Array
@@ -48,6 +50,11 @@ class Experiment:
     def step(self) -> float:
         """Time between two positions that are compared [s]."""
         return self.stride * self.period
+
+    @property
+    def times(self) -> Array:
+        """Times (S x K) [s] of the positions that are compared."""
+        return np.asarray(self.began[:, None] + self.step * np.arange(self.q.shape[1]))
 
 
 def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) -> Experiment:
@@ -87,12 +94,14 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) ->
         raise InputError(run.place, "torques are cut off in every segment", "a run below the limits")
     tau, q, q_smooth, qd = (np.ascontiguousarray(part[used]) for part in parts)
     first = np.concatenate([q_smooth[:, 0], qd[:, 0]], axis=-1)
+    began = run.start + run.period * np.asarray(filters.first + length * np.flatnonzero(used), dtype=np.float64)
     recorded = np.ascontiguousarray(run.tau[:, inner].T)
     return Experiment(
         run,
         filters,
         run.period,
         stride,
+        began,
         tau,
         q[:, ::stride].copy(),
         first,

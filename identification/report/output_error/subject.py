@@ -6,8 +6,23 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from generator.quantities import signals
+from identification.output_error.experiment import Experiment
 from identification.output_error.multi_start import OutputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ShownRun:
+    """A run that was simulated; ``errors`` are measured less simulated positions (S x K x n) [rad, m]."""
+
+    name: str
+    experiment: Experiment
+    errors: Array
 
 
 @dataclass(frozen=True)
@@ -16,6 +31,17 @@ class Subject:
 
     found: OutputError
     results: Mapping[str, Any]
+
+    @property
+    def runs(self) -> tuple[ShownRun, ...]:
+        """The fitted ones, then those held out."""
+        found, best = self.found, self.found.best
+        fitted = zip(found.train, best.errors, strict=True)
+        held_out = zip(found.test, best.test_errors, strict=True)
+        return (
+            *(ShownRun(one.run.name, one, errors) for one, errors in fitted),
+            *(ShownRun(f"{one.run.name} (held out)", one, errors) for one, errors in held_out),
+        )
 
     @property
     def position_units(self) -> dict[int, str]:

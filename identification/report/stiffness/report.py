@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from identification.force_steps import ForceSteps
-from identification.locked_output import LockedOutput
 from identification.report.page import page
 from identification.report.stiffness import sections
-from identification.report.stiffness.subject import Subject
+from identification.report.stiffness.subject import Found, Subject
 
 
-def report(found: LockedOutput | ForceSteps, results: Mapping[str, Any]) -> bytes:
+def report(found: Found, results: Mapping[str, Any]) -> bytes:
     """The page on ``found``; ``results`` are the content of its results.json."""
     robot, method = found.robot, results["method"]["name"]
     about = Subject(found, results)

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from identification.force_steps import ForceSteps
+from identification.link_encoders import LinkEncoders
 from identification.locked_output import LockedOutput
+
+Found = LockedOutput | ForceSteps | LinkEncoders
 
 
 @dataclass(frozen=True)
 class Subject:
-    """Stiffness by either method, and ``results`` as in results.json."""
+    """Stiffness by one of the methods, and ``results`` as in results.json."""
 
-    found: LockedOutput | ForceSteps
+    found: Found
     results: Mapping[str, Any]

@@ -18,9 +18,11 @@ ORDER = 80
 _TOLD, _PART = 3, 0.2
 
 
-def render(subject: Subject) -> Markup:
+def render(subject: Subject) -> Markup | None:
     solution = subject.found.full.solution
     s, V, names = directions(subject)
+    if not s.any():
+        return None
     text = [
         "cond(W) is ", number(solution.condition, 6), ", with columns of unit length ",
         number(solution.scaled_condition, 4), "; 1 would be ideal. ",
@@ -29,16 +31,16 @@ def render(subject: Subject) -> Markup:
         " a small one is a combination of parameters that the runs hardly show, and other motions would.",
     ]  # fmt: skip
     bars = [{
-        "type": "bar", "x": list(range(1, len(s) + 1)), "y": numbers(s / s[0] if len(s) and s[0] else s),
+        "type": "bar", "x": list(range(1, len(s) + 1)), "y": numbers(s / s[0]),
         "marker": {"color": ESTIMATED}, "hovertemplate": "%{y:.3g}<extra></extra>",
     }]  # fmt: skip
     layout = {
         "xaxis": axis("number"),
-        "yaxis": log_axis("singular value, in the largest", "", (s / s[0]).tolist() if s[0] else []),
+        "yaxis": log_axis("singular value, in the largest", "", (s / s[0]).tolist()),
         "bargap": 0.25,
     }
     weakest: list[list[Content]] = [
-        [plain(float(s[k] / s[0]), 2), _combination(V[k], names)] for k in range(len(s) - 1, -1, -1)[:_TOLD] if s[0]
+        [plain(float(s[k] / s[0]), 2), _combination(V[k], names)] for k in range(len(s) - 1, -1, -1)[:_TOLD]
     ]
     heads = ("shown least", "combination, each parameter in units of 1 / its column's length")
     return join(

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
 from generator.robot.description import PRISMATIC
 from identification.drive_train import coupling
 from identification.force_steps import ForceSteps
 from identification.outcome import Value
-from identification.report.chart import COLOURS, INK, Trace, axis, chart, line, points
+from identification.report.chart import Trace, axis
 from identification.report.choice import choice
-from identification.report.series import numbers, some
+from identification.report.stiffness.slope import Pair, slope_chart
 from identification.report.stiffness.subject import Subject
 
 TITLE = "Torque over twist and current"
 ORDER = 40
-
-Array = NDArray[np.float64]
-Pair = tuple[str, Array, Array]
-
-_POINTS = 1500
 
 
 def render(subject: Subject) -> Markup | None:
@@ -56,13 +50,6 @@ def _panel(found: ForceSteps, k: int) -> list[Markup]:
 
 
 def _chart(pairs: list[Pair], value: Value | None, name: str, across: Trace, upward: Trace) -> Markup:
-    data: list[Trace] = []
-    for k, (run, x, y) in enumerate(pairs):
-        at = some(len(x), _POINTS)
-        data.append(points(numbers(x[at]), numbers(y[at]), run, COLOURS[k % len(COLOURS)]))
-    if value is not None and value.value is not None:
-        ends = np.array([min(x.min() for _, x, _ in pairs), max(x.max() for _, x, _ in pairs)])
-        data.append(line(numbers(ends), numbers(value.value * ends), name, INK))
-    caption = value.refused if value is not None and value.refused else None
-    layout = {"xaxis": across, "yaxis": upward, "showlegend": True}
-    return chart(data, layout, f"Measurements and the line of {name}", caption and f"{name}: {caption}", height=360)
+    slope = None if value is None else value.value
+    caption = f"{name}: {value.refused}" if value is not None and value.refused else None
+    return slope_chart(pairs, slope, name, across, upward, caption)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
 from generator.review.words import listed, unit
+from identification.link_encoders import LinkEncoders
 from identification.report.numbers import plain
 from identification.report.stiffness.subject import Subject
 from identification.report.told import notes
@@ -20,15 +21,17 @@ def render(subject: Subject) -> Markup:
 
 def _text(subject: Subject) -> Iterator[str]:
     values = subject.results["parameters"]
-    stiffness = {name: one for name, one in values.items() if name.startswith("k") and not name.startswith("kt")}
+    wanted = {name: one for name, one in values.items() if name.startswith(("k", "latency")) and name[:2] != "kt"}
     told = [
         f"{name} = {plain(one['value'], 4)} {unit(one['unit'])} (std {plain(one['relative_std_percent'], 2)}\u202f%)"
-        for name, one in stiffness.items()
+        for name, one in wanted.items()
         if one["value"] is not None
     ]
-    refused = [name for name, one in stiffness.items() if one["value"] is None]
-    yield f"{listed(told)}."
+    refused = [name for name, one in wanted.items() if one["value"] is None]
+    if told:
+        yield f"{listed(told)}."
     if refused:
         yield f"{listed(refused)} cannot be told from these runs."
     total = subject.results["residual"]["train"]["total"]
-    yield f"{plain(total['relative_percent'], 3)}\u202f% of the torques are left unexplained (‖e‖ / ‖Y‖)."
+    signals = "differences q − qs" if isinstance(subject.found, LinkEncoders) else "torques"
+    yield f"{plain(total['relative_percent'], 3)}\u202f% of the {signals} are left unexplained (‖e‖ / ‖Y‖)."

@@ -1,0 +1,22 @@
+"""The filters of one run, where it is long and fast enough for them."""
+
+from __future__ import annotations
+
+from generator.errors import InputError
+from identification.dataset import Run
+from identification.recipe import Filters, Recipe
+
+
+def filters_of(run: Run, recipe: Recipe) -> Filters:
+    """The recipe's filters at the run's rate.
+
+    Raises InputError for a run that is sampled too slowly to hold the motion's dynamics, and for one with too few rows.
+    """
+    filters = recipe.at(run.rate)
+    if run.rate < recipe.slowest:
+        problem = f"one sample in {run.period:.4g} s ({run.rate:.4g} Hz)"
+        raise InputError(run.place, problem, f"at least {recipe.slowest:.3g} Hz; are the times in s?")
+    if run.samples < filters.fewest:
+        problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
+    return filters
