@@ -16,10 +16,12 @@ Array = NDArray[np.float64]
 PERIOD, COUNT = 200, 1000
 
 
-def one_run(period: int = PERIOD, name: str = "A.csv") -> Any:
+def one_run(period: int = PERIOD, name: str = "A.csv", crawls: slice = slice(0)) -> Any:
     kept = np.arange(COUNT) % 17 != 0
-    run = SimpleNamespace(name=name)
-    return SimpleNamespace(period=period, t=np.arange(COUNT) / 50, kept=kept[None], sampled=SimpleNamespace(run=run))
+    crawling = np.zeros((1, COUNT), dtype=bool)
+    crawling[0, crawls] = True
+    sampled = SimpleNamespace(run=SimpleNamespace(name=name))
+    return SimpleNamespace(period=period, t=np.arange(COUNT) / 50, kept=kept[None], crawling=crawling, sampled=sampled)
 
 
 def lack(e: Array, period: int = PERIOD) -> Lack:
@@ -76,3 +78,11 @@ def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
     run, t = found.burst
     assert run == "A.csv"
     assert t == pytest.approx(624 / 50, abs=0.15)
+
+
+def test_no_event_is_told_where_a_joint_crawls() -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    e[620:628] += 8.0
+    run = one_run(crawls=slice(615, 640))
+    assert lack_of_fit([run], [e[run.kept[0]]], 0, 3, 1.0).burst is None

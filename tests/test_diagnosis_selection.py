@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank
+from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.hypothesis import Hypothesis, ShapeRange
 from identification.diagnosis.selection import Choice, Selection
 from tests.matrices import bank, hypothesis, run, whitened
@@ -47,7 +48,7 @@ def fixed(name: str, column: Array, bounds: tuple[float | None, float | None] = 
 
 
 def search(one: Bank) -> list[Choice]:
-    return Selection(one, TRAIN, VALIDATE, None).search()
+    return Selection(Weighing(one, TRAIN, VALIDATE, None)).search()
 
 
 def names(found: Sequence[Choice]) -> set[str]:
@@ -85,8 +86,34 @@ def test_what_is_there_is_found_and_nothing_else(seed: int) -> None:
     assert evidence.size == pytest.approx(np.sqrt(evidence.drop / len(y)))
     r = VALIDATE[0]
     held = np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r]
-    left = [held - np.column_stack([data.base[r].T, right[r]])[:, : len(s)] @ s for s in solutions]
-    assert evidence.validation == pytest.approx(float(left[0] @ left[0] - left[1] @ left[1]))
+    own = np.column_stack([data.base[r].T, right[r]])
+    predicted = [surprise(held, own[:, : A.shape[1]], A, s) for A, s in zip((before, after), solutions, strict=True)]
+    assert evidence.validation == pytest.approx(predicted[0] - predicted[1])
+
+
+def surprise(y: Array, own: Array, fitted: Array, solution: Array) -> float:
+    """Square of a prediction's error in parts of what it may be: that of the noise, 1, and that of the parameters."""
+    e = y - own @ solution
+    V = np.eye(len(y)) + own @ np.linalg.inv(fitted.T @ fitted) @ own.T
+    return float(e @ np.linalg.solve(V, e))
+
+
+def test_without_a_run_that_validates_each_is_predicted_by_the_others() -> None:
+    data = Data(300)
+    right = data.column()
+    bank = data.bank(0.4 * right, [fixed("right", right)])
+    everything = (*TRAIN, *VALIDATE)
+    (evidence,) = Weighing(bank, everything, (), None).evidence([])
+    y = [np.tensordot([3.0, -1.0, 0.5], data.base[r], 1) + 0.4 * right[r] + data.noise[r] for r in everything]
+    A = [np.column_stack([data.base[r].T, right[r]]) for r in everything]
+    expected = 0.0
+    for out in range(len(everything)):
+        others = [k for k in range(len(everything)) if k != out]
+        for count, sign in ((3, 1.0), (4, -1.0)):
+            fitted = np.concatenate([A[k][:, :count] for k in others])
+            solution = np.linalg.lstsq(fitted, np.concatenate([y[k] for k in others]), rcond=None)[0]
+            expected += sign * surprise(y[out], A[out][:, :count], fitted, solution)
+    assert evidence.validation == pytest.approx(expected)
 
 
 def test_two_that_hide_each_other_are_found_together() -> None:
@@ -129,8 +156,8 @@ def test_a_shape_at_the_end_of_what_was_tried_is_refused(true: float) -> None:
 
     effect = np.stack([2.0 * law(r, true) for r in range(RUNS)])
     one = data.bank(effect, [shaped(law, (0.2, 0.4, 0.8, 1.6))])
-    selection = Selection(one, TRAIN, VALIDATE, None)
-    assert selection.search() == []
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    assert Selection(weighing).search() == []
 
 
 def test_what_differs_between_runs_does_not_pass_validation() -> None:
@@ -138,22 +165,22 @@ def test_what_differs_between_runs_does_not_pass_validation() -> None:
     column = data.column()
     signs = np.array([1.0, 1.0, -1.0])
     one = data.bank(signs[:, None] * column, [fixed("drifting", column)])
-    selection = Selection(one, TRAIN, VALIDATE, None)
-    (evidence,) = selection.evidence([])
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    (evidence,) = weighing.evidence([])
     assert evidence.drop > 1000
     assert evidence.validation < 0
     assert not evidence.passes
     assert "not fitted" in evidence.why_not
-    assert selection.search() == []
+    assert Selection(weighing).search() == []
 
 
 def test_runs_that_disagree_on_the_amplitude_are_told() -> None:
     data = Data(11)
     column = data.column()
     offered = [fixed("right", column)]
-    same = Selection(data.bank(0.5 * column, offered), TRAIN, VALIDATE, None)
+    same = Weighing(data.bank(0.5 * column, offered), TRAIN, VALIDATE, None)
     amplitudes = np.array([1.0, 0.1, 0.55])
-    other = Selection(data.bank(amplitudes[:, None] * column, offered), TRAIN, VALIDATE, None)
+    other = Weighing(data.bank(amplitudes[:, None] * column, offered), TRAIN, VALIDATE, None)
     assert same.homogeneous(same.bank.variants[0], [])
     assert not other.homogeneous(other.bank.variants[0], [])
 
@@ -190,6 +217,6 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     hidden = data.base[:, 0] - 2 * data.base[:, 1] + 0.003 * data.column()
     seen = data.base[:, 0] + data.column()
     one = data.bank(0.3 * hidden, [fixed("hidden", hidden), fixed("seen", seen)])
-    selection = Selection(one, TRAIN, VALIDATE, None)
-    assert [each.effect for each in selection.invisible()] == ["hidden"]
-    assert selection.search() == []
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    assert [each.effect for each in weighing.invisible()] == ["hidden"]
+    assert Selection(weighing).search() == []

@@ -17,10 +17,10 @@ from benchmarks.diagnosis_study.runs import FITTED, NAMES
 from generator.robot.readers import read
 from identification.dataset import load
 from identification.diagnosis.bank import Variant
+from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.loop import Search, search
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
-from identification.diagnosis.selection import Selection
 from identification.diagnosis.whitening import Colour
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -35,12 +35,12 @@ _MOST = 12
 _THRESHOLD, _RIDGE, _ROUNDS = 0.05, 1e-6, 20
 
 
-def stepwise(selection: Selection, worth: Callable[[Selection, Variant, list[Variant]], float]) -> list[Name]:
+def stepwise(weighing: Weighing, worth: Callable[[Weighing, Variant, list[Variant]], float]) -> list[Name]:
     """Forward selection: the candidate of the largest ``worth`` beside the chosen ones, while it is above zero."""
     chosen: list[Variant] = []
     while len(chosen) < _MOST:
-        offered = selection.evidence(chosen)
-        found = [(worth(selection, one.variant, chosen), k) for k, one in enumerate(offered)]
+        offered = weighing.evidence(chosen)
+        found = [(worth(weighing, one.variant, chosen), k) for k, one in enumerate(offered)]
         best, k = max(found, default=(0.0, 0))
         if best <= 0:
             break
@@ -48,26 +48,24 @@ def stepwise(selection: Selection, worth: Callable[[Selection, Variant, list[Var
     return [_name(one) for one in chosen]
 
 
-def information(selection: Selection, variant: Variant, chosen: list[Variant]) -> float:
+def information(weighing: Weighing, variant: Variant, chosen: list[Variant]) -> float:
     """Drop of the sum of squares less k ln(rows), for a shape too: the Bayesian criterion (Schwarz 1978)."""
-    normal = selection.normal
-    drop = _misfit(selection, chosen) - _misfit(selection, [*chosen, variant])
+    normal = weighing.normal
+    drop = _misfit(weighing, chosen) - _misfit(weighing, [*chosen, variant])
     count = len(variant.columns) + len(variant.hypothesis.shapes)
     return drop - count * float(np.log(normal.rows))
 
 
-def held_out(selection: Selection, variant: Variant, chosen: list[Variant]) -> float:
+def held_out(weighing: Weighing, variant: Variant, chosen: list[Variant]) -> float:
     """Drop of the sum of squares on the run that was not fitted."""
-    before, after = _columns(chosen), _columns([*chosen, variant])
-    misfits = [selection.held.misfit(at, selection.normal.solution(at)[0]) for at in (before, after)]
-    return misfits[0] - misfits[1]
+    return weighing.gain(variant, chosen)
 
 
-def sparse(selection: Selection) -> list[Name]:
+def sparse(weighing: Weighing) -> list[Name]:
     """Sequentially thresholded least squares on every candidate's best shape; a name is kept if a coefficient is."""
-    S, p = selection.normal.schur, selection.normal.base
-    whole = np.diag(selection.normal.gram)
-    variants = [one.variant for one in selection.evidence([]) if np.all(whole[list(one.variant.columns)] > 0)]
+    S, p = weighing.normal.schur, weighing.normal.base
+    whole = np.diag(weighing.normal.gram)
+    variants = [one.variant for one in weighing.evidence([]) if np.all(whole[list(one.variant.columns)] > 0)]
     at = np.array(_columns(variants)) - p
     whose = [k for k, one in enumerate(variants) for _ in one.columns]
     size = np.sqrt(np.maximum(np.diag(S)[at], 1e-12 * whole[at + p]))
@@ -89,7 +87,7 @@ def named_by_baselines(folder: Path, case: Case) -> dict[str, list[list[Any]]]:
     found = _search(folder, case)
     plain = weighted(found)
     names = {
-        "stepwise BIC, white rows": stepwise(found.selection, information),
+        "stepwise BIC, white rows": stepwise(found.weighing, information),
         "stepwise BIC": stepwise(plain, information),
         "held-out gate": stepwise(plain, held_out),
         "STLSQ": sparse(plain),
@@ -97,7 +95,7 @@ def named_by_baselines(folder: Path, case: Case) -> dict[str, list[list[Any]]]:
     return {way: [list(one) for one in named] for way, named in names.items()}
 
 
-def weighted(found: Search) -> Selection:
+def weighted(found: Search) -> Weighing:
     """The same rows and candidates, each joint weighted by its residual's standard deviation alone.
 
     The bank of the search is what is weighted: its own selection is of no use afterwards.
@@ -109,7 +107,7 @@ def weighted(found: Search) -> Selection:
         kept = [bank.raw(run, joint)[3] for joint in range(bank.dof)]
         colours.append([Colour((np.ones(1),), (float(np.std(e[k])),)) for e, k in zip(left, kept, strict=True)])
     bank.whiten(colours)
-    return Selection(bank, found.train, found.validate, found.selection.normal.prior)
+    return Weighing(bank, found.train, found.validate, found.weighing.normal.prior)
 
 
 def _search(folder: Path, case: Case) -> Search:
@@ -120,9 +118,9 @@ def _search(folder: Path, case: Case) -> Search:
     return search(runs, range(FITTED), [FITTED], regressors, prior)
 
 
-def _misfit(selection: Selection, chosen: Sequence[Variant]) -> float:
+def _misfit(weighing: Weighing, chosen: Sequence[Variant]) -> float:
     at = _columns(chosen)
-    return selection.normal.misfit(at, selection.normal.solution(at)[0])
+    return weighing.normal.misfit(at, weighing.normal.solution(at)[0])
 
 
 def _columns(variants: Sequence[Variant]) -> list[int]:

@@ -43,6 +43,13 @@ class Variant:
         """Those of the columns."""
         return tuple(self.hypothesis.coefficients[i] for i in self.used)
 
+    @property
+    def bounds(self) -> tuple[Array, Array]:
+        """Least and largest values of the coefficients (k each), infinite where free."""
+        lower = np.array([-np.inf if c.lower is None else c.lower for c in self.coefficients])
+        upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
+        return lower, upper
+
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""
         return Variant(

@@ -99,7 +99,7 @@ def diagnose(
         FREE if prior is None else KNOWN,
         verdict,
         named,
-        tuple(found.selection.invisible()),
+        tuple(found.weighing.invisible()),
         before,
         after,
         roles,
@@ -181,7 +181,7 @@ def _notes(found: Search, runs: Sequence[Prepared]) -> list[str]:
     for one in found.choices:
         variant = one.evidence.variant
         others = [each.evidence.variant for each in found.choices if each is not one]
-        if not found.selection.homogeneous(variant, others):
+        if not found.weighing.homogeneous(variant, others):
             name = variant.hypothesis.title
             notes.append(
                 f"{name} on joint {variant.hypothesis.joint} differs between the runs: it drifts, or is chance"

@@ -18,10 +18,15 @@ Array = NDArray[np.float64]
 
 #: What columns may be made of here.
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
-#: Time constant of the warmth [s] where nothing tells it.
-_WARM_UP = 60.0
+#: Time constant of the warmth [s] where nothing tells it; written into the file with an effect that needs one.
+WARM_UP = 60.0
 #: Steps a second in which states are integrated.
 _STEPS = 250.0
+
+
+def warmth_of(scene: Scene) -> Array:
+    """From 0 to 1 with the time since the run's start (N)."""
+    return np.asarray(1 - np.exp(-scene.t / WARM_UP))
 
 
 class EffectColumns:
@@ -82,7 +87,7 @@ class EffectColumns:
 
     def _signals(self, scene: Scene) -> list[Array]:
         motion = scene.motion
-        warmth = 1 - np.exp(-scene.t / _WARM_UP)
+        warmth = warmth_of(scene)
         load = scene.load[self._k] if "load" in self._effect.needs else np.zeros(1)
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 

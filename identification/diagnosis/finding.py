@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.evidence import Evidence
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
-from identification.diagnosis.selection import Choice, Evidence
+from identification.diagnosis.selection import Choice
 from identification.diagnosis.shape_uncertainty import deviations
 from identification.outcome import Value
 
@@ -64,7 +65,7 @@ class Finding:
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
     """The choices of a search, the one with the most evidence first; all tentative where not ``firm``."""
     columns = [number for one in found.choices for number in one.evidence.variant.columns]
-    solution, _ = found.selection.normal.solution(columns)
+    solution, _ = found.weighing.normal.solution(columns)
     std, shape_std = deviations(found, columns, solution)
     place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}
     result = []
@@ -122,4 +123,4 @@ def _homogeneous(found: Search, one: Choice) -> bool:
     """Whether one amplitude holds in all fitted runs: each run's own, beside the same others, within four std."""
     variant = one.evidence.variant
     others = [each.evidence.variant for each in found.choices if each is not one]
-    return found.selection.homogeneous(variant, others)
+    return found.weighing.homogeneous(variant, others)

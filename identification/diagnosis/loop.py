@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.hypothesis import EFFECT, Hypothesis
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
@@ -27,10 +28,10 @@ _PASSES = 2
 
 @dataclass(frozen=True)
 class Search:
-    """What came of it: the bank, its selection, the choices, and the base parameters with them in place."""
+    """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place."""
 
     bank: Bank
-    selection: Selection
+    weighing: Weighing
     choices: tuple[Choice, ...]
     values: Mapping[str, float]
     covariance: Array
@@ -51,7 +52,7 @@ class Search:
         return self._fitted([number for one in self.choices for number in one.evidence.variant.columns])
 
     def _fitted(self, columns: Sequence[int]) -> dict[int, float]:
-        solution, _ = self.selection.all.solution(columns)
+        solution, _ = self.weighing.all.solution(columns)
         return dict(zip([*range(len(self.bank.base)), *columns], solution.tolist(), strict=True))
 
 
@@ -81,16 +82,16 @@ def search(
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
         bank.whiten(colours(bank))
-        selection = Selection(bank, train, validate, prior)
+        weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")
-        choices = [] if dry else selection.search(chosen)
+        choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
         columns = [number for one in chosen for number in one.columns]
-        solution, covariance = selection.normal.solution(columns)
+        solution, covariance = weighing.normal.solution(columns)
         values = dict(zip(bank.base, solution.tolist(), strict=False))
         if all(one.hypothesis.kind == EFFECT for one in chosen):
             break
-    return Search(bank, selection, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
+    return Search(bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
 
 
 def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:

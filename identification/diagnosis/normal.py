@@ -36,6 +36,18 @@ class Prior:
         """The parameters of which anything is known (p)."""
         return np.diag(self.precision) > 0
 
+    @cached_property
+    def whole(self) -> Array:
+        """Products of the prior's rows and what they are to be, the last one (p + 1 square)."""
+        weighted = self.precision @ self.mean
+        return np.block([[self.precision, weighted[:, None]], [weighted[None], self.mean @ weighted]])
+
+    def products(self, rows: Sequence[int], columns: Sequence[int], torque: int) -> Array:
+        """The prior's part of products of columns by number, that of the torque being ``torque``."""
+        p = len(self.mean)
+        place = [np.array([p if k == torque else k if k < p else p + 1 for k in each]) for each in (rows, columns)]
+        return np.asarray(np.pad(self.whole, (0, 1))[np.ix_(*place)])
+
     def shifted(self, direction: Array, value: float, std: float) -> Prior:
         """With ``value`` times a direction (p) added to the parameters, known with a standard deviation."""
         weighted = self.precision @ direction
@@ -57,12 +69,9 @@ class Normal:
         """The Gram matrix with the prior's rows."""
         if self.prior is None:
             return self.gram
-        weighted = self.prior.precision @ self.prior.mean
+        at = [*range(self.base), len(self.gram) - 1]
         whole = self.gram.copy()
-        whole[: self.base, : self.base] += self.prior.precision
-        whole[: self.base, -1] += weighted
-        whole[-1, : self.base] += weighted
-        whole[-1, -1] += float(weighted @ self.prior.mean)
+        whole[np.ix_(at, at)] += self.prior.whole
         return whole
 
     @cached_property
@@ -92,6 +101,16 @@ class Normal:
         result = S - S[:, at] @ inverse(S[np.ix_(at, at)]) @ S[at]
         result[at], result[:, at] = 0.0, 0.0
         return np.asarray(result)
+
+    def part(self, columns: Sequence[int], chosen: Sequence[int]) -> Array:
+        """The rows of ``columns`` and of the torque of the Schur complement after the columns ``chosen`` too."""
+        S = self.schur
+        at = np.array([*(number - self.base for number in columns), len(S) - 1])
+        out = np.array(chosen, dtype=int) - self.base
+        part = S[np.ix_(at, at)]
+        if out.size:
+            part = part - S[np.ix_(at, out)] @ inverse(S[np.ix_(out, out)]) @ S[np.ix_(out, at)]
+        return np.asarray(part)
 
     def solution(self, chosen: Sequence[int], values: Array | None = None) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance.

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 RATE = 50.0
 #: Speed below which a joint stands, in parts of its own rms.
 _SLOW = 0.04
+#: Such a part below which a joint crawls: presliding and stiction, which no law of friction tells to the end.
+_CRAWLING = 0.12
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
 #: Shortest run, or part of one, that anything can be told from [s].
@@ -34,14 +36,15 @@ _NEAR = 0.35
 class Prepared:
     """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
 
-    ``period`` is that of the motion in rows, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s,
-    m/s] in the rows that are left out.
+    ``crawling`` rows (n x N) are close to standstill. ``period`` is that of the motion in rows, 0 where it does not
+    repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out.
     """
 
     sampled: Sampled
     t: Array
     tau: Array
     kept: NDArray[np.bool_]
+    crawling: NDArray[np.bool_]
     period: int
     slow: Array
 
@@ -76,7 +79,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
     one = sampled(run, replace(changed, dropped_first=None, dropped_last=None), regressors)
     speed = one.motion.qd
-    slow = np.maximum(_SLOW * np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
+    usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
+    slow = _SLOW * usual
     standing = np.abs(speed) < slow[:, None]
     for joint, weights in regressors.signs:
         along = sum(weight * speed[k] for k, weight in weights)
@@ -87,6 +91,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     standing = np.stack([maximum_filter1d(row, 2 * reach + 1) for row in standing])
     tau = windowed(one.tau, factor)
     kept = windowed(standing.astype(float), factor) == 0
+    crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(one, t, tau, kept, rows, slow)
+    return Prepared(one, t, tau, kept, crawling, rows, slow)

@@ -15,11 +15,10 @@ from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.diagnosis.addition import Addition
+from identification.diagnosis.effect_columns import WARM_UP
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-#: Time constant of the warmth [s] that effects of the library are tried with, written where the file says none.
-WARM_UP_TIME = 60.0
 #: What joints have that no motion limits or warms [A, K].
 _NEVER = 1e6
 #: What a correction is where the file says nothing, and its unit where it is not that of a position.
@@ -29,7 +28,7 @@ _NEUTRAL = {
     "torque_delay": 0.0,
     "link_delay": 0.0,
     "current_limit": _NEVER,
-    "warm_up_time": WARM_UP_TIME,
+    "warm_up_time": WARM_UP,
     "warm_rise": _NEVER,
 }
 _UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
@@ -133,7 +132,7 @@ def _with_warmth(text: str, robot: Robot) -> str:
     """Something that says how warm the drives are."""
     if robot.signals.warm_up_time or robot.signals.warm_rise:
         return text
-    return _with_signal(text, robot, "warm_up_time", WARM_UP_TIME, ())
+    return _with_signal(text, robot, "warm_up_time", WARM_UP, ())
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

@@ -5,27 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from generator.errors import InputError
 from identification.dataset import Run
+from identification.diagnosis.periods import period_of
 from identification.diagnosis.prepared import SHORTEST
 
-#: Parts of a run's time that are fitted and that validate, where there are too few runs; the rest tests.
-_FITTED, _VALIDATED = 0.55, 0.2
-#: Time between such parts [s] and, in a short run, its part of the time.
+#: Part of a run's time that tests, where there are too few runs, and how long it must be [s] to tell anything.
+_TESTED, _ENOUGH = 0.25, 5.0
+#: Time between parts of a run [s] and, of a short one, the part of its time.
 _GAP, _SHORT = 0.5, 0.02
-#: Time [s] of each run that must be left to test.
-_ENOUGH = 5.0
-#: Places that are tried for the validating block, and the least part of a run that is worth fitting.
-_PLACES, _LEAST = 7, 0.2
+#: Runs from which one tests by itself.
+_APART = 3
+#: Blocks that a run is split into at most, and their least length [s].
+_BLOCKS, _LEAST = 4, SHORTEST + 0.05
 
 
 @dataclass(frozen=True)
 class Roles:
     """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how.
 
-    ``known`` are all but those that test, whole where parts of them have a role: what a last fit is made of.
+    Without any that validate each of ``train`` is held against what the others predict. ``known`` are all but those
+    that test, whole where parts of them have a role: what a last fit is made of.
     """
 
     train: tuple[str, ...]
@@ -36,64 +36,47 @@ class Roles:
 
 
 def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
-    """Roles for the runs ``data``: the last ones test and validate where others do not, else parts of each run do."""
-    names = [run.name for run in data]
-    missing = (not test) + (not validate)
-    if len(names) >= 2 + missing:
-        rest = list(names)
-        chosen_test = tuple(test) or (rest.pop(),)
-        chosen_validate = tuple(validate) or (rest.pop(),)
-        notes = []
-        if not validate:
-            notes.append(f"{chosen_validate[0]} validates: it is not fitted")
-        if not test:
-            notes.append(f"{chosen_test[0]} tests: it is touched by nothing before the report")
-        return Roles(tuple(rest), chosen_validate, chosen_test, (*rest, *chosen_validate), tuple(notes))
-    if not missing:
-        return Roles(tuple(names), tuple(validate), tuple(test), (*names, *validate))
-    return _split(data, validate, test)
+    """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.
 
-
-def _split(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
-    """Blocks of time of every run, with gaps between them: the last one tests, the liveliest other validates.
-
+    Where none validates every run is held against what the others predict, or every block of time of a single one.
     Raises InputError for a run too short to be split.
     """
-    share = 0.0 if validate else _VALIDATED
-    rest = 1 - _FITTED - _VALIDATED
-    shortest = min((run.samples * run.period for run in data), default=0.0)
-    tested = 0.0 if test or (not validate and rest * shortest < _ENOUGH) else rest
-    train: list[str] = []
-    held: list[str] = []
-    last: list[str] = []
-    known = list(validate)
-    for run in data:
-        start, length = run.start, _length(run)
-        gap = min(_GAP, _SHORT * length)
-        end = start + length - (_block(run, tested) + gap if tested else 0.0)
-        least = _block(run, _LEAST) + (0.0 if validate else _block(run, share) + gap)
-        if end - start < least:
-            expected = f"{least + start + length - end:.2g} s at least, to be split in time"
-            raise InputError(run.place, f"a run of {length:.3g} s", expected)
-        if tested:
-            last.append(_part(run.name, end + gap, start + length))
-        known.append(_part(run.name, start, end) if tested else run.name)
-        around = [(start, end)]
-        if not validate:
-            first, final = _liveliest(run, end, _block(run, share), gap)
-            held.append(_part(run.name, first, final))
-            around = [(start, first - gap), (final + gap, end)]
-        train += [_part(run.name, a, b) for a, b in around if b - a > _block(run, _LEAST)]
-    parts = [text for text, wanted in (("validates", not validate), ("tests", not test)) if wanted]
-    if not test and not tested:
-        parts = ["validates and, since the runs are short, tests too"]
-    note = (
-        f"of every run {100 * (1 - share - tested):.0f} % of the time are fitted, the rest {' and '.join(parts)}; "
-        "runs apart are stronger evidence"
-    )
-    return Roles(
-        tuple(train), tuple(validate) or tuple(held), tuple(test) or tuple(last) or tuple(held), tuple(known), (note,)
-    )
+    names = tuple(run.name for run in data)
+    notes: list[str] = []
+    fitted: list[Run] = list(data)
+    ends: dict[str, float] = {}
+    if not test and len(names) >= _APART:
+        test = (names[-1],)
+        notes.append(f"{names[-1]} tests: it is touched by nothing before the report")
+        del fitted[-1]
+    elif not test:
+        test = tuple(_tail(run) for run in data)
+        shortest = min(map(_length, data), default=0.0)
+        if _TESTED * shortest < _ENOUGH:
+            test = names
+            notes.append("the runs are short and test too, which tells nothing new; runs apart are stronger evidence")
+        else:
+            ends = {run.name: run.start + (1 - _TESTED) * _length(run) - _gap(run) for run in data}
+            notes.append(f"the last {100 * _TESTED:.0f} % of every run test; runs apart are stronger evidence")
+    known = tuple(_part(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
+    train = known
+    if not validate and len(fitted) == 1:
+        (run,) = fitted
+        train = tuple(_part(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + _length(run))))
+        notes.append(f"{len(train)} blocks of its time are each held against what the others predict")
+    elif not validate:
+        notes.append("each run is held against what the others predict")
+    return Roles(train, tuple(validate), tuple(test), (*known, *validate), tuple(notes))
+
+
+def _tail(run: Run) -> str:
+    """The end of a run that tests."""
+    return _part(run.name, run.start + (1 - _TESTED) * _length(run), run.start + _length(run))
+
+
+def _gap(run: Run) -> float:
+    """Time between parts of a run [s]."""
+    return min(_GAP, _SHORT * _length(run))
 
 
 def _length(run: Run) -> float:
@@ -101,35 +84,21 @@ def _length(run: Run) -> float:
     return (run.samples - 1) * run.period
 
 
-def _block(run: Run, share: float) -> float:
-    """A ``share`` of the run [s], or what is long enough to tell something: two samples more, as ends lie between."""
-    return max(share * _length(run), SHORTEST + 2 * run.period)
+def _blocks(run: Run, end: float) -> list[tuple[float, float]]:
+    """Equal blocks of time [s] until ``end``; where the motion repeats, each with two periods if two can have them."""
+    length, gap = end - run.start, _gap(run)
 
+    def count(least: float, most: int) -> int:
+        return min(int((length + gap) / (least + gap)), most)
 
-def _liveliest(run: Run, end: float, length: float, gap: float) -> tuple[float, float]:
-    """The block of ``length`` [s] before ``end``, from when to when, that leaves every joint's motion to both sides.
-
-    A joint's motion is its squared speed; parts too short to be fitted are lost.
-    """
-    power = np.gradient(run.q, run.period, axis=-1) ** 2
-    total = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=-1)], axis=-1)
-    moves = total[:, -1] > 1e-9 * total[:, -1].max()
-    whole, count = int((end - run.start) / run.period), int(length / run.period)
-    least, between = _block(run, _LEAST) / run.period, int(gap / run.period)
-    part = count / whole
-
-    def least_share(first: int, last: int) -> float:
-        """Of all joints, the least part of its motion that lies between two samples."""
-        return float(((total[:, last] - total[:, first]) / total[:, whole].clip(1e-300))[moves].min())
-
-    def goodness(k: int) -> float:
-        around = [(0, max(k - between, 0)), (min(k + count + between, whole), whole)]
-        kept = sum(least_share(a, b) for a, b in around if b - a > least)
-        return min(least_share(k, k + count) / part, kept / (1 - part))
-
-    places = np.unique(np.linspace(0, whole - count, _PLACES).astype(int))
-    first = float(run.start + max(places.tolist(), key=goodness) * run.period)
-    return first, first + length
+    blocks = max(count(max(_LEAST, 2 * run.period * period_of(run.q, run.period)), _BLOCKS), count(_LEAST, 2))
+    if blocks < 2:
+        raise InputError(
+            run.place, f"a run of {length:.3g} s", f"{2 * _LEAST + gap:.3g} s at least, to be split in time"
+        )
+    each = (length - (blocks - 1) * gap) / blocks
+    starts = [run.start + k * (each + gap) for k in range(blocks)]
+    return [(start, start + each) for start in starts]
 
 
 def _part(name: str, start: float, end: float) -> str:

@@ -43,8 +43,8 @@ def deviations(
                 for number, sign in ((other, 1.0), (own, -1.0))
             }
             steps.append((id(choice), shape.name, change))
-    found.selection.refresh()
-    normal = found.selection.normal
+    found.weighing.refresh()
+    normal = found.weighing.normal
     chosen = [*range(base), *columns]
     T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
     T[chosen, range(len(chosen))] = 1.0

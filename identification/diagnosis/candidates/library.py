@@ -9,13 +9,15 @@ import numpy as np
 from generator.effects.effect import Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
-from identification.diagnosis.effect_columns import NEEDS, EffectColumns
+from identification.diagnosis.effect_columns import NEEDS, EffectColumns, warmth_of
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.orders import likely_orders
 from identification.diagnosis.scene import Scene
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
+#: Part of a whole warming up that some run must show.
+_WARMING = 0.2
 #: What an effect shows in, by what its columns are made of; the first that fits.
 _VARIABLES = (
     ("warmth", "time"),
@@ -31,9 +33,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     robot = scenes[0].robot
+    warming = any(np.ptp(warmth_of(scene)) > _WARMING for scene in scenes)
     return [
         one
         for effect in library().values()
+        if warming or "warmth" not in effect.needs
         for k, joint in enumerate(robot.moving)
         if _possible(effect, joint, robot) and (effect.observables is None or _weighty(scenes)[k])
         for one in _hypothesis(effect, joint, k, scenes)

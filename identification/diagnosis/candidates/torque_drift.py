@@ -20,8 +20,8 @@ from identification.drive_train import supplied
 Array = NDArray[np.float64]
 
 _LARGEST = 0.6
-#: Time constants that are tried, in durations of the longest run.
-_SHORTEST, _LONGEST = 0.2, 5.0
+#: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
+_SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
 #: Rise of a temperature [K] below which nothing has got warm.
 _RISE = 2.0
 
@@ -33,7 +33,8 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     robot = scenes[0].robot
     stated = robot.drives.torque_drift if robot.drives is not None else ()
     duration = max(float(scene.t[-1] - scene.t[0]) for scene in scenes)
-    time = ShapeRange("T", "s", _SHORTEST * duration, _LONGEST * duration)
+    shortest = max(_SHORTEST * duration, _QUICK)
+    time = ShapeRange("T", "s", shortest, max(_LONGEST * duration, 2 * shortest))
     found = []
     for k, joint in enumerate(robot.moving):
         if stated and stated[k]:

@@ -17,7 +17,7 @@ from identification.drive_train import supplied
 Array = NDArray[np.float64]
 
 #: Largest relative error of a torque.
-_LARGEST = 0.6
+_LARGEST = 0.45
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from generator.review.markup import Content, Markup, element, join, table
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.selection import Evidence
+from identification.diagnosis.evidence import Evidence
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
 from identification.report.diagnose.words import chance, joints
@@ -19,11 +19,11 @@ _LISTED = 12
 
 
 def render(subject: Subject) -> Markup:
-    selection = subject.found.found.selection
+    weighing = subject.found.found.weighing
     chosen = [one.evidence.variant for one in subject.found.found.choices]
-    tables = {"before anything is named": _table(selection.evidence([]), chosen)}
+    tables = {"before anything is named": _table(weighing.evidence([]), chosen)}
     if chosen:
-        tables["beside the findings"] = _table(selection.evidence(chosen), chosen)
+        tables["beside the findings"] = _table(weighing.evidence(chosen), chosen)
     tried = len({(one.effect, one.joint) for one in subject.found.found.offered})
     text = (
         f"{tried} effects on joints were tried, each with the shape that fits best. Evidence is the drop of the sum of"

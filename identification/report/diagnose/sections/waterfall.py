@@ -22,16 +22,16 @@ def render(subject: Subject) -> Markup | None:
     if not search.choices:
         return None
     order = sorted(search.choices, key=lambda one: -one.evidence.drop)
-    normal, held = search.selection.normal, search.selection.held
+    every = search.weighing.all
     columns: list[int] = []
-    levels = [held.misfit(columns, normal.solution(columns)[0])]
+    levels = [every.misfit(columns, every.solution(columns)[0])]
     names = ["model before"]
     for one in order:
         variant = one.evidence.variant
         columns += variant.columns
-        levels.append(held.misfit(columns, normal.solution(columns)[0]))
+        levels.append(every.misfit(columns, every.solution(columns)[0]))
         names.append(f"{variant.hypothesis.title}, {joints(variant.hypothesis.joints or (variant.hypothesis.joint,))}")
-    sizes = np.sqrt(np.array(levels) / max(held.rows, 1))
+    sizes = np.sqrt(np.array(levels) / max(every.rows, 1))
     steps = np.diff(sizes)
     data = {
         "type": "waterfall",
@@ -56,7 +56,7 @@ def render(subject: Subject) -> Markup | None:
         "annotations": [{**place, "text": "noise", "showarrow": False}],
     }
     text = (
-        "White residual, all joints together, of the runs that validate and were not fitted: as the model was, then"
-        " with one finding after the other, parameters fitted anew each time. 1 is noise alone."
+        "White residual, all joints together, of all runs but the untouched ones: as the model was, then with one"
+        " finding after the other, parameters fitted anew each time. 1 is noise alone."
     )
     return join(element("p", text), chart([data], layout, TITLE, height=120 + _BAR * (len(names) + 1)))

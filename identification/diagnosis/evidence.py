@@ -1,0 +1,267 @@
+"""What speaks for a hypothesis beside others: its drop of the sum of squares, chance, and a run that was not fitted.
+
+A hypothesis may be taken when all of this holds: its drop is beyond chance for all that was tried; it lowers the sum of
+squares of a run that was not fitted; it is not tiny beside the noise, nor beside what is still unexplained; its shape
+is not at the end of what was tried, and its coefficients are within their physical bounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+
+from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.held_out import HeldOut
+from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.normal import Normal, Prior, bounded
+
+Array = NDArray[np.float64]
+#: Drop of the sum of squares, variant, coefficients.
+_Found = tuple[float, Variant, Array]
+
+#: Chance, over everything tried, that a name is given to nothing.
+_ALPHA = 1e-3
+#: Least drop of the validation's sum of squares, and its least part of what the fit promises.
+_VALIDATED, _TRANSFERRED = 6.0, 0.25
+#: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
+_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.01, 0.1
+#: What nearly every robot has, a balancer once; and what many wrists have.
+_COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
+_WRIST = ("coupled_rotor",)
+BALANCERS = ("gas_balancer", "spring_balancer")
+#: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
+_BESIDE, _ALIKE = 0.03, 0.15
+#: The same part of a balancer for a second one.
+_SECOND = 0.5
+_OF_SPEED = ("qd", "time since reversal")
+#: Part of a column's square that the model must leave for it to be seen.
+_VISIBLE = 1e-4
+#: Part of an effect by which runs may differ beyond chance: laws wander.
+_UNLIKE = 0.25
+#: Hypotheses, by what they explain, that are held against the validating runs.
+_JUDGED = 16
+#: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
+_SHAPES, _NEAR = 6, 0.03
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation."""
+
+    variant: Variant
+    coefficients: Array
+    drop: float
+    p: float
+    bic: float
+    validation: float
+    size: float
+    passes: bool
+    why_not: str = ""
+
+    @property
+    def score(self) -> float:
+        """Rank: information criterion and held-out drop together."""
+        return self.bic + self.validation
+
+
+class Weighing:
+    """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
+
+    Without any to validate each fitted run is predicted by the others.
+    """
+
+    def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
+        self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
+        self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self._held_out = HeldOut(bank, train, validate, prior)
+        self._known_drops: dict[tuple[int, ...], list[float]] = {}
+        self.refresh()
+
+    def refresh(self) -> None:
+        """After columns have been added."""
+        p = len(self.bank.base)
+        self.normal = Normal(self._gram(self._train), p, self._count(self._train), self._prior)
+        both = (*self._train, *self._validate)
+        self.all = Normal(self._gram(both), p, self._count(both), self._prior) if self._validate else self.normal
+        self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
+
+    def _gram(self, runs: Sequence[int]) -> Array:
+        return np.asarray(np.sum([self.bank.grams[r] for r in runs], axis=0))
+
+    def _count(self, runs: Sequence[int]) -> int:
+        return sum(int(self.bank.rows(r).sum()) for r in runs)
+
+    def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
+        """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
+        S = self.normal.beside(columns_of(chosen))
+        taken = {key_of(one) for one in chosen}
+        found: dict[tuple[str, int], list[_Found]] = {}
+        for variant in self.bank.variants:
+            key = key_of(variant)
+            if key not in taken:
+                x, drop = self._solve(S, variant)
+                found.setdefault(key, []).append((drop, variant, x))
+        unexplained = self.unexplained(chosen)
+        ranked = sorted(found.values(), key=lambda shapes: -max(drop for drop, *_ in shapes))
+        first = [shapes for shapes in ranked[_JUDGED:] if likely(shapes[0][1], chosen)]
+        judged = [self._best(shapes, chosen, unexplained) for shapes in (*ranked[:_JUDGED], *first)]
+        return sorted((one for one in judged if one.drop > 0), key=lambda one: -one.score)
+
+    def best_shape(self, variants: Sequence[Variant], others: Sequence[Variant]) -> Evidence:
+        """Of the variant that explains most; among nearly equal ones a run that was not fitted decides."""
+        S = self.normal.beside(columns_of(others))
+        found = [(drop, variant, x) for variant in variants for x, drop in [self._solve(S, variant)]]
+        return self._best(found, others, self.unexplained(others))
+
+    def _best(self, found: Sequence[_Found], others: Sequence[Variant], unexplained: float) -> Evidence:
+        ranked = sorted(found, key=lambda one: -one[0])
+        least = (1 - _NEAR) * ranked[0][0]
+        near = [one for one in ranked if one[0] >= least][:_SHAPES]
+        return max((self._judged(one, others, unexplained) for one in near), key=lambda one: one.score)
+
+    def of(self, variant: Variant, others: Sequence[Variant]) -> Evidence:
+        """Evidence of one variant beside others."""
+        x, drop = self.beside(variant, others)
+        return self._judged((drop, variant, x), others, self.unexplained(others))
+
+    def beside(self, variant: Variant, others: Sequence[Variant]) -> tuple[Array, float]:
+        """Coefficients of a variant beside others, within their bounds, and the drop of the sum of squares."""
+        part = self.normal.part(variant.columns, columns_of(others))
+        size = np.diag(self.normal.gram)[list(variant.columns)]
+        return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)
+
+    def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """Drop of the sum of squares of what was not fitted."""
+        return self._held_out.gain(variant, columns_of(others))
+
+    def unexplained(self, chosen: Sequence[Variant]) -> float:
+        """What the sum of squares is above the noise."""
+        solution, _ = self.normal.solution(columns_of(chosen))
+        return max(self.normal.misfit(columns_of(chosen), solution) - self.normal.rows, 0.0)
+
+    def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
+        at = np.array(variant.columns) - self.normal.base
+        size = np.diag(self.normal.gram)[list(variant.columns)]
+        return bounded(S[np.ix_(at, at)], S[at, -1], *variant.bounds, size)
+
+    def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
+        drop, variant, x = found
+        variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
+        used = len(x)
+        tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
+        p = min(1.0, tries * float(chi2.sf(drop, max(used, 1))))
+        bic = drop - used * np.log(self.normal.rows) - 2 * np.log(tries)
+        rows = int(self._rows[list(variant.joints)].sum())
+        size = float(np.sqrt(drop / max(rows, 1)))
+        one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
+        if p * self._tried > _ALPHA:
+            return replace(one, why_not="within chance")
+        validation = self.gain(variant, others)
+        one = replace(one, validation=validation)
+        # While much is missing, the missing rest decides what a part of it does to another run.
+        promised = drop * self._held_out.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
+        if validation < max(_VALIDATED, _TRANSFERRED * promised):
+            return replace(one, why_not="does not help on a run that was not fitted")
+        share = _SHARE if common(variant, others) else _RARE_SHARE
+        if size < _FLOOR or drop < share * unexplained:
+            return replace(one, why_not="too small beside what is left")
+        if drop < self._imperfect(variant, others):
+            return replace(one, why_not="may be what another effect's law lacks")
+        if _at_end(variant):
+            return replace(one, why_not="its shape is at the end of what was tried")
+        return replace(one, passes=True)
+
+    def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What the laws of others that act on the same joints may leave although they are the right ones."""
+        least = 0.0
+        if common(variant, others):
+            return least
+        for other, drop in zip(others, self._drops(others), strict=True):
+            if {variant.hypothesis.effect, other.hypothesis.effect} <= set(BALANCERS):
+                least = max(least, _SECOND * drop)
+            elif set(other.joints) & set(variant.joints):
+                alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
+                least = max(least, (_ALIKE if alike else _BESIDE) * drop)
+        return least
+
+    def _drops(self, chosen: Sequence[Variant]) -> list[float]:
+        """What each of the chosen explains beside the rest of them."""
+        key = tuple(columns_of(chosen))
+        if key not in self._known_drops:
+            self._known_drops[key] = [
+                self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen
+            ]
+        return self._known_drops[key]
+
+    def homogeneous(self, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether the runs agree on one amplitude: each run's own along the common one, within four deviations."""
+        chosen = [*columns_of(others), *variant.columns]
+        solution, _ = self.normal.solution(chosen)
+        theta = solution[-len(variant.columns) :]
+        amplitudes, variances = [], []
+        for r in self._train:
+            G = self.bank.grams[r]
+            at = list(variant.columns)
+            effect = G[:, at] @ theta
+            power = float(theta @ effect[at])
+            rest = np.zeros(len(G))
+            rest[[*range(self.normal.base), *chosen]] = -solution
+            rest[-1] = 1.0
+            if power <= 1.0:
+                continue
+            amplitudes.append(float(effect @ rest) / power)
+            variances.append(1 / power)
+        if len(amplitudes) < 2:
+            return True
+        weight = 1 / np.array(variances)
+        mean = float(weight @ amplitudes / weight.sum())
+        off = np.abs(np.array(amplitudes) - mean)
+        return bool(np.all(off < 4 * np.sqrt(variances) + _UNLIKE))
+
+    def invisible(self) -> list[Hypothesis]:
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        left: dict[tuple[str, int], list[float]] = {}
+        whose: dict[tuple[str, int], Hypothesis] = {}
+        for variant in self.bank.variants:
+            key = key_of(variant)
+            at = np.array(variant.columns) - self.normal.base
+            left.setdefault(key, []).append(float(self.normal.left[at].max()))
+            whose[key] = variant.hypothesis
+        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
+
+
+def common(variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether a robot is likely to have an effect beside others; one balancer is, a second one is not."""
+    effect = variant.hypothesis.effect
+    if effect in BALANCERS:
+        return not any(other.hypothesis.effect in BALANCERS for other in others)
+    return effect in _COMMON
+
+
+def likely(variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether an effect is to be thought of first: common ones, and the coupling of a wrist."""
+    return common(variant, others) or variant.hypothesis.effect in _WRIST
+
+
+def key_of(variant: Variant) -> tuple[str, int]:
+    return variant.hypothesis.effect, variant.hypothesis.joint
+
+
+def columns_of(chosen: Sequence[Variant]) -> list[int]:
+    return [number for one in chosen for number in one.columns]
+
+
+def _at_end(variant: Variant) -> bool:
+    """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
+    for shape in variant.hypothesis.shapes:
+        points = shape.grid()
+        if shape.whole or len(points) < 4 or min(points) <= 0:
+            continue
+        value = variant.shape[shape.name]
+        if value <= min(points) * 0.7 or value >= max(points) * 1.4:
+            return True
+    return False

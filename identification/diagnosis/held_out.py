@@ -1,0 +1,66 @@
+"""What runs say that were not fitted: how much better the others predict them with a hypothesis than without.
+
+The gain of a run is what all runs together lose of the sum of squares with the hypothesis, beyond what the others lose
+without this one. Where those leave parameters uncertain a prediction is uncertain too, and its error counts less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.normal import Prior, bounded, inverse
+
+Array = NDArray[np.float64]
+
+
+class HeldOut:
+    """Predictions of the runs ``validate`` of a bank from its runs ``train``; of each of these in turn without any."""
+
+    def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
+        self._bank, self._prior = bank, prior
+        fitted, all_ = tuple(train), (*train, *validate)
+        #: Runs that predict, and those with what is predicted.
+        self._turns = [(fitted, all_)]
+        if not validate:
+            self._turns = [(tuple(one for one in fitted if one != out), fitted) for out in fitted]
+        self._inverses: dict[tuple[tuple[int, ...], tuple[int, ...]], Array] = {}
+
+    @property
+    def rows(self) -> int:
+        """How many rows are predicted."""
+        predicted = [set(more) - set(fewer) for fewer, more in self._turns]
+        return sum(int(self._bank.rows(r).sum()) for runs in predicted for r in runs)
+
+    def gain(self, variant: Variant, chosen: Sequence[int]) -> float:
+        """Drop of the predicted runs' sum of squares with a variant beside the columns ``chosen``."""
+        return sum(
+            self._drop(more, variant, chosen) - self._drop(fewer, variant, chosen) for fewer, more in self._turns
+        )
+
+    def _drop(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> float:
+        """Drop of the sum of squares of some runs, fitted by themselves."""
+        beside = [*range(len(self._bank.base)), *chosen]
+        at = [*variant.columns, self._bank.count]
+        across = self._products(runs, beside, at)
+        own = self._products(runs, at, at)
+        part = own - across.T @ self._inverse(runs, beside) @ across
+        size = np.diag(own)[:-1]
+        return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
+
+    def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
+        key = (runs, tuple(columns))
+        if key not in self._inverses:
+            self._inverses[key] = inverse(self._products(runs, columns, columns))
+        return self._inverses[key]
+
+    def _products(self, runs: Sequence[int], rows: Sequence[int], columns: Sequence[int]) -> Array:
+        """Products of columns over some runs, with what is known of the base parameters beforehand."""
+        at = np.ix_(np.array(rows), np.array(columns))
+        result = np.sum([self._bank.grams[r][at] for r in runs], axis=0)
+        if self._prior is not None:
+            result = result + self._prior.products(rows, columns, self._bank.count)
+        return np.asarray(result)
