@@ -183,9 +183,9 @@ class Selection:
         for other in self.weighing.evidence(others):
             if not other.passes or key_of(other.variant) == key_of(one):
                 continue
-            margin = -max(_EQUAL * mine.drop, 2.0)
+            margin = -max(_EQUAL * mine.drop, _BETTER)
             if usual and not likely(other.variant, others):
-                margin = _RARE / 2 * mine.drop - 2.0
+                margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
                 near.append(other)
         return Choice(mine, tuple(near))
