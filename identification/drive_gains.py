@@ -68,6 +68,7 @@ class DriveGains:
     torques: tuple[MotorTorque, ...]
     residuals: Residuals
     separation: float
+    condition: float
     notes: tuple[str, ...]
 
     @property
@@ -133,8 +134,21 @@ def drive_gains(
     notes = [note for run in runs for note in run.notes] + _doubts(residuals, constants, robot)
     ends = tuple(seen[: len(empty)]), tuple(seen[len(empty) :])
     torques = _torques(fit, rows, refused, parts)
-    told = fit.separation, tuple(notes)
-    return DriveGains(regressors, recipe, *ends, constants, refused, share, stds, parameters, torques, residuals, *told)
+    return DriveGains(
+        regressors,
+        recipe,
+        *ends,
+        constants,
+        refused,
+        share,
+        stds,
+        parameters,
+        torques,
+        residuals,
+        fit.separation,
+        fit.condition,
+        tuple(notes),
+    )
 
 
 Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]

@@ -74,6 +74,7 @@ def document(found: DriveGains) -> dict[str, Any]:
             kind: [outcome.run(one.run, one.filters) for one in runs]
             for kind, runs in (("empty", found.empty), ("loaded", found.loaded))
         },
+        "condition": found.condition,
         "separation": found.separation,
         "gains": {**outcome.parameters(gains(found))},
         "gains_by_payload_percent": {f"kt{numbers[m]}": 100 * share for m, share in found.payload_share.items()},

@@ -42,6 +42,11 @@ class Rows:
     constants: Array
     torque: Array
 
+    @property
+    def condition(self) -> float:
+        """Of the columns of motion, constants and torque at unit length; infinite where one is zero."""
+        return float(np.linalg.cond(_scaled(np.column_stack([self.own, self.constants, self.torque]))))
+
     def beside_motion(self) -> tuple[Array, Array]:
         """What the motor's motion and the runs' constants cannot explain of the twist and of the torque (N each)."""
         others = np.column_stack([self.own, self.constants])

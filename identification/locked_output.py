@@ -50,7 +50,7 @@ _STEMS = (
 class LockedOutput:
     """Parameters of eq. 70 by name, all and ``essential`` ones, of the joint's runs; ``removed`` is tau_sb [N m].
 
-    ``rows`` hold [qdd qd sign(qd) q 1 Y] of each run (rows x 6).
+    ``rows`` hold [qdd qd sign(qd) q 1 Y] of each run (rows x 6), ``condition`` is that of their first five columns.
     """
 
     robot: Robot
@@ -62,6 +62,7 @@ class LockedOutput:
     essential_residual: Residual
     removed: tuple[float, ...]
     rows: tuple[Array, ...]
+    condition: float
     notes: tuple[str, ...]
 
 
@@ -109,7 +110,7 @@ def locked_output(
     if joint.number not in robot.flexible:
         notes.append(f"the file of {robot.name} does not list joint {number} as flexible")
     whole, small = _residual(factor, solution), _residual(factor, best)
-    ends = tuple(removed), tuple(stacked), tuple(notes)
+    ends = tuple(removed), tuple(stacked), solution.condition, tuple(notes)
     return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, *ends)
 
 

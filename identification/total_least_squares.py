@@ -9,7 +9,7 @@ Vandewalle 1991). Without that the noise is laid to the model as well and the ga
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +44,8 @@ class Fit:
     """Gains ``k`` (n), parameters ``chi`` (p), covariance of [k, chi], which of chi are ``hidden`` (p).
 
     ``scale`` is the part of the known column that no parameter can stand for; 0 where the scale of all is open.
-    ``sigma`` is the noise of each current, ``separation`` the second smallest singular value over the smallest.
+    ``sigma`` is the noise of each current, ``separation`` the second smallest singular value over the smallest,
+    ``condition`` that of the rows' derivatives by gains and parameters, columns of unit length.
     """
 
     k: Array
@@ -54,6 +55,7 @@ class Fit:
     scale: float
     sigma: Array
     separation: float
+    condition: float = np.inf
 
     def errors(self, part: Part) -> Array:
         """k i - B chi - w of a part (rows)."""
@@ -80,8 +82,10 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
         if scale == 0.0 or np.all(np.abs(k - previous)[live] <= _SETTLED * np.abs(k)[live]):
             break
     fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation)
-    covariance = _covariance(fit, parts, live) if scale else np.full((gains + p, gains + p), np.inf)
-    return Fit(k, chi, covariance, hidden, scale, sigma, separation)
+    if not scale:
+        return replace(fit, covariance=np.full((gains + p, gains + p), np.inf))
+    covariance, condition = _covariance(fit, parts, live)
+    return replace(fit, covariance=covariance, condition=condition)
 
 
 @dataclass(frozen=True)
@@ -141,8 +145,10 @@ def _once(
     return gains, chi, hidden, scale, separation
 
 
-def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> Array:
-    """Of [k, chi], by the derivatives of the rows at the solution, with the currents that the model gives."""
+def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tuple[Array, float]:
+    """Of [k, chi], by the derivatives of the rows at the solution, with the currents that the model gives; and the
+    condition of those derivatives with columns of unit length, without those that are zero.
+    """
     n, p = len(fit.k), len(fit.chi)
     gram, coloured = np.zeros((n + p, n + p)), np.zeros((n + p, n + p))
     for m in live:
@@ -163,7 +169,9 @@ def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> Arr
     result: Array = inverse @ coloured @ inverse
     unseen = silent | (np.abs(vectors[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
     result[unseen, unseen] = np.inf
-    return result
+    powers = np.linalg.eigvalsh((gram / np.outer(size, size))[np.ix_(~silent, ~silent)])
+    condition = float(np.sqrt(powers[-1] / powers[0])) if powers[0] > _SEEN * powers[-1] else np.inf
+    return result, condition
 
 
 def _derivative(fit: Fit, part: Part, gains: int) -> Array:

@@ -156,6 +156,7 @@ def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.
     assert done.status == 0, done.err
     assert done.out.startswith("lifter: 3 of 3 drive gains\n")
     results = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert 1 < results["condition"] < 1e4
     one = results["parameters"]["g_tau1"]
     assert one["value"] == pytest.approx(-120 * KT[0], abs=4 * one["std"])
     assert (one["unit"], one["identifiable"]) == ("N m/A", True)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from generator.errors import InputError
@@ -52,6 +53,9 @@ def test_latency_and_stiffness_are_told_apart(machine: Machine, tmp_path: Path) 
     for one in found.latency.values():
         assert one.value == pytest.approx(LATENCY, abs=max(4 * one.std, 5e-5))
     assert found.notes == ()
+    for rows in found.rows.values():
+        columns = np.column_stack([rows.torque, rows.own, rows.constants])
+        assert rows.condition == pytest.approx(np.linalg.cond(columns / np.sqrt((columns**2).sum(axis=0))))
     unaware = link_encoders(machine.robot, runs)
     assert "latency1 lacks Fv1/k1: no viscous friction was given" in unaware.notes
     lost = MOTORS["Fvm1"] / MOTORS["k1"]

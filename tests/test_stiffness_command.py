@@ -200,6 +200,8 @@ def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
     done = command("stiffness", "kr500", "--locked", "2", "--data", path, "--out", tmp_path / "locked", capsys=capsys)
     assert done.status == 0, done.err
     results = json.loads((tmp_path / "locked" / "results.json").read_text())
+    (rows,) = locked_output(ROBOT, 2, [path]).rows
+    assert results["condition"] == pytest.approx(np.linalg.cond(rows[:, :-1]), rel=1e-6)
     assert results["parameters"]["k2"]["value"] == pytest.approx(LOCKED["k2"], rel=0.05)
     assert results["essential"]["parameters"]["k2"]["essential"] is True
 

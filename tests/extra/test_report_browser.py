@@ -14,7 +14,7 @@ from tests.diagnosed_arm import case
 from tests.extra.browser import document, visit
 from tests.reports import pages
 
-KINDS = ("identify", "gains", "steps", "locked", "compare", "excite", "output_error", "diagnose")
+KINDS = ("identify", "gains", "steps", "locked", "links", "compare", "excite", "output_error", "diagnose")
 
 #: Run in a copy of the page: where the charts are and what they say of themselves; then all buttons are pressed.
 _MEASURE = """
