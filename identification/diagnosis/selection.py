@@ -77,7 +77,7 @@ class Selection:
             return []
         offered: dict[tuple[str, int], list[Variant]] = {}
         for one in self.weighing.bank.variants:
-            if common(one, ()):
+            if common(one) or one.hypothesis.effect in BALANCERS:
                 offered.setdefault(key_of(one), []).append(one)
         chosen = [shapes[0] for (effect, _), shapes in offered.items() if effect not in BALANCERS]
         balancers = [one for (effect, _), shapes in offered.items() if effect in BALANCERS for one in shapes]
