@@ -16,12 +16,14 @@ Array = NDArray[np.float64]
 PERIOD, COUNT = 200, 1000
 
 
-def one_run(period: int = PERIOD, name: str = "A.csv", crawls: slice = slice(0)) -> Any:
+def one_run(period: int = PERIOD, name: str = "A.csv", unsettled_at: slice = slice(0)) -> Any:
     kept = np.arange(COUNT) % 17 != 0
-    crawling = np.zeros((1, COUNT), dtype=bool)
-    crawling[0, crawls] = True
+    unsettled = np.zeros((1, COUNT), dtype=bool)
+    unsettled[0, unsettled_at] = True
     sampled = SimpleNamespace(run=SimpleNamespace(name=name))
-    return SimpleNamespace(period=period, t=np.arange(COUNT) / 50, kept=kept[None], crawling=crawling, sampled=sampled)
+    return SimpleNamespace(
+        period=period, t=np.arange(COUNT) / 50, kept=kept[None], unsettled=unsettled, sampled=sampled
+    )
 
 
 def lack(e: Array, period: int = PERIOD) -> Lack:
@@ -80,9 +82,9 @@ def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
     assert t == pytest.approx(624 / 50, abs=0.15)
 
 
-def test_no_event_is_told_where_a_joint_crawls() -> None:
+def test_no_event_is_told_where_a_joint_is_unsettled() -> None:
     draw = np.random.default_rng(6)
     e = draw.normal(size=COUNT)
     e[620:628] += 8.0
-    run = one_run(crawls=slice(615, 640))
+    run = one_run(unsettled_at=slice(615, 640))
     assert lack_of_fit([run], [e[run.kept[0]]], 0, 3, 1.0).burst is None

@@ -29,7 +29,7 @@ _ALPHA = 1e-3
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
 _FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.01, 0.1
-#: What nearly every robot has, a balancer once; and what many wrists have.
+#: What nearly every robot has; what many wrists have; what holds an arm up.
 _COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
 _WRIST = ("coupled_rotor",)
 BALANCERS = ("gas_balancer", "spring_balancer")
@@ -166,7 +166,7 @@ class Weighing:
         promised = drop * self._held_out.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
-        share = _SHARE if common(variant, others) else _RARE_SHARE
+        share = _SHARE if common(variant) else _RARE_SHARE
         if size < _FLOOR or drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         if drop < self._imperfect(variant, others):
@@ -178,7 +178,7 @@ class Weighing:
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""
         least = 0.0
-        if common(variant, others):
+        if common(variant):
             return least
         for other, drop in zip(others, self._drops(others), strict=True):
             if {variant.hypothesis.effect, other.hypothesis.effect} <= set(BALANCERS):
@@ -234,17 +234,17 @@ class Weighing:
         return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
 
 
-def common(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether a robot is likely to have an effect beside others; one balancer is, a second one is not."""
-    effect = variant.hypothesis.effect
-    if effect in BALANCERS:
-        return not any(other.hypothesis.effect in BALANCERS for other in others)
-    return effect in _COMMON
+def common(variant: Variant) -> bool:
+    """Whether nearly every robot has the effect."""
+    return variant.hypothesis.effect in _COMMON
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether an effect is to be thought of first: common ones, and the coupling of a wrist."""
-    return common(variant, others) or variant.hypothesis.effect in _WRIST
+    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer."""
+    effect = variant.hypothesis.effect
+    if effect in BALANCERS:
+        return not any(other.hypothesis.effect in BALANCERS for other in others)
+    return common(variant) or effect in _WRIST
 
 
 def key_of(variant: Variant) -> tuple[str, int]:

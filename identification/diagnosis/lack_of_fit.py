@@ -69,14 +69,14 @@ def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, nu
 
 
 def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, reference: float) -> tuple[str, float] | None:
-    """Where the residual is far above the noise for a short time, once in all runs; not where the joint crawls."""
+    """Where the residual is far above the noise for a short time, once in all runs; not where a joint is unsettled."""
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
     for run, e in zip(runs, residuals, strict=True):
         if len(e) < 5 * _BURST:
             continue
-        crawling = run.crawling[k][run.kept[k]]
-        power = np.convolve(np.where(crawling, 0.0, e**2), np.ones(_BURST), "valid") / reference
+        unsettled = run.unsettled[k][run.kept[k]]
+        power = np.convolve(np.where(unsettled, 0.0, e**2), np.ones(_BURST), "valid") / reference
         if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)) / reference, 1.0):
             continue
         i = int(np.argmax(power))

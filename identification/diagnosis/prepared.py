@@ -25,6 +25,8 @@ RATE = 50.0
 _SLOW = 0.04
 #: Such a part below which a joint crawls: presliding and stiction, which no law of friction tells to the end.
 _CRAWLING = 0.12
+#: Time [s] in which a joint may remember what was before the record.
+_MEMORY = 1.0
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
 #: Shortest run, or part of one, that anything can be told from [s].
@@ -37,15 +39,16 @@ _NEAR = 0.35
 class Prepared:
     """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
 
-    ``crawling`` rows (n x N) are close to standstill. ``period`` is that of the motion in rows, 0 where it does not
-    repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out.
+    ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
+    ``period`` is that of the motion in rows, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s,
+    m/s] in the rows that are left out.
     """
 
     sampled: Sampled
     t: Array
     tau: Array
     kept: NDArray[np.bool_]
-    crawling: NDArray[np.bool_]
+    unsettled: NDArray[np.bool_]
     period: int
     slow: Array
 
@@ -96,7 +99,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     standing = np.stack([maximum_filter1d(row, 2 * reach + 1) for row in standing])
     tau = windowed(one.tau, factor)
     kept = windowed(standing.astype(float), factor) == 0
-    crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
+    crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
+    unsettled = crawling | (t < run.start + _MEMORY)
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(one, t, tau, kept, crawling, rows, slow)
+    return Prepared(one, t, tau, kept, unsettled, rows, slow)

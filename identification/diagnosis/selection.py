@@ -77,7 +77,7 @@ class Selection:
             return []
         offered: dict[tuple[str, int], list[Variant]] = {}
         for one in self.weighing.bank.variants:
-            if common(one, ()):
+            if common(one) or one.hypothesis.effect in BALANCERS:
                 offered.setdefault(key_of(one), []).append(one)
         chosen = [shapes[0] for (effect, _), shapes in offered.items() if effect not in BALANCERS]
         balancers = [one for (effect, _), shapes in offered.items() if effect in BALANCERS for one in shapes]
@@ -183,9 +183,9 @@ class Selection:
         for other in self.weighing.evidence(others):
             if not other.passes or key_of(other.variant) == key_of(one):
                 continue
-            margin = -max(_EQUAL * mine.drop, 2.0)
+            margin = -max(_EQUAL * mine.drop, _BETTER)
             if usual and not likely(other.variant, others):
-                margin = _RARE / 2 * mine.drop - 2.0
+                margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
                 near.append(other)
         return Choice(mine, tuple(near))

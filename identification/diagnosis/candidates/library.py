@@ -66,17 +66,14 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
     shapes: list[ShapeRange] = []
     tries = 1
     for shape in effect.shapes:
-        points = _points(shape, k, scenes)
-        if shape.several:
-            points = likely_orders(scenes, k, shape.several)
-            tries *= shape.several
-        elif shape.tried:
-            tries *= len(points)
+        if not shape.tried:
+            continue
+        points = likely_orders(scenes, k, shape.several) if shape.several else _points(shape, k, scenes)
         if not points:
             return []
-        if shape.tried:
-            unit = shape.unit_on(joint)
-            shapes.append(ShapeRange(shape.name, unit, min(points), max(points), points=points, whole=shape.whole))
+        tries *= shape.several or len(points)
+        unit = shape.unit_on(joint)
+        shapes.append(ShapeRange(shape.name, unit, min(points), max(points), points=points, whole=shape.whole))
     coefficients = tuple(
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower) for one in effect.parameters
     )
