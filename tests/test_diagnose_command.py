@@ -194,3 +194,29 @@ def test_bad_input_is_one_line_and_nothing_is_written(
     assert "Traceback" not in done.err
     assert all(part in last for part in parts), last
     assert not (hidden.folder / "bad").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--validate", "2.csv", "--test", "gone.csv"), "gone.csv:1:1: there is no such file"),
+        (("--validate", "2.csv", "--test", "3.csv@0:0.5"), "3.csv:1:1: a run of 0.502 s, expected 1 s at least"),
+        (("--test", "1.csv@2:8"), "1.csv:1:1: its samples from 2 s to 8 s fit in 1.csv and test in 1.csv@2:8"),
+        (("--test", "3.csv", "--out", "1.csv"), "1.csv:1:1: it cannot be written (File exists)"),
+    ],
+    ids=["absent", "short", "fitted", "out"],
+)
+def test_what_would_fail_at_the_end_is_refused_first(
+    hidden: Case,
+    options: tuple[str, ...],
+    told: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    out = () if "--out" in options else ("--out", "bad")
+    done = command("diagnose", "arm.yaml", "1.csv", *options, *out, capsys=capsys)
+    assert done.status == 2
+    assert done.err.strip().splitlines()[-1].startswith(f"error: {told}")
+    assert "making the columns" not in done.err
+    assert not (hidden.folder / "bad").exists()

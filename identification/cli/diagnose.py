@@ -59,7 +59,7 @@ def tested(new: Mended | None) -> list[str]:
     """Lines on the untouched runs."""
     if new is None:
         return []
-    from identification.diagnosis.results import together
+    from identification.diagnosis.played import together
 
     lines = [f"note: {note}" for note in new.notes]
     for kind, played in (("before", new.before), ("after", new.after)):

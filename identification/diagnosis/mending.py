@@ -32,7 +32,7 @@ GENERATED = "generated"
 
 @dataclass(frozen=True)
 class Mended:
-    """The new robot file's ``text``, its ``robot`` and parameters, and where its code went (``generated``).
+    """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
     ``before`` and ``after`` are the test runs as the old and the new model play them; ``file_difference`` and
     ``groupings_difference`` are unified diffs.
@@ -87,7 +87,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         tuple(now for _, now in pairs),
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
-        folder / GENERATED / found.robot.name,
+        Path(GENERATED, found.robot.name),
         (*new.notes, *fit.notes, *notes),
     )
 

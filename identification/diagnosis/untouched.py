@@ -9,8 +9,7 @@ import numpy as np
 
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.played import Played
-from identification.diagnosis.results import together
+from identification.diagnosis.played import Played, together
 from identification.residuals import Residual
 
 #: Least gap to the noise, in squares of the residual, of which a share is told.
