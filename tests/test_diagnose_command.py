@@ -76,6 +76,7 @@ def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
     (found,) = result["findings"]
     assert (found["effect"], found["joints"], found["status"]) == ("position_friction", [2], "firm")
     assert result["where"]["joint"] == 2
+    assert result["unexplained"] is None
     assert set(found["parameters"]) >= {"Fqc2", "Fqs2"}
     assert "firm             " in hidden.done.out
     assert "on 2" in hidden.done.out
@@ -138,7 +139,9 @@ def test_a_dry_run_only_locates(hidden: Case) -> None:
     assert "where            joint 2" in done.out
     assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]
     dry = result(folder / "dry")
-    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("unexplained", [], None)
+    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("located", [], None)
+    assert dry["unexplained"] is None
+    assert "located (free_fit)" in done.out
 
 
 def cut_off(folder: Path) -> str:

@@ -8,12 +8,13 @@ import numpy as np
 
 from generator.version import VERSION
 from identification import outcome
-from identification.diagnosis.diagnosis import Diagnosis, Where
+from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.mending import GENERATED, Mended
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.played import together
+from identification.diagnosis.where import Where
 
 
 def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
@@ -28,7 +29,7 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         "verdict": found.verdict,
         "where": _where(found.before),
         "findings": [_finding(one) for one in found.findings],
-        "unexplained": _where(found.after) if found.after.joint else None,
+        "unexplained": _where(found.after) if found.verdict == UNEXPLAINED else None,
         "invisible": [
             {"effect": one.effect, "joints": list(one.joints or (one.joint,)), "would_show": one.would_show}
             for one in found.invisible
