@@ -21,7 +21,8 @@ def view(joint: int, variable: str, share: float) -> View:
 
 
 def seen(*lacks: Lack) -> Where:
-    shown = {one.joint: (view(one.joint, "q", 0.27), view(one.joint, "qd", 0.12), view(one.joint, "load", 0.04))
+    shown = {one.joint: (view(one.joint, "q", 0.27), view(one.joint, "qd", 0.12), view(one.joint, "load", 0.04),
+                          view(one.joint, "time", 0.0))
              for one in lacks}  # fmt: skip
     return Where(0, "", "", {}, lacks, shown)
 
@@ -35,7 +36,7 @@ def test_the_largest_of_those_that_count_is_told() -> None:
     found = located(seen(BY_CHANCE, SIGNIFICANT, EVENT), [SIGNIFICANT, EVENT])
     assert (found.joint, found.variable) == (2, "q")
     assert found.region == "q 0.5 to 0.5 rad"
-    assert found.shares == {"q": 0.27, "qd": 0.12, "load": 0.04}
+    assert found.shares == {"q": 0.27, "qd": 0.12, "load": 0.04, "time": 0.0}
     assert found.lack == (BY_CHANCE, SIGNIFICANT, EVENT)
 
 
@@ -54,7 +55,9 @@ def finding(variable: str) -> Any:
     return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2, variable=variable))
 
 
-@pytest.mark.parametrize(("variable", "told"), [("qd", "qd"), ("load", "q"), ("frequency", "frequency"), ("", "q")])
+@pytest.mark.parametrize(
+    ("variable", "told"), [("qd", "qd"), ("load", "q"), ("time", "time"), ("frequency", "frequency"), ("", "q")]
+)
 def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
     found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable))
     assert (found.joint, found.variable) == (2, told)

@@ -63,13 +63,14 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
 def led(before: Where, first: Finding) -> Where:
     """With the joint of the leading finding, which has been told from all others, and with its variable.
 
-    Another variable that orders far more of the residual stays.
+    Another variable that orders far more of the residual stays, unless means cannot show the finding's: what grows with
+    time changes its sign with the motion.
     """
     joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
     joint = first.hypothesis.joint or joints[0]
     ordering, shares = strongest(before.views[joint])
     variable = first.hypothesis.variable or ordering
-    if shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
+    if variable != "time" and shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
         variable = ordering
     region = _region(before.views[joint], variable)
     return replace(before, joint=joint, variable=variable, region=region, shares=shares)
