@@ -16,6 +16,9 @@ from identification.diagnosis.views import View, strongest, views
 _ORDERED = 0.05
 #: Part of what the strongest variable orders that the variable of a finding must order.
 _LEADS = 0.25
+#: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
+#: motor's phase other orders cancel.
+_SHOWN = ("q", "q by direction", "qd", "qdd", "load")
 
 
 @dataclass(frozen=True)
@@ -63,14 +66,13 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
 def led(before: Where, first: Finding) -> Where:
     """With the joint of the leading finding, which has been told from all others, and with its variable.
 
-    Another variable that orders far more of the residual stays, unless means cannot show the finding's: what grows with
-    time changes its sign with the motion.
+    Another variable that orders far more of the residual stays where means over the finding's would show it.
     """
     joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
     joint = first.hypothesis.joint or joints[0]
     ordering, shares = strongest(before.views[joint])
     variable = first.hypothesis.variable or ordering
-    if variable != "time" and shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
+    if variable in _SHOWN and shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
         variable = ordering
     region = _region(before.views[joint], variable)
     return replace(before, joint=joint, variable=variable, region=region, shares=shares)
