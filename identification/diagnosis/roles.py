@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 
 from generator.errors import InputError
 from identification.dataset import Run, part_of
@@ -78,7 +79,7 @@ def _unshared(runs: Mapping[str, Sequence[Run]]) -> None:
     for (one, use), (other, again) in combinations(every, 2):
         start, end = max(one.start, other.start), min(one.start + _length(one), other.start + _length(other))
         if one.sha256 == other.sha256 and end - start > max(one.period, other.period):
-            twice = f"{use} in {one.name} and {again} in {other.name}"
+            twice = f"{use} in {Path(one.name).name} and {again} in {Path(other.name).name}"
             raise InputError(
                 other.place, f"its samples from {start:g} s to {end:g} s {twice}", "runs, or parts, that share none"
             )
