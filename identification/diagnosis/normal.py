@@ -147,9 +147,10 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
 
 
 def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tuple[Array, float]:
-    """Coefficients within bounds that lower the sum of squares most, and by how much: max 2 b x - x A x.
+    """Coefficients that lower the sum of squares most, and by how much: max 2 b x - x A x.
 
-    ``size`` are the squares of the whole columns: directions of which little is left are not used.
+    Those that would be beyond their bounds are left out, zero: such values mean another effect. ``size`` are the
+    squares of the whole columns: those of which little is left are left out too.
     """
     free = np.diag(A) > _LEFT * size
     x = np.zeros(len(b))
