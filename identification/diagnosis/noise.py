@@ -82,15 +82,17 @@ def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
 def _explained(gram: Array, base: int, rows: int) -> tuple[Array, int]:
     """Weights of the columns that explain the last one best, and how many directions they use.
 
-    The first ``base`` columns are those of the model, which all count.
+    The first ``base`` columns are those of the model, which all count if there are rows enough.
     """
+    most = max(rows // _ROWS, 1)
+    base = base if base < most else 0
     B = inverse(gram[:base, :base])
     S = gram[base:, base:] - gram[base:, :base] @ B @ gram[:base, base:]
     size = np.sqrt(np.maximum(np.diag(gram)[base:], 1e-300))
     scaled = S / np.outer(size, size)
     values, vectors = np.linalg.eigh((scaled[:-1, :-1] + scaled[:-1, :-1].T) / 2)
     seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
-    seen = seen[-max(rows // _ROWS - base, 1) :]
+    seen = seen[base - most :]
     V = vectors[:, seen]
     weights = V @ ((V.T @ scaled[:-1, -1]) / values[seen]) * size[-1] / size[:-1]
     model = B @ (gram[:base, -1] - gram[:base, base:-1] @ weights)

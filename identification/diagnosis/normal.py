@@ -134,6 +134,8 @@ class Normal:
 
 def inverse(A: Array, rank: float = _RANK) -> Array:
     """Pseudo-inverse of a matrix of products, by the eigenvalues of what it is with columns of unit length."""
+    if not len(A):
+        return A
     if len(A) == 1:
         return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
     size = np.sqrt(np.maximum(np.diag(A), 0.0))
