@@ -18,9 +18,11 @@ from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import EFFECT, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
+from identification.recipe import Recipe
+from identification.sampling import sampled
 from tests.diagnosed import CLEAN, Known, known, played, rows
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
@@ -202,6 +204,25 @@ def test_a_link_falls_through_its_gap(name: str, joint: int, robots: Callable[[s
     (tried,) = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
     assert tried > 0.85
     assert hypothesis.variants[0]["gap"] == pytest.approx(4e-4, rel=0.25)
+
+
+def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str], Known]) -> None:
+    """Its shapes would be parts of no speed and no range; what it does to other joints' torques is offered."""
+    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    run = scene.sampled.run
+    q = run.q.copy()
+    q[3] = 0.1 + 0.2
+    recipe = Recipe().changed(cutoff=50.0, factor=1, standstill=0.0)
+    locked = replace(scene, sampled=sampled(replace(run, q=q), recipe, scene.regressors))
+    assert not locked.moves(3)
+    found = candidates.hypotheses([locked])
+    assert not [one.effect for one in found if one.joint == 4 and one.kind == EFFECT]
+    assert {"position_offset", "torque_gain"} <= {one.effect for one in found if one.joint == 4}
+    for one in found:
+        if one.joint in (0, 4):
+            assert np.all(np.isfinite(one.columns(locked, one.variants[0]))), one.effect
+    both = {(one.effect, one.joint) for one in candidates.hypotheses([locked, scene])}
+    assert ("dahl_friction", 4) in both
 
 
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:

@@ -15,6 +15,9 @@ from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
+#: Range [rad, m] that is the rounding of a joint which stands.
+_STILL = 1e-9
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -48,6 +51,10 @@ class Scene:
     def period(self) -> float:
         """Of the samples [s]."""
         return self.sampled.run.period
+
+    def moves(self, k: int) -> bool:
+        """Whether coordinate ``k`` moves at all."""
+        return bool(np.ptp(self.motion.q[k]) > _STILL)
 
     @cached_property
     def torque(self) -> Array:

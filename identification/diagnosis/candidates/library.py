@@ -29,7 +29,7 @@ _VARIABLES = (
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """Each effect of the library on each joint without it."""
+    """Each effect of the library on each joint that moves and is without it."""
     if not scenes:
         return []
     robot = scenes[0].robot
@@ -39,6 +39,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         for effect in library().values()
         if warming or "warmth" not in effect.needs
         for k, joint in enumerate(robot.moving)
+        if any(scene.moves(k) for scene in scenes)
         if _possible(effect, joint, robot) and (effect.observables is None or _weighty(scenes)[k])
         for one in _hypothesis(effect, joint, k, scenes)
     ]
