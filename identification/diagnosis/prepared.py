@@ -71,9 +71,14 @@ def windowed(x: Array, factor: int) -> Array:
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     """The run by the diagnosis' filters, which replace those of ``recipe``.
 
-    Raises InputError for a run that is too short, or sampled too slowly.
+    Raises InputError for a run that is too short, sampled too slowly, or with a payload of which something is sought.
     """
     fast_enough(run, recipe)
+    if run.payload is not None and run.payload.sought:
+        problem = f"{', '.join(run.payload.sought)} of payload {run.payload.name} are sought"
+        raise InputError(
+            run.place, problem, "all ten in the sidecar, or none: a payload that is not known is looked for"
+        )
     length = run.samples * run.period
     if length < SHORTEST:
         raise InputError(run.place, f"a run of {length:.3g} s", f"{SHORTEST:g} s at least, better several periods")

@@ -21,7 +21,10 @@ _STILL = 1e-9
 
 @dataclass(frozen=True)
 class Scene:
-    """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI]."""
+    """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI].
+
+    The model carries the payload that the run's sidecar tells.
+    """
 
     sampled: Sampled
     regressors: Regressors
@@ -63,7 +66,19 @@ class Scene:
 
     def torque_on(self, motion: Motion) -> Array:
         """Torques of the model along another motion (n x N) [N m, N]."""
-        return self.regressors.torques(self.values, motion)
+        return self.torque_of(self.values, motion)
+
+    def torque_of(self, values: Mapping[str, float], motion: Motion) -> Array:
+        """Torques of the model with other ``values`` along another motion (n x N) [N m, N]."""
+        return self.regressors.torques(values, motion) + self.carried(motion)
+
+    def carried(self, motion: Motion) -> Array:
+        """Torques of the run's known payload along a motion (n x N) [N m, N] (report eq. 50); zero without one."""
+        payload = self.sampled.run.payload
+        if payload is None:
+            return np.zeros_like(motion.q)
+        body = np.array([payload.known[stem] for stem in payload.names()])
+        return np.stack([body @ columns for columns in self.regressors.payload(motion)])
 
     @cached_property
     def resting(self) -> Array:
@@ -73,7 +88,9 @@ class Scene:
 
     @cached_property
     def load(self) -> Array:
-        """Static loads of the transmissions (n x N): weight, springs and balancers, without the drives' offsets."""
+        """Static loads of the transmissions (n x N): weight, payload, springs and balancers, without the drives'
+        offsets.
+        """
         offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
         return np.asarray(self.resting - np.array(offsets)[:, None])
 
