@@ -30,7 +30,7 @@ from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
 
 #: Where a candidate stands that is not called as its module.
-MODULES = {"coupled_rotor": "wrist", "joint_elasticity": "elasticity"}
+MODULES = {"coupled_rotor": "wrist", "joint_elasticity": "elasticity", "warm_friction": "library"}
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
 
@@ -133,15 +133,47 @@ def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> N
 
 
 def test_drift_by_a_temperature(robots: Callable[[str], Known]) -> None:
-    """Where the run has one the candidate is offered with it, and is 0 where the drive is coldest, 1 where warmest."""
+    """Where the run has one the candidate is offered with it, by its rise since the recording began, 1 at the end."""
     sensors = replace(CLEAN, temperature=True)
     scene, _, _ = played(robots(SCARA), Effect("torque_constant_drift", 1, 0.1), WAY, sensors)
     by_time, by_temperature = offered([scene], "torque_drift", 1)
-    assert "T" in {shape.name for shape in by_time.shapes}
-    changing, own = by_temperature.columns(scene, by_temperature.given)
-    warmth = changing[0] / own[0]
-    assert warmth.min() == pytest.approx(0.0, abs=1e-12)
-    assert warmth.max() == pytest.approx(1.0)
+    assert "warm_up_time" in {shape.name for shape in by_time.shapes}
+    (shape,) = by_temperature.variants
+    changing, own = by_temperature.columns(scene, shape)
+    run, first = scene.sampled.run, scene.sampled.filters.first
+    rise = run.others["temp1"][first : first + scene.motion.samples] - run.others["temp1"][0]
+    np.testing.assert_allclose(changing[0] / own[0], rise / shape["warm_rise"], atol=1e-12)
+    assert rise.max() == pytest.approx(shape["warm_rise"])
+
+
+def test_a_drive_is_as_warm_as_its_recording_has_made_it(robots: Callable[[str], Known]) -> None:
+    """A part of a long recording goes on where the one before it ended, whatever the clock begins with."""
+    first, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    run = first.sampled.run
+    part = replace(run, start=1e6 + 20.0, began={"t": 1e6})
+    later = replace(first, sampled=replace(first.sampled, run=part))
+    t = later.sampled.times - 1e6
+    assert 20 < t[0] < t[-1] < 33
+    (friction,) = offered([first, later], "warm_friction", 1)
+    (shape,) = friction.variants
+    viscous, _ = friction.columns(later, shape)
+    np.testing.assert_allclose(viscous[0], (1 - np.exp(-t / shape["warm_up_time"])) * later.motion.qd[0], atol=1e-9)
+    (drift,) = offered([first, later], "torque_drift", 1)
+    changing, own = drift.columns(later, {"warm_up_time": 30.0})
+    np.testing.assert_allclose(changing[0], (1 - np.exp(-t / 30.0)) * own[0], atol=1e-9)
+    # One part alone is about as warm at its end as at its beginning.
+    assert not offered([later], "warm_friction", 1)
+
+
+def test_the_files_word_on_the_warmth_counts(robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    told = np.linspace(0.1, 0.6, scene.motion.samples) * np.ones((scene.motion.q.shape[0], 1))
+    stated = replace(scene, sampled=replace(scene.sampled, motion=replace(scene.motion, warmth=told)))
+    (friction,), (drift,) = offered([stated], "warm_friction", 1), offered([stated], "torque_drift", 1)
+    assert friction.variants == drift.variants == [{}]
+    np.testing.assert_allclose(friction.columns(stated, {})[0, 0], told[0] * scene.motion.qd[0], atol=1e-12)
+    changing, own = drift.columns(stated, {})
+    np.testing.assert_allclose(changing[0], told[0] * own[0], atol=1e-12)
 
 
 @pytest.mark.parametrize(("name", "effect"), [(SMALL, Effect("current_saturation", 1, 0.7))])

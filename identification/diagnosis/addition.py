@@ -12,7 +12,8 @@ from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SI
 class Addition:
     """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below; ``evidence`` is a line for people.
 
-    - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones.
+    - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones, and the joints' ``warm_up_time`` where the
+      file has none.
     - SIGNAL: keys of section ``signals`` with their value for the joints: an offset or a delay is added to the file's,
       a gain multiplies it, a limit, time or rise replaces it.
     - DRIVE: ``gear_ratio``, a factor of the joints' ratios; ``torque_drift``, added to the motors'; the rest as SIGNAL.
@@ -57,9 +58,8 @@ def addition(
 
 
 def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
-    """True torque = (1 + start)(1 + drift warmth) recorded."""
-    warm = {"warm_up_time": shape["T"]} if "T" in shape else {"warm_rise": shape["rise"]}
-    return {"torque_drift": found[0], "torque_gain": 1 + found[1], **warm}
+    """True torque = (1 + start)(1 + drift warmth) recorded; the shape tells the warmth where the file does not."""
+    return {"torque_drift": found[0], "torque_gain": 1 + found[1], **shape}
 
 
 def _elastic(one: Hypothesis, found: float, shape: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:

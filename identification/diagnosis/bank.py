@@ -87,8 +87,8 @@ class Bank:
         self._colours: list[list[Colour]] = []
         self.grams: list[Array] = []
         for run, scene in zip(runs, scenes, strict=True):
-            base = regressors.base(scene.motion)
-            tau = run.tau - run.decimated(scene.carried(scene.motion))
+            base = regressors.base(run.sampled.motion)
+            tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
                 [
                     _Joint([place[name] for name in names], list(run.decimated(W)), tau[k], run.kept[k])

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.corrections import warming_up
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
 
@@ -49,6 +50,29 @@ class Scene:
     def t(self) -> Array:
         """Time since the run's start [s] (N)."""
         return self.sampled.times - self.sampled.run.start
+
+    def warmth(self, k: int, warm_up_time: float | None = None) -> Array:
+        """How warm the drive of coordinate ``k`` is (N), 0 when the recording began: as the robot's file says, or by
+        ``warm_up_time`` [s].
+
+        Raises ValueError where neither tells.
+        """
+        if warm_up_time is not None:
+            return warming_up(self._inside(self.sampled.run.elapsed), warm_up_time)
+        if self.motion.warmth is None:
+            raise ValueError(f"nothing says how warm the drive of coordinate {k} is")
+        told: Array = self.motion.warmth[k]
+        return told
+
+    def rise(self, k: int) -> Array | None:
+        """Of the drive's temperature since the recording began [K] (N); None where the run has none."""
+        values = self.sampled.run.rises.get(f"temp{self.robot.moving[k].number}")
+        return None if values is None else self._inside(values)
+
+    def _inside(self, x: Array) -> Array:
+        """A signal of the whole run at the scene's samples."""
+        first = self.sampled.filters.first
+        return x[first : first + self.motion.samples]
 
     @property
     def period(self) -> float:
