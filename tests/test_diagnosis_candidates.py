@@ -18,7 +18,8 @@ from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
-from identification.diagnosis.hypothesis import EFFECT, Hypothesis
+from identification.diagnosis.addition import measured
+from identification.diagnosis.hypothesis import EFFECT, SIGNAL, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
@@ -291,6 +292,28 @@ def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Calla
         assert offered([scene], candidate, 2), candidate
         assert not offered([watched], candidate, 2), candidate
         assert not offered([elastic], candidate, 2), candidate
+
+
+def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], Known]) -> None:
+    """The simulated robot's latency, to a twentieth; none for encoders on time or told by the file."""
+    sensors = replace(CLEAN, link_encoders=2)
+    scene, _, _ = played(robots(SCARA), Effect("link_latency", 1, 4e-3), WAY, sensors)
+    found = [one for number in (1, 2, 3, 4) for one in offered([scene], "link_delay", number)]
+    assert [(one.joint, one.kind) for one in found] == [(1, SIGNAL), (2, SIGNAL)]
+    for one, added in zip(found, measured(found), strict=True):
+        (value,) = one.measured.values()
+        assert value.value == pytest.approx(4e-3, rel=0.05)
+        assert not one.columns(scene, one.variants[0]).any()
+        assert (added.joints, added.values) == ((one.joint,), {"link_delay": value.value})
+    stated = _with(
+        scene, replace(scene.robot, signals=Signals(link_delay=(sympy.Rational(1, 250), *[sympy.S.Zero] * 3)))
+    )
+    punctual, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY, sensors)
+    blind, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    for number in (1, 2):
+        assert not offered([punctual], "link_delay", number)
+        assert not offered([blind], "link_delay", number)
+        assert bool(offered([stated], "link_delay", number)) == (number == 2)
 
 
 def _with(scene: Scene, robot: Robot) -> Scene:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
@@ -55,6 +55,18 @@ def addition(
     else:
         values = dict(coefficients)
     return Addition(one.kind, one.effect, joints, values, parameters, evidence)
+
+
+def measured(offered: Sequence[Hypothesis]) -> list[Addition]:
+    """What the runs tell without any torque."""
+    result = []
+    for one in offered:
+        known = {name: value for name, value in one.measured.items() if value.value is not None}
+        said = ", ".join(f"{value.value:.3g} +- {value.std:.2g} {value.unit}" for value in known.values())
+        values = {name: value.value for name, value in known.items() if value.value is not None}
+        if values:
+            result.append(addition(one, {}, values, f"{one.title}, joint {one.joint}: {said}, measured without torque"))
+    return result
 
 
 def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
