@@ -19,7 +19,8 @@ from generator.robot.description import EffectUse, Robot, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.addition import measured
-from identification.diagnosis.hypothesis import EFFECT, SIGNAL, Hypothesis
+from identification.diagnosis.candidates import library
+from identification.diagnosis.hypothesis import SIGNAL, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
@@ -248,14 +249,11 @@ def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str],
     recipe = Recipe().changed(cutoff=50.0, factor=1, standstill=0.0)
     locked = replace(scene, sampled=sampled(replace(run, q=q), recipe, scene.regressors))
     assert not locked.moves(3)
-    found = candidates.hypotheses([locked])
-    assert not [one.effect for one in found if one.joint == 4 and one.kind == EFFECT]
-    assert {"position_offset", "torque_gain"} <= {one.effect for one in found if one.joint == 4}
-    for one in found:
-        if one.joint in (0, 4):
-            assert np.all(np.isfinite(one.columns(locked, one.variants[0]))), one.effect
-    both = {(one.effect, one.joint) for one in candidates.hypotheses([locked, scene])}
-    assert ("dahl_friction", 4) in both
+    assert 4 not in {one.joint for one in library.hypotheses([locked])}
+    assert ("dahl_friction", 4) in {(one.effect, one.joint) for one in library.hypotheses([locked, scene])}
+    for effect in ("position_offset", "torque_gain"):
+        (one,) = offered([locked], effect, 4)
+        assert np.all(np.isfinite(one.columns(locked, {}))), effect
 
 
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:
@@ -277,6 +275,10 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
         assert not offered([_with(scene, changed)], candidate, 2), candidate
     for candidate in ("position_offset", "torque_gain", "torque_drift"):
         assert offered([_with(scene, changed)], candidate, 1), candidate
+    unlimited = replace(signals, current_limit=tuple(sympy.Integer(9 if k == 1 else 10**6) for k in range(n)))
+    limited = _with(scene, replace(robot, signals=unlimited))
+    assert offered([limited], "current_limit", 1)
+    assert not offered([limited], "current_limit", 2)
     assert offered([scene], "coupled_rotor", 6)
     there = replace(robot, effects=(*robot.effects, EffectUse("coupled_rotor", (6,))))
     assert not offered([_with(scene, there)], "coupled_rotor", 6)

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
 
+#: What joints have in the file that no motion limits or warms [A, K].
+NEVER = 1e6
+
 
 @dataclass(frozen=True)
 class Addition:

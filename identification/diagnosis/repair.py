@@ -14,12 +14,10 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import PRISMATIC, Joint, Robot
-from identification.diagnosis.addition import Addition
+from identification.diagnosis.addition import NEVER, Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-#: What joints have that no motion limits or warms [A, K].
-_NEVER = 1e6
 #: Time constant [s] of joints whose warmth nothing reads.
 _WARM_UP = 60.0
 #: What a correction is where the file says nothing, and its unit where it is not that of a position.
@@ -28,9 +26,9 @@ _NEUTRAL = {
     "torque_gain": 1.0,
     "torque_delay": 0.0,
     "link_delay": 0.0,
-    "current_limit": _NEVER,
+    "current_limit": NEVER,
     "warm_up_time": _WARM_UP,
-    "warm_rise": _NEVER,
+    "warm_rise": NEVER,
 }
 _UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
