@@ -127,6 +127,11 @@ def _parsed(source: str) -> tuple[Path, float, float]:
     return Path(match["path"]), start, end
 
 
+def part_of(source: str, start: float, end: float) -> str:
+    """The source of a part of ``source``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
+    return f"{_parsed(source)[0]}@{start:.9g}:{end:.9g}"
+
+
 def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
     """The rows from ``start`` to ``end`` [s], and the number of the first."""
     if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:

@@ -22,6 +22,7 @@ from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
+from identification.diagnosis.untouched import objections, untouched
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled, sampled
@@ -32,7 +33,7 @@ GENERATED = "generated"
 
 @dataclass(frozen=True)
 class Mended:
-    """The new robot file's ``text``, its ``robot`` and parameters, and where its code went (``generated``).
+    """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
     ``before`` and ``after`` are the test runs as the old and the new model play them; ``file_difference`` and
     ``groupings_difference`` are unified diffs.
@@ -78,17 +79,19 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         before = _played(found.roles.test, Player(old_regressors), values)
         after = _played(found.roles.test, player, fit.values)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
+        before, after = (tuple(played) for played in zip(*pairs, strict=True))
+    against = objections(untouched(found.found.bank, before, after))
     return Mended(
         text,
         new.robot,
         tuple(additions),
         fit,
-        tuple(old for old, _ in pairs),
-        tuple(now for _, now in pairs),
+        before,
+        after,
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
-        folder / GENERATED / found.robot.name,
-        (*new.notes, *fit.notes, *notes),
+        Path(GENERATED, found.robot.name),
+        (*new.notes, *fit.notes, *notes, *against),
     )
 
 

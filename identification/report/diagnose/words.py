@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from generator.review.words import listed, unit
-from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING, Where
+from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
 from identification.diagnosis.finding import FIRM, Finding
+from identification.diagnosis.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
 
@@ -56,9 +57,16 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.verdict == NAMED:
         yield f"The model lacks {_named(found.findings)}."
         return
-    where = found.after if found.after.joint else found.before
+    if found.verdict == LOCATED:
+        yield "This was only to look where model and measurement disagree: nothing was named."
+        if found.before.joint:
+            yield f"Joint {found.before.joint} keeps more than noise, {_ordered(subject, found.before)}."
+        else:
+            yield "No joint keeps more than noise."
+        return
+    where = found.after
     yield "Something is missing in the model that no effect of the library explains:"
-    yield f"joint {where.joint or _largest(subject)} keeps more than noise, {_ordered(subject, where)}."
+    yield f"joint {where.joint} keeps more than noise, {_ordered(subject, where)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
 
@@ -125,7 +133,3 @@ def _ordered(subject: Subject, where: Where) -> str:
     if not where.variable:
         return "and no variable orders it"
     return f"over {where.variable}" + (f" ({shortened(subject, where.region)})" if where.region else "")
-
-
-def _largest(subject: Subject) -> int:
-    return max(subject.found.after.lack, key=lambda one: one.size).joint
