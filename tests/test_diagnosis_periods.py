@@ -11,9 +11,14 @@ import pytest
 from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
+from generator.resources import find_robot
+from generator.robot.readers import read
 from identification.dataset import Run, part_of
 from identification.diagnosis.periods import period_of
+from identification.diagnosis.prepared import prepared
 from identification.diagnosis.roles import roles
+from identification.observation import Regressors
+from identification.recipe import Recipe
 
 Array = NDArray[np.float64]
 
@@ -44,6 +49,33 @@ def test_a_joint_that_rests_does_not_count() -> None:
     q[1] = 0.3
     assert period_of(q, 0.002) == 750
     assert period_of(np.full((2, 3000), 0.3), 0.002) == 0
+
+
+def test_a_joint_that_is_held_does_not_count() -> None:
+    """Its encoder trembles between two steps, which does not repeat; one that is moved a little counts."""
+    q = series(3000, 750)
+    tremble = np.random.default_rng(3).integers(0, 2, 3000)
+    q[1] = 0.3 + 1e-4 * tremble
+    assert period_of(q, 0.002) == 750
+    q[1] = 0.3 + 0.02 * tremble
+    assert period_of(q, 0.002) == 0
+
+
+@pytest.mark.parametrize(
+    ("period", "rows", "note"),
+    [
+        (2000, 200, ""),
+        (2003, 0, "the motion of A repeats after 2003 samples, but one in 10 is looked at: its periods are not"),
+        (0, 0, "the motion of A does not repeat"),
+    ],
+)
+def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str) -> None:
+    regressors = Regressors(read(find_robot("emps")))
+    q = 0.1 * (series(3 * period, period)[:1] if period else np.linspace(0, 8, 6000)[None] ** 1.5)
+    one = prepared(Run("A", Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
+    assert (one.period, one.repeats) == (rows, period)
+    assert one.note.startswith(note)
+    assert bool(one.note) == bool(note)
 
 
 def test_what_does_not_repeat_has_no_period() -> None:

@@ -117,10 +117,7 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 
 
 def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
-    notes = []
-    if not all(run.period for run in runs):
-        names = ", ".join(run.sampled.run.name for run in runs if not run.period)
-        notes.append(f"the motion of {names} does not repeat: noise is told from the model's faults less well")
+    notes = [run.note for run in runs if run.note]
     for one in found:
         if not one.homogeneous:
             joints = ", ".join(map(str, one.joints))

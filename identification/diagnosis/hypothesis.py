@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.scene import Scene
+from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
@@ -61,7 +62,8 @@ class Hypothesis:
     holds more than the model's says. ``shapes`` are searched, ``given`` are values that are known; both are values of
     the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
-    experiment that tells them apart.
+    experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque: there
+    is nothing to search, and the columns are zero.
     """
 
     effect: str
@@ -77,6 +79,7 @@ class Hypothesis:
     would_show: str = ""
     separating: Mapping[str, str] = field(default_factory=dict)
     tries: int = 0
+    measured: Mapping[str, Value] = field(default_factory=dict)
 
     @property
     def variants(self) -> list[dict[str, float]]:

@@ -11,7 +11,7 @@ from generator.robot.description import Robot
 from generator.writing import replace
 from identification import recipe as recipes
 from identification.dataset import load
-from identification.diagnosis.addition import Addition, addition
+from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
@@ -61,7 +61,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """
     name = f"{found.robot.name}.yaml"
     old_text = path.read_text(encoding="utf-8-sig")
-    new = repaired(old_text, name, additions := [_addition(one) for one in found.findings])
+    aside = measured(found.found.offered)
+    additions = [*map(_addition, found.findings), *aside]
+    new = repaired(old_text, name, additions)
     old_regressors, regressors = found.found.bank.scenes[0].regressors, Regressors(new.robot)
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
@@ -91,7 +93,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
         Path(GENERATED, found.robot.name),
-        (*new.notes, *fit.notes, *notes, *against),
+        (*(one.evidence for one in aside), *new.notes, *fit.notes, *notes, *against),
     )
 
 
