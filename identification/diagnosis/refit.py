@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 #: Name of the set in the robot file.
 SET = "diagnosed"
 #: Times that the rows are weighed by what the last fit left of them.
-_PASSES = 3
+_PASSES = 6
 #: Samples at which a payload is compared with base parameters.
 _SAMPLES = 80
 
@@ -113,11 +113,15 @@ def _payload_in_base(regressors: Regressors) -> Array:
 
 
 def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
-    """The solution with the prior's rows, each joint's rows weighed by what is left of them."""
+    """The solution with the prior's rows, each joint's rows weighed by what is left of them.
+
+    Where the runs contradict what was known, that was known less well by as much (Birge's ratio).
+    """
     count = len(start.names) - len(prior.mean)
     whole = Prior(np.append(prior.mean, np.zeros(count)), np.pad(prior.precision, (0, count)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
     result, sigma = start, dict(start.sigma)
+    width = 1.0
     for _ in range(_PASSES):
         gram = np.zeros((len(start.names) + 1,) * 2)
         for one in factors:
@@ -125,10 +129,14 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
             R[:, -1] -= one.on(tuple(given))[:, :-1] @ np.array(list(given.values()))
             gram += R.T @ R / sigma[one.joint] ** 2
         rows = sum(one.rows for one in factors)
-        chi, covariance = Normal(gram, len(start.names), rows, whole).solution([])
+        known = Prior(whole.mean, whole.precision / width)
+        chi, covariance = Normal(gram, len(start.names), rows, known).solution([])
+        away = chi - whole.mean
+        spread = float(away @ whole.precision @ away) + float(np.sum(whole.precision * covariance))
+        width = max(spread / max(int(whole.known.sum()), 1), 1.0)
         values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
         sigma = {one.joint: max(one.residual(values) / np.sqrt(max(one.rows, 1)), 1e-300) for one in factors}
-        unknown = tuple(name for name, known in zip(start.names, whole.known, strict=True) if not known)
+        unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
     return result
