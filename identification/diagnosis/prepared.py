@@ -40,7 +40,7 @@ class Prepared:
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
     ``period`` is that of the motion in rows, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s,
-    m/s] in the rows that are left out.
+    m/s] in the rows that are left out, of ``sampled`` too.
     """
 
     sampled: Sampled
@@ -98,4 +98,4 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(one, t, tau, kept, unsettled, rows, slow)
+    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow)
