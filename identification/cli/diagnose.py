@@ -2,8 +2,9 @@
 
 Runs are as in `counterpoise identify`; FILE@FROM:TO takes a part of one, with times in s. Periodic motion with several
 periods a run is best. RUN are fitted, --validate holds the fit to account, --test is touched by nothing before the
-report; where one is missing, runs or parts of runs take its place. DIR receives diagnosis.json, report.html, the new
-robot file and the code generated from it.
+report. Without --validate each run is held against what the others predict; without --test the last of three runs or
+more tests, else the end of each. DIR receives diagnosis.json, report.html, the new robot file and the code generated
+from it.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.decimals import scientific
 
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
+    from identification.diagnosis.finding import Told
     from identification.diagnosis.mending import Mended
 
 
@@ -78,17 +81,21 @@ def summary(found: Diagnosis) -> list[str]:
         region = f", {where.region}" if where.region else ""
         lines.append(f"where            joint {where.joint}, over {where.variable or 'nothing in particular'}{region}")
     for one in found.findings:
-        joints = ", ".join(map(str, one.joints))
-        lines.append(f"{one.status:<16} {one.hypothesis.title} on {joints}")
-        for name, value in one.parameters.items():
-            lines.append(f"                 {name} {value.value:.6g} +- {value.std:.2g} {value.unit}")
-        for name, number in one.shape.items():
-            std = f" +- {one.shape_std[name]:.2g}" if name in one.shape_std else ""
-            lines.append(f"                 {name} {number:.4g}{std}")
+        lines.append(f"{one.status:<16} {one.hypothesis.title} on {one.hypothesis.where}")
+        lines += [f"                 {_value(each)}" for each in one.told]
+        if not one.determined:
+            lines.append("                 the runs tell its torque, but not these values one by one")
         for other in one.alternatives:
-            text = f"or {other.title} on {', '.join(map(str, other.joints))}; apart by: {other.separating_experiment}"
+            text = f"or {other.title} on {other.where}; apart by: {other.separating_experiment}"
             lines.append(f"                 {text}")
     if found.after.joint and found.verdict == "unexplained":
         region = found.after.region or "nothing orders it"
         lines.append(f"unexplained      joint {found.after.joint}, over {found.after.variable}: {region}")
     return lines
+
+
+def _value(one: Told) -> str:
+    """``vs 0.053 +- 0.0014 rad/s``."""
+    std = f" +- {scientific(one.std, 2)}" if one.std is not None else ""
+    unit = "" if one.unit == "1" else f" {one.unit}"
+    return f"{one.name} {scientific(one.value, one.digits)}{std}{unit}{', at its bound' if one.at_bound else ''}"

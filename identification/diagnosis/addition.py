@@ -10,7 +10,7 @@ from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SI
 
 @dataclass(frozen=True)
 class Addition:
-    """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below; ``evidence`` is a line for people.
+    """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below.
 
     - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones.
     - SIGNAL: keys of section ``signals`` with their value for the joints: an offset or a delay is added to the file's,
@@ -21,6 +21,7 @@ class Addition:
     - BODY: a payload, which base parameters hold; the file's text does not change.
 
     ``parameters`` [SI] are values of the model's parameters that come with it and that no rigid fit shows.
+    ``evidence`` is a line for people, ``amplitude`` the rms of its torque [N m, N] by the joint's number.
     """
 
     kind: str
@@ -29,10 +30,15 @@ class Addition:
     values: Mapping[str, float] = field(default_factory=dict)
     parameters: Mapping[str, float] = field(default_factory=dict)
     evidence: str = ""
+    amplitude: Mapping[int, float] = field(default_factory=dict)
 
 
 def addition(
-    one: Hypothesis, shape: Mapping[str, float], coefficients: Mapping[str, float], evidence: str = ""
+    one: Hypothesis,
+    shape: Mapping[str, float],
+    coefficients: Mapping[str, float],
+    evidence: str = "",
+    amplitude: Mapping[int, float] | None = None,
 ) -> Addition:
     """What a hypothesis becomes with its shape and the values of its coefficients by name."""
     found = [coefficients[each.name] for each in one.coefficients]
@@ -53,7 +59,7 @@ def addition(
         values, parameters = _elastic(one, found[0], {**one.given, **shape})
     else:
         values = dict(coefficients)
-    return Addition(one.kind, one.effect, joints, values, parameters, evidence)
+    return Addition(one.kind, one.effect, joints, values, parameters, evidence, amplitude or {})
 
 
 def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:

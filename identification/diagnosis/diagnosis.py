@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,7 +138,7 @@ def _where(found: Search, weights: Mapping[int, float]) -> Where:
     variable, shares = strongest(seen[worst.joint])
     if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:
         run, t = worst.burst
-        return Where(worst.joint, "time", f"once, at {t:.2f} s of {run}", shares, tuple(lacks), seen)
+        return Where(worst.joint, "time", f"once, at {t:.2f} s of {Path(run).name}", shares, tuple(lacks), seen)
     return Where(worst.joint, variable, _region(seen[worst.joint], variable), shares, tuple(lacks), seen)
 
 
@@ -152,7 +153,8 @@ def _region(found: Sequence[View], variable: str) -> str:
             continue
         at = one.centre[out > 0.5 * out.max()]
         way = {-1: " moving backward", 0: "", 1: " moving forward"}[one.direction]
-        parts.append(f"{variable} {at.min():.3g} to {at.max():.3g} {one.unit}{way}")
+        span = f"{at.min():.3g} to {at.max():.3g}" if len(at) > 1 else f"about {at[0]:.3g}"
+        parts.append(f"{variable} {span} {one.unit}{way}")
     return "; ".join(parts)
 
 
@@ -176,14 +178,12 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 def _notes(found: Search, runs: Sequence[Prepared]) -> list[str]:
     notes = []
     if not all(run.period for run in runs):
-        names = ", ".join(run.sampled.run.name for run in runs if not run.period)
+        names = ", ".join(dict.fromkeys(run.sampled.run.file for run in runs if not run.period))
         notes.append(f"the motion of {names} does not repeat: noise is told from the model's faults less well")
     for one in found.choices:
         variant = one.evidence.variant
         others = [each.evidence.variant for each in found.choices if each is not one]
         if not found.weighing.homogeneous(variant, others):
-            name = variant.hypothesis.title
-            notes.append(
-                f"{name} on joint {variant.hypothesis.joint} differs between the runs: it drifts, or is chance"
-            )
+            hypothesis = variant.hypothesis
+            notes.append(f"{hypothesis.title} on {hypothesis.where} differs between the runs: it drifts, or is chance")
     return notes

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -18,6 +19,10 @@ from identification.outcome import Value
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
+#: Relative standard deviation of a shape beyond which runs do not tell it.
+_VAGUE = 0.5
+#: Significant digits of a value without a standard deviation, and most of one with it.
+_DIGITS, _MOST = 4, 6
 #: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
 _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
@@ -33,13 +38,33 @@ _SEPARATING: Mapping[frozenset[str], str] = {
 
 @dataclass(frozen=True)
 class Alternative:
-    """Another effect that this data cannot tell from the one that was named."""
+    """Another effect that this data cannot tell from the one that was named; ``where`` are its joints in words."""
 
     effect: str
     title: str
     joints: tuple[int, ...]
+    where: str
     score: float
     separating_experiment: str
+
+
+@dataclass(frozen=True)
+class Told:
+    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``."""
+
+    name: str
+    value: float
+    std: float | None
+    unit: str
+    at_bound: bool = False
+
+    @property
+    def digits(self) -> int:
+        """Significant digits of the value, of which the standard deviation leaves the last two uncertain."""
+        if not self.std or not self.value or not math.isfinite(self.std):
+            return _DIGITS
+        before = math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.std))
+        return min(max(before + 2, 2), _MOST)
 
 
 @dataclass(frozen=True)
@@ -60,6 +85,25 @@ class Finding:
     amplitude: Mapping[int, float]
     shape_std: Mapping[str, float]
     homogeneous: bool = True
+
+    @property
+    def told(self) -> tuple[Told, ...]:
+        """Coefficients, then the shape."""
+        units = {shape.name: shape.unit for shape in self.hypothesis.shapes}
+        coefficients = [
+            Told(name, one.value, one.std or None, one.unit, not one.value and not one.std)
+            for name, one in self.parameters.items()
+            if one.value is not None
+        ]
+        shape = [
+            Told(name, value, self.shape_std.get(name), units.get(name, "1")) for name, value in self.shape.items()
+        ]
+        return (*coefficients, *shape)
+
+    @property
+    def determined(self) -> bool:
+        """Whether the runs tell its values one by one, and not only the torque that they make together."""
+        return all(std <= _VAGUE * abs(self.shape[name]) for name, std in self.shape_std.items())
 
 
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
@@ -101,7 +145,7 @@ def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
         or _SEPARATING.get(frozenset((mine.effect, one.effect)))
         or (one.would_show if one.would_show else "more motion of the joint: other ranges, speeds and loads")
     )
-    return Alternative(one.effect, one.title, one.joints or (one.joint,), other.score, experiment)
+    return Alternative(one.effect, one.title, one.joints or (one.joint,), one.where, other.score, experiment)
 
 
 def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:

@@ -94,8 +94,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
 
 def _addition(one: Finding) -> Addition:
     values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
-    size = ", ".join(f"{rms:.3g} on joint {joint}" for joint, rms in sorted(one.amplitude.items()))
-    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}: rms torque {size}")
+    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
 def _description(found: Sequence[Finding]) -> str:

@@ -34,6 +34,11 @@ class Roles:
     known: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
+    @property
+    def untouched(self) -> bool:
+        """Whether nothing but the test reads what tests."""
+        return not set(self.test) & set(self.known)
+
 
 def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
     """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.
@@ -47,7 +52,7 @@ def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> 
     ends: dict[str, float] = {}
     if not test and len(names) >= _APART:
         test = (names[-1],)
-        notes.append(f"{names[-1]} tests: it is touched by nothing before the report")
+        notes.append(f"{data[-1].file}, the last run, tests: it is touched by nothing before the report")
         del fitted[-1]
     elif not test:
         test = tuple(_tail(run) for run in data)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from generator.review.markup import Content, Markup, element, join, table
 from identification.diagnosis.finding import Finding
 from identification.report.diagnose.subject import Subject
-from identification.report.diagnose.words import chance, joints, values
+from identification.report.diagnose.words import chance, values
 from identification.report.numbers import plain
 from identification.report.told import facts
 
@@ -23,7 +23,7 @@ def render(subject: Subject) -> Markup | None:
 
 def _finding(one: Finding) -> Iterator[Markup]:
     title = one.hypothesis.title
-    yield element("h3", f"{title[:1].upper()}{title[1:]} on {joints(one.joints)}: {one.status}")
+    yield element("h3", f"{title[:1].upper()}{title[1:]} on {one.hypothesis.where}: {one.status}")
     e = one.evidence
     yield facts(
         {
@@ -38,7 +38,6 @@ def _finding(one: Finding) -> Iterator[Markup]:
     )
     if one.alternatives:
         rows: list[list[Content]] = [
-            [other.title, joints(other.joints), plain(other.score, 4), other.separating_experiment]
-            for other in one.alternatives
+            [other.title, other.where, plain(other.score, 4), other.separating_experiment] for other in one.alternatives
         ]
         yield table(("or else", "on", "evidence", "what would tell them apart"), rows, class_="remarks")
