@@ -68,7 +68,7 @@ def tested(new: Mended | None) -> list[str]:
     for kind, played in (("before", new.before), ("after", new.after)):
         found = together(played)
         each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.per_joint.items()))
-        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} % ({each})")
+        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %, by joint {each}")
     return lines
 
 
@@ -81,12 +81,12 @@ def summary(found: Diagnosis) -> list[str]:
         region = f", {where.region}" if where.region else ""
         lines.append(f"where            joint {where.joint}, over {where.variable or 'nothing in particular'}{region}")
     for one in found.findings:
-        lines.append(f"{one.status:<16} {one.hypothesis.title} on {one.hypothesis.where}")
+        lines.append(f"{one.status:<16} {one.hypothesis.named}")
         lines += [f"                 {_value(each)}" for each in one.told]
         if not one.determined:
             lines.append("                 the runs tell its torque, but not these values one by one")
         for other in one.alternatives:
-            text = f"or {other.title} on {other.where}; apart by: {other.separating_experiment}"
+            text = f"or {other.named}; apart by: {other.separating_experiment}"
             lines.append(f"                 {text}")
     if found.after.joint and found.verdict == "unexplained":
         region = found.after.region or "nothing orders it"

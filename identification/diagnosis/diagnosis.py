@@ -184,6 +184,5 @@ def _notes(found: Search, runs: Sequence[Prepared]) -> list[str]:
         variant = one.evidence.variant
         others = [each.evidence.variant for each in found.choices if each is not one]
         if not found.weighing.homogeneous(variant, others):
-            hypothesis = variant.hypothesis
-            notes.append(f"{hypothesis.title} on {hypothesis.where} differs between the runs: it drifts, or is chance")
+            notes.append(f"{variant.hypothesis.named} differs between the runs: it drifts, or is chance")
     return notes

@@ -28,6 +28,8 @@ _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
     "speed",
     frozenset(("stribeck_friction", "lugre_friction")): "slow reversals at different accelerations",
+    frozenset(("gas_balancer", "spring_balancer")): "motion over the joint's whole range: gas stiffens as it is "
+    "compressed, a spring does not",
     frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
     frozenset(("load_friction", "position_friction")): "the same motion with another payload",
     frozenset(
@@ -38,12 +40,12 @@ _SEPARATING: Mapping[frozenset[str], str] = {
 
 @dataclass(frozen=True)
 class Alternative:
-    """Another effect that this data cannot tell from the one that was named; ``where`` are its joints in words."""
+    """Another effect that this data cannot tell from the one that was named; ``named`` says it in words."""
 
     effect: str
     title: str
     joints: tuple[int, ...]
-    where: str
+    named: str
     score: float
     separating_experiment: str
 
@@ -145,7 +147,7 @@ def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
         or _SEPARATING.get(frozenset((mine.effect, one.effect)))
         or (one.would_show if one.would_show else "more motion of the joint: other ranges, speeds and loads")
     )
-    return Alternative(one.effect, one.title, one.joints or (one.joint,), one.where, other.score, experiment)
+    return Alternative(one.effect, one.title, one.joints or (one.joint,), one.named, other.score, experiment)
 
 
 def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:

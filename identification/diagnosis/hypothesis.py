@@ -80,9 +80,9 @@ class Hypothesis:
     tries: int = 0
 
     @property
-    def where(self) -> str:
-        """``joint 2``, ``joints 5 and 6``, or ``the whole robot``."""
-        return on_joints(self.joints or (self.joint,)) if self.joint else "the whole robot"
+    def named(self) -> str:
+        """``Stribeck friction on joint 3``; what sits on no joint by its title alone."""
+        return f"{self.title} on {on_joints(self.joints or (self.joint,))}" if self.joint else self.title
 
     @property
     def variants(self) -> list[dict[str, float]]:

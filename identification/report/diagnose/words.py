@@ -8,6 +8,7 @@ from generator.review.words import listed, unit
 from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING, Where
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
+from identification.diagnosis.results import together
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
 
@@ -35,11 +36,16 @@ def alike(found: Sequence[Finding]) -> list[list[Finding]]:
     return [sorted(group, key=lambda one: one.joints) for group in groups.values()]
 
 
-def where(group: Sequence[Finding]) -> str:
-    """The joints of findings that are alike."""
+def named(group: Sequence[Finding]) -> str:
+    """Findings that are alike, by their title and joints."""
     if len(group) == 1:
-        return group[0].hypothesis.where
-    return on_joints(number for one in group for number in one.joints)
+        return group[0].hypothesis.named
+    return f"{group[0].hypothesis.title} on {on_joints(number for one in group for number in one.joints)}"
+
+
+def capitalised(text: str) -> str:
+    """As a sentence begins."""
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 def chance(p: float) -> str:
@@ -71,8 +77,7 @@ def verdict(subject: Subject) -> Iterator[str]:
 def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
     """How much, and how sure, of one effect, on one joint or on several."""
     one, several = group[0], len(group) > 1
-    title = f"{one.hypothesis.title[:1].upper()}{one.hypothesis.title[1:]}"
-    yield f"{title} on {where(group)}: {', '.join(map(values, group))}."
+    yield f"{capitalised(named(group))}: {', '.join(map(values, group))}."
     if not one.determined:
         yield "The runs tell its torque, but not these values one by one: others make nearly the same."
     amplitude = [
@@ -89,7 +94,7 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
     yield f"It is {one.status}: chance would explain as much with a probability {_probability(p)}, and the sum of"
     yield f"squares of runs that were not fitted falls by {plain(validation, 3)}{least}, in variances of the noise."
     if one.alternatives:
-        others = [f"{other.title} on {other.where}" for other in one.alternatives]
+        others = [other.named for other in one.alternatives]
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
         yield f"No other effect of the library would do in its place{' on any of them' if several else ''}."
@@ -100,14 +105,16 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
 def change(subject: Subject) -> Iterator[str]:
     """What naming it changed on the runs that test."""
     tried = subject.tried
-    if not tried or not subject.found.findings:
+    if not tried or not subject.found.findings or subject.mended is None:
         return
+    totals = [together(played).total.relative_to_mean for played in (subject.mended.before, subject.mended.after)]
+    was, now = (f"{plain(one, 3)}\u202f%" for one in totals)
+    yield f"On the {tested(subject)} {now} of the torques' spread are left, instead of {was}."
     acted = [number for number in subject.found.findings[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
-        yield f"On the {tested(subject)} joint {number} is left with {after}\u202f% of its torque's spread, instead of"
-        yield f"{before}\u202f%;"
+        yield f"Joint {number} is left with {after}\u202f%, instead of {before}\u202f%;"
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
         if one.closed is not None:
             yield f"{plain(100 * one.closed, 3)}\u202f% of the gap between the two, in squares, is closed."
@@ -133,9 +140,8 @@ def _named(found: Sequence[Finding]) -> str:
 
 
 def _with_alternatives(group: Sequence[Finding]) -> str:
-    text = f"{group[0].hypothesis.title} on {where(group)}"
-    others = [f"{other.title} on {other.where}" for other in group[0].alternatives]
-    return f"{text} (or {' or '.join(others)})" if others else text
+    others = [other.named for other in group[0].alternatives]
+    return f"{named(group)} (or {' or '.join(others)})" if others else named(group)
 
 
 def _ordered(where: Where) -> str:

@@ -45,6 +45,6 @@ def _table(ranked: Sequence[Evidence], chosen: Sequence[Variant]) -> Markup:
         # Of what is within chance nothing else is looked at.
         validation = number(one.validation, 4) if one.validation else NONE
         sizes = [number(one.score, 4), number(one.drop, 4), validation, number(one.size, 2), chance(one.p)]
-        rows.append([str(place), f"{hypothesis.title}, {hypothesis.where}", *sizes, remark])
+        rows.append([str(place), hypothesis.named, *sizes, remark])
     heads = ("", "effect", "evidence", "fitted", "others", "size", "p", "")
     return table(heads, rows, class_="ranking") if rows else element("p", "Nothing in the library explains anything.")

@@ -29,7 +29,7 @@ def render(subject: Subject) -> Markup | None:
         variant = one.evidence.variant
         columns += variant.columns
         levels.append(every.misfit(columns, every.solution(columns)[0]))
-        names.append(f"{variant.hypothesis.title}, {variant.hypothesis.where}")
+        names.append(variant.hypothesis.named)
     sizes = np.sqrt(np.array(levels) / max(every.rows, 1))
     steps = np.diff(sizes)
     data = {
