@@ -17,7 +17,6 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
-from generator.review.decimals import scientific
 
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
@@ -96,6 +95,4 @@ def summary(found: Diagnosis) -> list[str]:
 
 def _value(one: Told) -> str:
     """``vs 0.053 +- 0.0014 rad/s``."""
-    std = f" +- {scientific(one.std, 2)}" if one.std is not None else ""
-    unit = "" if one.unit == "1" else f" {one.unit}"
-    return f"{one.name} {scientific(one.value, one.digits)}{std}{unit}{', at its bound' if one.at_bound else ''}"
+    return f"{one.name} {one.text()}{'' if one.unit == '1' else f' {one.unit}'}"

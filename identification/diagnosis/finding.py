@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.decimals import scientific
 from identification.diagnosis.evidence import Evidence
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
@@ -67,6 +68,17 @@ class Told:
             return _DIGITS
         before = math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.std))
         return min(max(before + 2, 2), _MOST)
+
+    def text(self, plus_minus: str = "+-") -> str:
+        """Value and standard deviation: ``0.053 +- 0.0014``."""
+        bound = " (at its bound)" if self.at_bound else ""
+        std = "" if self.std is None else f" {plus_minus} {_written(self.std, 2)}"
+        return f"{_written(self.value, self.digits)}{std}{bound}"
+
+
+def _written(x: float, digits: int) -> str:
+    """Without a power of ten down to 1e-4, as small times are read."""
+    return f"{x:.{digits}g}" if 1e-4 <= abs(x) < 1e-3 else scientific(x, digits)
 
 
 @dataclass(frozen=True)

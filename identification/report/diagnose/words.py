@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from generator.review.words import listed, unit
+from generator.review.words import listed, minus, unit
 from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING, Where
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
 from identification.diagnosis.results import together
+from identification.diagnosis.untouched import rms
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
 
@@ -22,9 +23,8 @@ def values(one: Finding) -> str:
 
 
 def _value(one: Told) -> str:
-    std = f" ± {plain(one.std, 2)}" if one.std is not None else ""
     symbol = "" if one.unit == "1" else f"\u00a0{unit(one.unit)}"
-    return f"{one.name} = {plain(one.value, one.digits)}{std}{symbol}{' (at its bound)' if one.at_bound else ''}"
+    return f"{one.name} = {minus(one.text('±'))}{symbol}"
 
 
 def alike(found: Sequence[Finding]) -> list[list[Finding]]:
@@ -115,6 +115,9 @@ def change(subject: Subject) -> Iterator[str]:
         one = tried[number]
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
         yield f"Joint {number} is left with {after}\u202f%, instead of {before}\u202f%;"
+        if rms(one.after) <= one.floor:
+            yield "that is not more than the noise that was measured on the fitted runs."
+            continue
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
         if one.closed is not None:
             yield f"{plain(100 * one.closed, 3)}\u202f% of the gap between the two, in squares, is closed."

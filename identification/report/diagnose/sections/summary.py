@@ -37,7 +37,10 @@ def _cards(subject: Subject) -> Iterator[Markup]:
         yield card(f"joint {found.before.joint}", "disagrees most", f"over {found.before.variable or 'no variable'}")
     worst = max(found.before.lack, key=lambda one: one.size)
     left = max(found.after.lack, key=lambda one: one.size)
-    yield card(f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs")
+    if worst.size:
+        yield card(
+            f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs"
+        )
     if subject.tried:
         number = max(subject.tried, key=lambda k: rms(subject.tried[k].before) - rms(subject.tried[k].after))
         one = subject.tried[number]

@@ -48,7 +48,7 @@ def _table(subject: Subject) -> Markup:
     rows: list[list[Content]] = []
     for joint, one in subject.tried.items():
         symbol = f"\u202f{unit(subject.torque_units[joint])}"
-        closed = NONE if one.closed is None else percent(100 * one.closed)
+        closed = NONE if one.closed is None else percent(100 * min(one.closed, 1.0))
         sizes = [[number(value, 4), symbol] for value in (rms(one.before), rms(one.after), one.floor)]
         rows.append(
             [str(joint), *sizes, percent(one.before.relative_to_mean), percent(one.after.relative_to_mean), closed]
