@@ -15,8 +15,8 @@ TITLE = "Where: lack of fit of each joint"
 ORDER = 20
 
 _NONE = (
-    "No joint keeps more than the noise. On short runs that do not repeat, the noise holds part of what the model lacks;"
-    " candidates tell more."
+    "No joint keeps more than the noise. On short runs that do not repeat, the noise holds part of what the model"
+    " lacks; candidates tell more."
 )
 
 
