@@ -109,7 +109,7 @@ def change(subject: Subject) -> Iterator[str]:
         return
     totals = [together(played).total.relative_to_mean for played in (subject.mended.before, subject.mended.after)]
     was, now = (f"{plain(one, 3)}\u202f%" for one in totals)
-    yield f"On the {tested(subject)} {now} of the torques' spread are left, instead of {was}."
+    yield f"On the {tested(subject)} {now} of the torques' spread is left, instead of {was}."
     acted = [number for number in subject.found.findings[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
