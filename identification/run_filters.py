@@ -12,11 +12,16 @@ def filters_of(run: Run, recipe: Recipe) -> Filters:
 
     Raises InputError for a run that is sampled too slowly to hold the motion's dynamics, and for one with too few rows.
     """
+    fast_enough(run, recipe)
     filters = recipe.at(run.rate)
-    if run.rate < recipe.slowest:
-        problem = f"one sample in {run.period:.4g} s ({run.rate:.4g} Hz)"
-        raise InputError(run.place, problem, f"at least {recipe.slowest:.3g} Hz; are the times in s?")
     if run.samples < filters.fewest:
         problem = f"{run.samples} rows ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
         raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
     return filters
+
+
+def fast_enough(run: Run, recipe: Recipe) -> None:
+    """Raises InputError for a run that is sampled too slowly to hold the motion's dynamics."""
+    if run.rate < recipe.slowest:
+        problem = f"one sample in {run.period:.4g} s ({run.rate:.4g} Hz)"
+        raise InputError(run.place, problem, f"at least {recipe.slowest:.3g} Hz; are the times in s?")

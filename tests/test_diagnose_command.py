@@ -148,6 +148,15 @@ def cut_off(folder: Path) -> str:
     return "short.csv"
 
 
+def in_milliseconds(folder: Path) -> str:
+    """A run whose times are a thousand times too large."""
+    lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line.partition(",") for line in lines[1:]]
+    changed = [f"{1000 * float(t)!r},{rest}" for t, _, rest in rows]
+    (folder / "slow.csv").write_text("\n".join([lines[0], *changed]) + "\n", encoding="utf-8")
+    return "slow.csv"
+
+
 def without_last_column(folder: Path) -> str:
     lines = (folder / "1.csv").read_text(encoding="utf-8").splitlines()
     (folder / "cut.csv").write_text("\n".join(line.rpartition(",")[0] for line in lines) + "\n", encoding="utf-8")
@@ -159,10 +168,11 @@ def without_last_column(folder: Path) -> str:
     [
         ("2.csv", ("--prior", "knwon"), ("arm.yaml", "no parameter set 'knwon'", "known")),
         (cut_off, (), ("short.csv", "a run of 0.038 s, expected 1 s at least")),
+        (in_milliseconds, (), ("slow.csv", "expected at least 4.44 Hz; are the times in s?")),
         (without_last_column, (), ("cut.csv",)),
         ("gone.csv", (), ("gone.csv",)),
     ],
-    ids=["prior", "short", "column", "absent"],
+    ids=["prior", "short", "slow", "column", "absent"],
 )
 def test_bad_input_is_one_line_and_nothing_is_written(
     hidden: Case,

@@ -6,10 +6,12 @@ import json
 import os
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import dask
 import distributed
 import pytest
 
@@ -144,9 +146,15 @@ def test_a_cluster_that_is_lost_is_told(tmp_path: Path) -> None:
             )
 
 
-def two_workers() -> Any:
+@contextmanager
+def two_workers() -> Iterator[Any]:
     """A cluster on this machine. No client of it is the process's default, as none is in the command."""
-    return distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    # By default the scheduler tries half a minute to reach a worker that is dead.
+    with (
+        dask.config.set({"distributed.comm.timeouts.connect": "10s"}),
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as workers,
+    ):
+        yield workers
 
 
 def kill_one(workers: Any) -> int:

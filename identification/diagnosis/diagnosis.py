@@ -28,7 +28,7 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 #: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint; chance.
 _SMALL, _PART, _CHANCE = 0.2, 0.4, 1e-4
 #: Where nothing repeats the noise is not known apart from the model, and more must stay.
-_SMALL_APERIODIC = 0.35
+_SMALL_APERIODIC = 0.5
 #: Part of the residual's variance that a variable must order to be a signature.
 _ORDERED = 0.05
 

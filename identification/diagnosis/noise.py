@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank
+from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import Colour, colour, stretches
 
 Array = NDArray[np.float64]
@@ -19,23 +20,32 @@ Array = NDArray[np.float64]
 _RANK = 1e-7
 #: Rows that a column may use up: with more columns only the strongest directions are taken away.
 _ROWS = 8
+#: Rows of noise of the usual power that every run is taken to have beside its own.
+_DOUBT = 200
 #: Times that the colour is estimated, each from rows made white by the last.
 _PASSES = 2
 
 
 def colours(bank: Bank) -> list[list[Colour]]:
-    """The colour of every joint's noise, run by run; all runs have the same, which a short one could not tell."""
-    every = []
-    for joint in range(bank.dof):
-        known: Colour | None = None
-        for _ in range(_PASSES):
-            known = _joint(bank, joint, known)
-        assert known is not None
-        every.append(known)
-    return [list(every) for _ in bank.runs]
+    """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell."""
+    every = [_joint(bank, joint) for joint in range(bank.dof)]
+    return [[colours[r] for colours in every] for r in range(len(bank.runs))]
 
 
-def _joint(bank: Bank, joint: int, known: Colour | None) -> Colour:
+def _joint(bank: Bank, joint: int) -> list[Colour]:
+    """The colour of a joint's noise in each run."""
+    known: Colour | None = None
+    left: list[list[Array]] = []
+    freedom = 1.0
+    for _ in range(_PASSES):
+        left, freedom = _left(bank, joint, known)
+        known = colour([part for parts in left for part in parts], freedom)
+    assert known is not None
+    return [_scaled(known, parts, freedom) for parts in left]
+
+
+def _left(bank: Bank, joint: int, known: Colour | None) -> tuple[list[list[Array]], float]:
+    """Stretches of noise of each run, and the part of its variance that is left in them."""
     parts = [bank.raw(r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
     place = {number: i for i, number in enumerate(numbers)}
@@ -47,27 +57,46 @@ def _joint(bank: Bank, joint: int, known: Colour | None) -> Colour:
         at = [*(place[number] for number in mine), len(numbers)]
         gram[np.ix_(at, at)] += x @ x.T
         rows += x.shape[1]
-    weights, rank = _explained(gram, rows)
+    weights, rank = _explained(gram, sum(number < len(bank.base) for number in numbers), rows)
     freedom = max(1 - rank / max(rows, 1), 0.1)
-    left: list[Array] = []
+    left: list[list[Array]] = []
     shares = 0.0
     for (mine, columns, tau, kept), run in zip(parts, bank.runs, strict=True):
         e = tau - weights[[place[number] for number in mine]] @ columns
         e, share = _between_periods(e, kept, run.period)
-        left += stretches(e, kept)
+        left.append(stretches(e, kept))
         shares += share * int(kept.sum()) / max(rows, 1)
-    return colour(left, freedom * shares)
+    return left, freedom * shares
 
 
-def _explained(gram: Array, rows: int) -> tuple[Array, int]:
-    """Weights of the columns that explain the last one best, and how many directions they use."""
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    scaled = gram / np.outer(size, size)
-    values, vectors = np.linalg.eigh(scaled[:-1, :-1])
-    seen = np.flatnonzero(values > _RANK * values[-1])[-max(rows // _ROWS, 1) :]
+def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
+    """The colour with the power of one run's noise, as far as its rows tell it."""
+    squares, rows = 0.0, 0
+    for part in parts:
+        white = known.white(part[None], np.ones(len(part), dtype=bool))[0]
+        squares, rows = squares + float(white @ white), rows + len(part)
+    power = (squares / freedom + _DOUBT) / (rows + _DOUBT)
+    return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
+
+
+def _explained(gram: Array, base: int, rows: int) -> tuple[Array, int]:
+    """Weights of the columns that explain the last one best, and how many directions they use.
+
+    The first ``base`` columns are those of the model, which all count if there are rows enough.
+    """
+    most = max(rows // _ROWS, 1)
+    base = base if base < most else 0
+    B = inverse(gram[:base, :base])
+    S = gram[base:, base:] - gram[base:, :base] @ B @ gram[:base, base:]
+    size = np.sqrt(np.maximum(np.diag(gram)[base:], 1e-300))
+    scaled = S / np.outer(size, size)
+    values, vectors = np.linalg.eigh((scaled[:-1, :-1] + scaled[:-1, :-1].T) / 2)
+    seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
+    seen = seen[base - most :]
     V = vectors[:, seen]
-    weights = V @ ((V.T @ scaled[:-1, -1]) / values[seen])
-    return np.asarray(weights * size[-1] / size[:-1]), len(seen)
+    weights = V @ ((V.T @ scaled[:-1, -1]) / values[seen]) * size[-1] / size[:-1]
+    model = B @ (gram[:base, -1] - gram[:base, base:-1] @ weights)
+    return np.concatenate([model, weights]), base + len(seen)
 
 
 def _between_periods(e: Array, kept: NDArray[np.bool_], period: int) -> tuple[Array, float]:

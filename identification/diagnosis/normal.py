@@ -134,6 +134,8 @@ class Normal:
 
 def inverse(A: Array, rank: float = _RANK) -> Array:
     """Pseudo-inverse of a matrix of products, by the eigenvalues of what it is with columns of unit length."""
+    if not len(A):
+        return A
     if len(A) == 1:
         return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
     size = np.sqrt(np.maximum(np.diag(A), 0.0))
@@ -147,9 +149,10 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
 
 
 def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tuple[Array, float]:
-    """Coefficients within bounds that lower the sum of squares most, and by how much: max 2 b x - x A x.
+    """Coefficients that lower the sum of squares most, and by how much: max 2 b x - x A x.
 
-    ``size`` are the squares of the whole columns: directions of which little is left are not used.
+    Those that would be beyond their bounds are left out, zero: such values mean another effect. ``size`` are the
+    squares of the whole columns: those of which little is left are left out too.
     """
     free = np.diag(A) > _LEFT * size
     x = np.zeros(len(b))

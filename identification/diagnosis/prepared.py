@@ -14,6 +14,7 @@ from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.observation import Regressors
 from identification.recipe import Recipe, possible_factor
+from identification.run_filters import fast_enough
 from identification.sampling import Sampled, sampled
 
 Array = NDArray[np.float64]
@@ -68,7 +69,11 @@ def windowed(x: Array, factor: int) -> Array:
 
 
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
-    """The run by the diagnosis' filters, which replace those of ``recipe``; raises InputError where it is too short."""
+    """The run by the diagnosis' filters, which replace those of ``recipe``.
+
+    Raises InputError for a run that is too short, or sampled too slowly.
+    """
+    fast_enough(run, recipe)
     length = run.samples * run.period
     if length < SHORTEST:
         raise InputError(run.place, f"a run of {length:.3g} s", f"{SHORTEST:g} s at least, better several periods")

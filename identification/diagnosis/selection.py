@@ -66,7 +66,7 @@ class Selection:
             else:
                 chosen.append(self._refined(first.variant, chosen))
             chosen = self._exchanged(chosen, chosen[-1], 1)
-        chosen = self._exchanged(chosen, None, _ROUNDS)
+        chosen = self._standing(self._exchanged(chosen, None, _ROUNDS))
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _common_start(self) -> list[Variant]:
@@ -83,14 +83,19 @@ class Selection:
         balancers = [one for (effect, _), shapes in offered.items() if effect in BALANCERS for one in shapes]
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
+        chosen = self._standing(chosen)
+        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
+
+    def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
+        """Those that pass beside each other: the weakest that does not is taken away, one after the other."""
+        chosen = list(chosen)
         while chosen:
             found = [self.weighing.of(one, [other for other in chosen if other is not one]) for one in chosen]
             failing = [k for k, one in enumerate(found) if not one.passes]
             if not failing:
-                chosen = [one.variant for one in found]
-                break
+                return [one.variant for one in found]
             del chosen[min(failing, key=lambda k: found[k].drop)]
-        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
+        return chosen
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
         """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its

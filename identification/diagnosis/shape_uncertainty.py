@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 
 #: Relative step of a shape value.
 _STEP = 0.02
+#: Part of a parameter that the rows must show for it to be known at all.
+_SEEN = 0.99
 
 
 def deviations(
@@ -21,7 +23,8 @@ def deviations(
 ) -> tuple[Array, Mapping[int, Mapping[str, float]]]:
     """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by choice.
 
-    ``solution`` holds both. A searched shape counts as one more parameter, linear about its value.
+    ``solution`` holds both. What the runs do not show is infinite. A searched shape counts as one more parameter,
+    linear about its value.
     """
     bank, base = found.bank, len(found.bank.base)
     value = dict(zip(columns, solution[base:].tolist(), strict=True))
@@ -51,7 +54,11 @@ def deviations(
     for k, (_, _, change) in enumerate(steps):
         for number, weight in change.items():
             T[number, len(chosen) + k] += weight
-    std = np.sqrt(np.maximum(np.diag(inverse(T.T @ normal.whole @ T)), 0.0))
+    A = T.T @ normal.whole @ T
+    C = inverse(A)
+    # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
+    seen = np.diag(C @ A) > _SEEN
+    std = np.where(seen, np.sqrt(np.maximum(np.diag(C), 0.0)), np.inf)
     shapes: dict[int, dict[str, float]] = {}
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])

@@ -257,7 +257,8 @@ def _library():
     path = Path(__file__).resolve().with_name("libkr270.so")
     if not path.is_file():
         raise ImportError(f"{path} is not there; counterpoise generate ROBOT --library compiles it")
-    return _ffi.dlopen(str(path))
+    # OpenMP's threads outlive their work: a library that goes at exit would take their code away under them.
+    return _ffi.dlopen(str(path), _ffi.RTLD_NOW | _ffi.RTLD_NODELETE)
 
 
 _lib = _library()
