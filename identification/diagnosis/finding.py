@@ -53,7 +53,9 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Told:
-    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``."""
+    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``,
+    infinite for what the runs do not show.
+    """
 
     name: str
     value: float
@@ -72,6 +74,8 @@ class Told:
     def text(self, plus_minus: str = "+-") -> str:
         """Value and standard deviation: ``0.053 +- 0.0014``."""
         bound = " (at its bound)" if self.at_bound else ""
+        if self.std == math.inf:
+            return f"{_written(self.value, self.digits)} (not shown by these runs)"
         std = "" if self.std is None else f" {plus_minus} {_written(self.std, 2)}"
         return f"{_written(self.value, self.digits)}{std}{bound}"
 
