@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.readers import read
+from identification.diagnosis.normal import Prior
 from identification.diagnosis.priors import prior_of
 from identification.observation import Motion, Regressors
 from tests.newton_euler import Arm
