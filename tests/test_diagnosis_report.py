@@ -93,14 +93,14 @@ def test_every_section_of_a_finding_is_there(named: Case) -> None:
 )
 def test_a_value_is_written_as_far_as_it_is_known(value: float, std: float | None, written: str) -> None:
     """The last digit is the second one of the standard deviation; two are written at least."""
-    assert Told("a", value, std, "1").text().startswith(f"{written} +- " if std and std < math.inf else written)
+    assert Told("a", value, std, "1").text("").startswith(f"{written} +- " if std and std < math.inf else written)
 
 
 def test_what_stands_at_its_bound_has_no_deviation(named: Case) -> None:
     one = replace(named.found.findings[0], parameters={"Fst1": Value(0.0, 0.0, "N m")})
     first = one.told[0]
     assert (first.value, first.std, first.at_bound) == (0.0, None, True)
-    assert "Fst1 = 0 (at its bound)\u00a0N\u00a0m" in values(one)
+    assert "Fst1 = 0\u00a0N\u00a0m (at its bound)" in values(one)
 
 
 def test_an_effect_on_several_joints_is_told_once(named: Case) -> None:

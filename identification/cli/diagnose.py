@@ -95,4 +95,4 @@ def summary(found: Diagnosis) -> list[str]:
 
 def _value(one: Told) -> str:
     """``vs 0.053 +- 0.0014 rad/s``."""
-    return f"{one.name} {one.text()}{'' if one.unit == '1' else f' {one.unit}'}"
+    return f"{one.name} {one.text('' if one.unit == '1' else f' {one.unit}')}"

@@ -71,13 +71,11 @@ class Told:
         before = math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.std))
         return min(max(before + 2, 2), _MOST)
 
-    def text(self, plus_minus: str = "+-") -> str:
-        """Value and standard deviation: ``0.053 +- 0.0014``."""
-        bound = " (at its bound)" if self.at_bound else ""
-        if self.std == math.inf:
-            return f"{_written(self.value, self.digits)} (not shown by these runs)"
-        std = "" if self.std is None else f" {plus_minus} {_written(self.std, 2)}"
-        return f"{_written(self.value, self.digits)}{std}{bound}"
+    def text(self, unit: str, plus_minus: str = "+-") -> str:
+        """Value and standard deviation with the unit as it is written: ``0.053 +- 0.0014 rad/s``."""
+        std = "" if self.std in (None, math.inf) else f" {plus_minus} {_written(self.std or 0.0, 2)}"
+        remark = " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
+        return f"{_written(self.value, self.digits)}{std}{unit}{remark}"
 
 
 def _written(x: float, digits: int) -> str:

@@ -49,7 +49,7 @@ class Repaired:
 
 
 def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
-    """The robot file ``text`` with all additions; an effect on several joints with the same values is one entry.
+    """The robot file ``text`` with all additions; an effect on several joints with the same values and evidence is one entry.
 
     ``file`` is its name in messages. An effect that a joint has already is left as it is, and told.
 
@@ -63,21 +63,20 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
 
 
 def _grouped(additions: Sequence[Addition]) -> list[Addition]:
-    """Effects with the same values put together, in the order of their first."""
+    """Effects with the same values and evidence put together, in the order of their first."""
 
     def key(one: Addition) -> tuple[object, ...]:
         if one.kind != EFFECT:
             return one.kind, one.effect, one.joints
-        return one.kind, one.effect, *sorted((name, _number(value)) for name, value in one.values.items())
+        return one.kind, one.effect, one.evidence, *sorted((name, _number(value)) for name, value in one.values.items())
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
     for _, group in groupby(sorted(additions, key=lambda one: first[key(one)]), key):
         each = list(group)
         joints = tuple(sorted({joint for one in each for joint in one.joints}))
-        evidence = "; ".join(dict.fromkeys(one.evidence for one in each if one.evidence))
         amplitude = {joint: rms for one in each for joint, rms in one.amplitude.items()}
-        result.append(replace(each[0], joints=joints, evidence=evidence, amplitude=amplitude))
+        result.append(replace(each[0], joints=joints, amplitude=amplitude))
     return result
 
 

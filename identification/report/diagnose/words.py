@@ -24,7 +24,7 @@ def values(one: Finding) -> str:
 
 def _value(one: Told) -> str:
     symbol = "" if one.unit == "1" else f"\u00a0{unit(one.unit)}"
-    return f"{one.name} = {minus(one.text('±'))}{symbol}"
+    return f"{one.name} = {minus(one.text(symbol, '±'))}"
 
 
 def alike(found: Sequence[Finding]) -> list[list[Finding]]:
