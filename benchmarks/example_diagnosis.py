@@ -25,8 +25,8 @@ from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.hypothesis import EFFECT
 from identification.diagnosis.mending import Mended
 from identification.diagnosis.noise_floor import noise_floor
+from identification.diagnosis.played import together
 from identification.diagnosis.repair import repaired
-from identification.diagnosis.results import together
 from identification.report.diagnose.report import report
 from identification.report.page import REPORT
 from identification.robot_file import with_parameter_set

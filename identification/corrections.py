@@ -33,12 +33,17 @@ def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> 
     if signals.warm_rise and all(name in rises for name in names):
         return np.asarray(np.stack([rises[name] for name in names]) / _column(signals.warm_rise))
     if signals.warm_up_time:
-        return np.asarray(1 - np.exp(-t / _column(signals.warm_up_time)))
+        return warming_up(t, _column(signals.warm_up_time))
     if needs_warmth(robot):
         problem = f"nothing says how warm the drives of {robot.name} are, on which its torques depend"
         expected = "warm_up_time, or warm_rise and columns temp, in section signals of the robot file"
         raise InputError(place, problem, expected)
     return None
+
+
+def warming_up(t: Array, warm_up_time: Array | float) -> Array:
+    """The warmth of a drive ``t`` [s] after a cold start, by its time constant [s]."""
+    return np.asarray(1 - np.exp(-t / warm_up_time))
 
 
 def needs_warmth(robot: Robot) -> bool:

@@ -41,7 +41,9 @@ class Run:
 
     ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``unusable``
     marks samples whose effort was cut off. ``warmth`` of the drives (n x N) is there where the robot file says it.
-    ``others`` are the file's further columns of known meaning by name (N each). ``notes`` tell every repair.
+    ``others`` are the file's further columns of known meaning by name (N each). ``began`` are the time ``t`` and the
+    temperatures with which the recording began that the run is a part of, the run's own where they are not given.
+    ``notes`` tell every repair.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Run:
     unusable: NDArray[np.bool_] | None = None
     warmth: Array | None = None
     others: Mapping[str, Array] = field(default_factory=dict)
+    began: Mapping[str, float] = field(default_factory=dict)
     sha256: str = ""
     notes: tuple[str, ...] = ()
 
@@ -71,6 +74,17 @@ class Run:
     def rate(self) -> float:
         """Samples per second [Hz]."""
         return 1 / self.period
+
+    @property
+    def elapsed(self) -> Array:
+        """Time since the recording began [s] (N)."""
+        return self.start - self.began.get("t", self.start) + self.period * np.arange(self.samples, dtype=float)
+
+    @property
+    def rises(self) -> dict[str, Array]:
+        """Of the temperatures ``temp1`` ... since the recording began [K] (N each)."""
+        temperatures = {name: values for name, values in self.others.items() if name.startswith("temp")}
+        return {name: values - self.began.get(name, values[0]) for name, values in temperatures.items()}
 
 
 def load(
@@ -116,6 +130,11 @@ def _parsed(source: str) -> tuple[Path, float, float]:
     except ValueError:
         raise InputError(Place(source), "this is no part of a run", "FILE@FROM:TO with times in s") from None
     return Path(match["path"]), start, end
+
+
+def part_of(source: str, start: float, end: float) -> str:
+    """The source of a part of ``source``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
+    return f"{_parsed(source)[0]}@{start:.9g}:{end:.9g}"
 
 
 def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
@@ -179,15 +198,16 @@ def _run(
     if unusable is not None:
         unusable = _on_joints(unusable, effort, robot)
     place = where(None, "t")
-    run = Run(source, place, ticks.start, ticks.period, q, tau, payload, unusable, None, others, recording.sha256)
-    return replace(_corrected(run, robot, beginning.began), notes=tuple(notes))
+    began = {name: value for name, value in beginning.began.items() if name == "t" or name.startswith("temp")}
+    run = Run(
+        source, place, ticks.start, ticks.period, q, tau, payload, unusable, None, others, began, recording.sha256
+    )
+    return replace(_corrected(run, robot), notes=tuple(notes))
 
 
-def _corrected(run: Run, robot: Robot, began: Mapping[str, float]) -> Run:
+def _corrected(run: Run, robot: Robot) -> Run:
     """The run with its torques and further columns as they truly were, and with the warmth of the drives."""
-    t = run.start - began["t"] + run.period * np.arange(run.samples, dtype=float)
-    rises = {name: values - began[name] for name, values in run.others.items() if name.startswith("temp")}
-    warmth = corrections.warmth(rises, t, robot, run.place)
+    warmth = corrections.warmth(run.rises, run.elapsed, robot, run.place)
     marks = [one for one in (run.unusable, corrections.saturated(run.tau, robot)) if one is not None]
     unusable = corrections.moved(np.logical_or.reduce(marks), robot, run.period) if marks else None
     tau = corrections.true_torques(run.tau, robot, run.period, warmth)

@@ -81,7 +81,13 @@ def link_encoders(
 
     Raises InputError for runs that are too short and for runs without link-side encoders.
     """
-    runs = [load(str(source), robot, recipe.columns) for source in sources]
+    return of_runs(robot, [load(str(source), robot, recipe.columns) for source in sources], friction, recipe)
+
+
+def of_runs(
+    robot: Robot, runs: Sequence[Run], friction: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
+) -> LinkEncoders:
+    """As ``link_encoders``, from runs that have been read."""
     filters = [filters_of(run, recipe) for run in runs]
     latency, stiffness, mistaken, residuals, kept = {}, {}, {}, {}, {}
     notes = [note for run in runs for note in run.notes]

@@ -76,6 +76,7 @@ def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
     (found,) = result["findings"]
     assert (found["effect"], found["joints"], found["status"]) == ("position_friction", [2], "firm")
     assert result["where"]["joint"] == 2
+    assert result["unexplained"] is None
     assert set(found["parameters"]) >= {"Fqc2", "Fqs2"}
     assert "firm             " in hidden.done.out
     assert "on joint 2" in hidden.done.out
@@ -138,7 +139,9 @@ def test_a_dry_run_only_locates(hidden: Case) -> None:
     assert "where            joint 2" in done.out
     assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]
     dry = result(folder / "dry")
-    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("unexplained", [], None)
+    assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("located", [], None)
+    assert dry["unexplained"] is None
+    assert "located (free_fit)" in done.out
 
 
 def cut_off(folder: Path) -> str:
@@ -193,4 +196,30 @@ def test_bad_input_is_one_line_and_nothing_is_written(
     assert last.startswith("error: ")
     assert "Traceback" not in done.err
     assert all(part in last for part in parts), last
+    assert not (hidden.folder / "bad").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--validate", "2.csv", "--test", "gone.csv"), "gone.csv:1:1: there is no such file"),
+        (("--validate", "2.csv", "--test", "3.csv@0:0.5"), "3.csv:1:1: a run of 0.502 s, expected 1 s at least"),
+        (("--test", "1.csv@2:8"), "1.csv:1:1: its samples from 2 s to 8 s fit in 1.csv and test in 1.csv@2:8"),
+        (("--test", "3.csv", "--out", "1.csv"), "1.csv:1:1: it cannot be written (File exists)"),
+    ],
+    ids=["absent", "short", "fitted", "out"],
+)
+def test_what_would_fail_at_the_end_is_refused_first(
+    hidden: Case,
+    options: tuple[str, ...],
+    told: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    out = () if "--out" in options else ("--out", "bad")
+    done = command("diagnose", "arm.yaml", "1.csv", *options, *out, capsys=capsys)
+    assert done.status == 2
+    assert done.err.strip().splitlines()[-1].startswith(f"error: {told}")
+    assert "making the columns" not in done.err
     assert not (hidden.folder / "bad").exists()

@@ -18,9 +18,13 @@ from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.addition import measured
+from identification.diagnosis.candidates import library
+from identification.diagnosis.hypothesis import SIGNAL, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
+from identification.recipe import Recipe
+from identification.sampling import sampled
 from tests.diagnosed import CLEAN, Known, known, played, rows
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
@@ -28,7 +32,7 @@ from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
 
 #: Where a candidate stands that is not called as its module.
-MODULES = {"coupled_rotor": "wrist", "joint_elasticity": "elasticity"}
+MODULES = {"coupled_rotor": "wrist", "joint_elasticity": "elasticity", "warm_friction": "library"}
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
 
@@ -131,15 +135,47 @@ def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> N
 
 
 def test_drift_by_a_temperature(robots: Callable[[str], Known]) -> None:
-    """Where the run has one the candidate is offered with it, and is 0 where the drive is coldest, 1 where warmest."""
+    """Where the run has one the candidate is offered with it, by its rise since the recording began, 1 at the end."""
     sensors = replace(CLEAN, temperature=True)
     scene, _, _ = played(robots(SCARA), Effect("torque_constant_drift", 1, 0.1), WAY, sensors)
     by_time, by_temperature = offered([scene], "torque_drift", 1)
-    assert "T" in {shape.name for shape in by_time.shapes}
-    changing, own = by_temperature.columns(scene, by_temperature.given)
-    warmth = changing[0] / own[0]
-    assert warmth.min() == pytest.approx(0.0, abs=1e-12)
-    assert warmth.max() == pytest.approx(1.0)
+    assert "warm_up_time" in {shape.name for shape in by_time.shapes}
+    (shape,) = by_temperature.variants
+    changing, own = by_temperature.columns(scene, shape)
+    run, first = scene.sampled.run, scene.sampled.filters.first
+    rise = run.others["temp1"][first : first + scene.motion.samples] - run.others["temp1"][0]
+    np.testing.assert_allclose(changing[0] / own[0], rise / shape["warm_rise"], atol=1e-12)
+    assert rise.max() == pytest.approx(shape["warm_rise"])
+
+
+def test_a_drive_is_as_warm_as_its_recording_has_made_it(robots: Callable[[str], Known]) -> None:
+    """A part of a long recording goes on where the one before it ended, whatever the clock begins with."""
+    first, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    run = first.sampled.run
+    part = replace(run, start=1e6 + 20.0, began={"t": 1e6})
+    later = replace(first, sampled=replace(first.sampled, run=part))
+    t = later.sampled.times - 1e6
+    assert 20 < t[0] < t[-1] < 33
+    (friction,) = offered([first, later], "warm_friction", 1)
+    (shape,) = friction.variants
+    viscous, _ = friction.columns(later, shape)
+    np.testing.assert_allclose(viscous[0], (1 - np.exp(-t / shape["warm_up_time"])) * later.motion.qd[0], atol=1e-9)
+    (drift,) = offered([first, later], "torque_drift", 1)
+    changing, own = drift.columns(later, {"warm_up_time": 30.0})
+    np.testing.assert_allclose(changing[0], (1 - np.exp(-t / 30.0)) * own[0], atol=1e-9)
+    # One part alone is about as warm at its end as at its beginning.
+    assert not offered([later], "warm_friction", 1)
+
+
+def test_the_files_word_on_the_warmth_counts(robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    told = np.linspace(0.1, 0.6, scene.motion.samples) * np.ones((scene.motion.q.shape[0], 1))
+    stated = replace(scene, sampled=replace(scene.sampled, motion=replace(scene.motion, warmth=told)))
+    (friction,), (drift,) = offered([stated], "warm_friction", 1), offered([stated], "torque_drift", 1)
+    assert friction.variants == drift.variants == [{}]
+    np.testing.assert_allclose(friction.columns(stated, {})[0, 0], told[0] * scene.motion.qd[0], atol=1e-12)
+    changing, own = drift.columns(stated, {})
+    np.testing.assert_allclose(changing[0], told[0] * own[0], atol=1e-12)
 
 
 @pytest.mark.parametrize(("name", "effect"), [(SMALL, Effect("current_saturation", 1, 0.7))])
@@ -204,6 +240,22 @@ def test_a_link_falls_through_its_gap(name: str, joint: int, robots: Callable[[s
     assert hypothesis.variants[0]["gap"] == pytest.approx(4e-4, rel=0.25)
 
 
+def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str], Known]) -> None:
+    """Its shapes would be parts of no speed and no range; what it does to other joints' torques is offered."""
+    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    run = scene.sampled.run
+    q = run.q.copy()
+    q[3] = 0.1 + 0.2
+    recipe = Recipe().changed(cutoff=50.0, factor=1, standstill=0.0)
+    locked = replace(scene, sampled=sampled(replace(run, q=q), recipe, scene.regressors))
+    assert not locked.moves(3)
+    assert 4 not in {one.joint for one in library.hypotheses([locked])}
+    assert ("dahl_friction", 4) in {(one.effect, one.joint) for one in library.hypotheses([locked, scene])}
+    for effect in ("position_offset", "torque_gain"):
+        (one,) = offered([locked], effect, 4)
+        assert np.all(np.isfinite(one.columns(locked, {}))), effect
+
+
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:
     """Nor a second rotor on a joint that has one."""
     scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
@@ -223,6 +275,10 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
         assert not offered([_with(scene, changed)], candidate, 2), candidate
     for candidate in ("position_offset", "torque_gain", "torque_drift"):
         assert offered([_with(scene, changed)], candidate, 1), candidate
+    unlimited = replace(signals, current_limit=tuple(sympy.Integer(9 if k == 1 else 10**6) for k in range(n)))
+    limited = _with(scene, replace(robot, signals=unlimited))
+    assert offered([limited], "current_limit", 1)
+    assert not offered([limited], "current_limit", 2)
     assert offered([scene], "coupled_rotor", 6)
     there = replace(robot, effects=(*robot.effects, EffectUse("coupled_rotor", (6,))))
     assert not offered([_with(scene, there)], "coupled_rotor", 6)
@@ -238,6 +294,28 @@ def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Calla
         assert offered([scene], candidate, 2), candidate
         assert not offered([watched], candidate, 2), candidate
         assert not offered([elastic], candidate, 2), candidate
+
+
+def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], Known]) -> None:
+    """The simulated robot's latency, to a twentieth; none for encoders on time or told by the file."""
+    sensors = replace(CLEAN, link_encoders=2)
+    scene, _, _ = played(robots(SCARA), Effect("link_latency", 1, 4e-3), WAY, sensors)
+    found = [one for number in (1, 2, 3, 4) for one in offered([scene], "link_delay", number)]
+    assert [(one.joint, one.kind) for one in found] == [(1, SIGNAL), (2, SIGNAL)]
+    for one, added in zip(found, measured(found), strict=True):
+        (value,) = one.measured.values()
+        assert value.value == pytest.approx(4e-3, rel=0.05)
+        assert not one.columns(scene, one.variants[0]).any()
+        assert (added.joints, added.values) == ((one.joint,), {"link_delay": value.value})
+    stated = _with(
+        scene, replace(scene.robot, signals=Signals(link_delay=(sympy.Rational(1, 250), *[sympy.S.Zero] * 3)))
+    )
+    punctual, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY, sensors)
+    blind, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    for number in (1, 2):
+        assert not offered([punctual], "link_delay", number)
+        assert not offered([blind], "link_delay", number)
+        assert bool(offered([stated], "link_delay", number)) == (number == 2)
 
 
 def _with(scene: Scene, robot: Robot) -> Scene:

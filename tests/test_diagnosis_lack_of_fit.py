@@ -28,7 +28,7 @@ def one_run(period: int = PERIOD, name: str = "A.csv", unsettled_at: slice = sli
 
 def lack(e: Array, period: int = PERIOD) -> Lack:
     run = one_run(period)
-    return lack_of_fit([run], [e[run.kept[0]]], 0, 3, 1.0)
+    return lack_of_fit([run], [e[run.kept[0]]], 0, 3)
 
 
 def test_white_noise_fails_as_often_as_the_level_says() -> None:
@@ -87,4 +87,4 @@ def test_no_event_is_told_where_a_joint_is_unsettled() -> None:
     e = draw.normal(size=COUNT)
     e[620:628] += 8.0
     run = one_run(unsettled_at=slice(615, 640))
-    assert lack_of_fit([run], [e[run.kept[0]]], 0, 3, 1.0).burst is None
+    assert lack_of_fit([run], [e[run.kept[0]]], 0, 3).burst is None

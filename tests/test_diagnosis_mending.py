@@ -37,7 +37,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Mended]:
     robot = read(path)
     regressors, recipe = Regressors(robot), recipes.recipe_of(robot.name)
     first = [load(source, robot, recipe.columns) for source in sources]
-    chosen = roles(first[:1], sources[1:2], sources[2:])
+    chosen = roles(first[:1], first[1:2], first[2:])
     runs = [prepared(one, recipe, regressors) for one in first[:-1]]
     found = diagnose(regressors, runs, chosen)
     assert found.verdict == NAMED
@@ -61,9 +61,10 @@ def test_the_new_file_holds_the_effect_and_the_rest_of_the_old_one(case: tuple[P
 
 def test_the_code_is_generated_and_the_gap_closes_on_the_untouched_run(case: tuple[Path, Mended]) -> None:
     folder, done = case
-    assert done.generated == folder / "out" / "generated" / ARM.name
-    assert (done.generated / "c" / f"{ARM.name}.c").is_file()
-    assert (done.generated / "python" / f"lib{ARM.name}.so").is_file()
+    assert done.generated == Path("generated", ARM.name)
+    made = folder / "out" / done.generated
+    assert (made / "c" / f"{ARM.name}.c").is_file()
+    assert (made / "python" / f"lib{ARM.name}.so").is_file()
     (before,), (after,) = done.before, done.after
     was, now = (one.residuals.per_joint[1] for one in (before, after))
     assert now.rows == was.rows

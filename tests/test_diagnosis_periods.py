@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,9 +11,14 @@ import pytest
 from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
-from identification.dataset import Run
+from generator.resources import find_robot
+from generator.robot.readers import read
+from identification.dataset import Run, part_of
 from identification.diagnosis.periods import period_of
+from identification.diagnosis.prepared import prepared
 from identification.diagnosis.roles import roles
+from identification.observation import Regressors
+from identification.recipe import Recipe
 
 Array = NDArray[np.float64]
 
@@ -45,6 +51,33 @@ def test_a_joint_that_rests_does_not_count() -> None:
     assert period_of(np.full((2, 3000), 0.3), 0.002) == 0
 
 
+def test_a_joint_that_is_held_does_not_count() -> None:
+    """Its encoder trembles between two steps, which does not repeat; one that is moved a little counts."""
+    q = series(3000, 750)
+    tremble = np.random.default_rng(3).integers(0, 2, 3000)
+    q[1] = 0.3 + 1e-4 * tremble
+    assert period_of(q, 0.002) == 750
+    q[1] = 0.3 + 0.02 * tremble
+    assert period_of(q, 0.002) == 0
+
+
+@pytest.mark.parametrize(
+    ("period", "rows", "note"),
+    [
+        (2000, 200, ""),
+        (2003, 0, "the motion of A repeats after 2003 samples, but one in 10 is looked at: its periods are not"),
+        (0, 0, "the motion of A does not repeat"),
+    ],
+)
+def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str) -> None:
+    regressors = Regressors(read(find_robot("emps")))
+    q = 0.1 * (series(3 * period, period)[:1] if period else np.linspace(0, 8, 6000)[None] ** 1.5)
+    one = prepared(Run("A", Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
+    assert (one.period, one.repeats) == (rows, period)
+    assert one.note.startswith(note)
+    assert bool(one.note) == bool(note)
+
+
 def test_what_does_not_repeat_has_no_period() -> None:
     # Two frequencies without a common period in the run; less than two periods; one joint that drifts away.
     t = np.arange(3000) * 0.002
@@ -63,7 +96,7 @@ def test_the_shorter_period_is_not_skipped() -> None:
 def recorded(name: str, start: float = 0.0, seconds: float = 10.0) -> Run:
     """One joint that swings all the time."""
     q = np.sin(2 * np.pi * 0.7 * np.arange(round(seconds / 0.01) + 1) * 0.01)[None]
-    return Run(name, Place(name), start, 0.01, q, np.zeros_like(q))
+    return Run(name, Place(name), start, 0.01, q, np.zeros_like(q), sha256=name)
 
 
 def parts(names: tuple[str, ...]) -> list[tuple[str, float, float]]:
@@ -77,7 +110,7 @@ def parts(names: tuple[str, ...]) -> list[tuple[str, float, float]]:
 
 
 def test_what_is_said_is_kept() -> None:
-    found = roles([recorded("A"), recorded("B")], ["C"], ["D", "E"])
+    found = roles([recorded("A"), recorded("B")], [recorded("C")], [recorded("D"), recorded("E")])
     assert (found.train, found.validate, found.test) == (("A", "B"), ("C",), ("D", "E"))
     assert found.notes == ()
     assert found.untouched
@@ -88,15 +121,17 @@ def test_the_last_of_many_runs_tests_and_the_others_predict_each_other() -> None
     both = roles(runs, [], [])
     assert (both.train, both.validate, both.test, both.known) == (("A", "B"), (), ("C",), ("A", "B"))
     assert both.notes[0].startswith("C, the last run, tests")
-    one = roles(runs, [], ["T"])
+    one = roles(runs, [], [recorded("T")])
     assert (one.train, one.validate, one.test) == (("A", "B", "C"), (), ("T",))
-    other = roles(runs, ["V"], [])
+    other = roles(runs, [recorded("V")], [])
     assert (other.train, other.validate, other.test, other.known) == (("A", "B"), ("V",), ("C",), ("A", "B", "V"))
 
 
 @pytest.mark.parametrize("validate", [[], ["V"]], ids=["none", "validates"])
 def test_the_ends_of_two_runs_test_without_overlap(validate: list[str]) -> None:
-    found = roles([recorded("A", start=5.0, seconds=25.0), recorded("B", seconds=30.0)], validate, [])
+    found = roles(
+        [recorded("A", start=5.0, seconds=25.0), recorded("B", seconds=30.0)], [recorded(name) for name in validate], []
+    )
     for (_, start, end), (_, first, last), (a, b) in zip(
         parts(found.train), parts(found.test), ((5.0, 30.0), (0.0, 30.0)), strict=True
     ):
@@ -117,7 +152,7 @@ def test_short_runs_test_too_and_that_is_said() -> None:
 
 @pytest.mark.parametrize("seconds", [2.2, 3.0, 4.5, 40.0])
 def test_a_single_run_is_cut_into_blocks_with_gaps(seconds: float) -> None:
-    found = roles([recorded("A", start=5.0, seconds=seconds)], [], ["T"])
+    found = roles([recorded("A", start=5.0, seconds=seconds)], [], [recorded("T")])
     mine = parts(found.train)
     assert 2 <= len(mine) <= 4
     assert mine[0][1] == 5.0
@@ -132,18 +167,53 @@ def test_a_single_run_is_cut_into_blocks_with_gaps(seconds: float) -> None:
 def test_blocks_hold_two_periods_where_the_motion_repeats() -> None:
     t = np.arange(4201) * 0.01
     q = np.sin(2 * np.pi * t / 7.0)[None] + 0.3 * np.sin(2 * np.pi * 3 * t / 7.0)[None]
-    found = roles([Run("A", Place("A"), 0.0, 0.01, q, np.zeros_like(q))], [], ["T"])
+    found = roles([Run("A", Place("A"), 0.0, 0.01, q, np.zeros_like(q))], [], [recorded("T")])
     assert len(found.train) == 2
     assert all(end - start > 14.0 for _, start, end in parts(found.train))
 
 
 def test_a_run_too_short_to_be_split_is_refused() -> None:
     with pytest.raises(InputError, match=r"A:1:1: a run of 1.5 s, expected 2.13 s at least, to be split in time"):
-        roles([recorded("A", seconds=1.5)], [], ["T"])
+        roles([recorded("A", seconds=1.5)], [], [recorded("T")])
 
 
 def test_a_part_of_a_run_is_split_by_the_file_s_own_times() -> None:
-    found = roles([recorded(str(Path("a@b") / "A.csv@5:15"), start=5.0)], [], ["T"])
+    found = roles([recorded(str(Path("a@b") / "A.csv@5:15"), start=5.0)], [], [recorded("T")])
     split = parts(found.train)
     assert {path for path, _, _ in split} == {str(Path("a@b") / "A.csv")}
     assert min(start for _, start, _ in split) == 5.0
+
+
+@pytest.mark.parametrize(
+    ("data", "validate", "test", "told"),
+    [
+        (["A", "A"], [], ["T"], "A:1:1: its samples from 0 s to 10 s fit in A and fit in A, expected"),
+        (["A", "B"], ["A@5:9"], ["T"], "A@5:9:1:1: its samples from 5 s to 9 s fit in A and validate in A@5:9, expe"),
+        (["A@0:4", "B"], ["V"], ["A@3:9"], "A@3:9:1:1: its samples from 3 s to 4 s fit in A@0:4 and test in A@3:9, ex"),
+    ],
+    ids=["twice", "part", "overlap"],
+)
+def test_runs_that_share_samples_are_refused(data: list[str], validate: list[str], test: list[str], told: str) -> None:
+    with pytest.raises(InputError, match=told):
+        roles(*([piece(name) for name in names] for names in (data, validate, test)))
+
+
+def piece(name: str) -> Run:
+    """A run of the recording A, B ..., or ``A@FROM:TO`` of one."""
+    path, _, times = name.partition("@")
+    start, end = map(float, times.split(":")) if times else (0.0, 10.0)
+    return replace(recorded(path, start, end - start), name=name, place=Place(name))
+
+
+def test_parts_that_only_touch_are_apart() -> None:
+    found = roles([piece("A@0:5"), piece("B")], [piece("A@5:7")], [piece("A@7:10")])
+    assert (found.train, found.validate, found.test) == (("A@0:5", "B"), ("A@5:7",), ("A@7:10",))
+
+
+def test_no_run_is_spent_where_nothing_is_tested() -> None:
+    found = roles([recorded(name) for name in "ABC"], [], [], tested=False)
+    assert (found.train, found.test, found.known) == (("A", "B", "C"), (), ("A", "B", "C"))
+
+
+def test_a_folder_may_look_like_a_part() -> None:
+    assert part_of("data@1:2/run.csv", 0.0, 5.0) == str(Path("data@1:2/run.csv@0:5"))

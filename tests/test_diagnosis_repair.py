@@ -176,8 +176,12 @@ def test_elastic_joints_and_backlash() -> None:
 
 
 def test_warm_friction_comes_with_a_word_on_the_warmth() -> None:
-    found = repair("emps", Addition(EFFECT, "warm_friction", (1,)))
-    assert [float(one) for one in found.robot.signals.warm_up_time] == [60.0]
+    """The file's own, if it has one."""
+    found = repair("emps", warm := Addition(EFFECT, "warm_friction", (1,), {"warm_up_time": 70.0}))
+    assert [float(one) for one in found.robot.signals.warm_up_time] == [70.0]
+    told = repaired(text_of("emps") + "\nsignals: {warm_up_time: [900 s]}\n", "x", [warm])
+    assert [float(one) for one in told.robot.signals.warm_up_time] == [900.0]
+    assert ("warm_friction", 1) in uses(told.robot)
 
 
 def test_a_payload_leaves_the_text() -> None:

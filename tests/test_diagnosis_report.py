@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED
+from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING, UNEXPLAINED
 from identification.diagnosis.finding import Told
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.untouched import rms
@@ -147,6 +147,15 @@ def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:
     assert f"What is named is therefore tentative: {found.findings[0].hypothesis.title} on joint 1" in one.words
     nameless = replace(found, findings=())
     assert "tentative" not in Case(nameless, None, report(nameless)).words
+
+
+def test_a_dry_run_says_where_and_no_more(named: Case) -> None:
+    dry = replace(named.found, verdict=LOCATED, findings=(), after=replace(named.found.after, joint=0))
+    words = Case(dry, None, report(dry)).words
+    assert "nothing was named. Joint 1 keeps more than noise, over qd" in words
+    assert "no effect of the library explains" not in words
+    nowhere = replace(dry, before=dry.after)
+    assert "nothing was named. No joint keeps more than noise." in Case(nowhere, None, report(nowhere)).words
 
 
 def test_a_report_of_a_diagnosis_fetches_nothing(named: Case) -> None:

@@ -41,7 +41,7 @@ class Seen:
         joint = SimpleNamespace(number=1, sigma=0)
         robot = SimpleNamespace(moving=[joint], drives=SimpleNamespace(coupling=[[33.7]]))
         scene = SimpleNamespace(motion=motion, robot=robot, load=self.load[None], t=self.t, period=1 / RATE)
-        run = SimpleNamespace(kept=np.abs(self.qd[None]) > 0.02, decimated=lambda x: x)
+        run = SimpleNamespace(kept=np.abs(self.qd[None]) > 0.02, tau=self.load[None], decimated=lambda x: x)
         return run, scene
 
     def views(self, residual: Array) -> tuple[View, ...]:
@@ -120,3 +120,11 @@ def test_too_few_rows_show_nothing() -> None:
     run.kept = np.arange(COUNT)[None] < 50
     assert views([run], [scene], [SEEN.q], 0, [WHITE]) == ()
     assert strongest(()) == ("", {})
+
+
+def test_an_upright_axis_has_no_load() -> None:
+    run, scene = SEEN.scene()
+    scene.load = 1e-14 * SEEN.q[None]
+    found = views([run], [scene], [np.sign(SEEN.qd)], 0, [WHITE])
+    assert "load" not in {one.variable for one in found}
+    assert "qd" in {one.variable for one in found}

@@ -148,9 +148,11 @@ def test_a_part_of_a_run_is_as_warm_as_the_whole_run_there(tmp_path: Path) -> No
     timed = Recorded(tmp_path).run(of, positions(T), currents(T), "@2:")
     assert timed.warmth is not None
     np.testing.assert_allclose(timed.warmth[0, 0], 1 - np.exp(-1), atol=1e-9)
+    np.testing.assert_allclose(timed.elapsed, T[-timed.samples :], atol=1e-9)
     temperature = 25 + 5 * T[None] + np.zeros((3, 1))
     measured = Recorded(tmp_path).run(of, positions(T), currents(T), "@2:", temp=temperature)
     assert measured.warmth is not None
+    np.testing.assert_allclose(measured.rises["temp1"], 5 * measured.elapsed, atol=1e-9)
     np.testing.assert_allclose(measured.warmth[1], (measured.start + timed.period * np.arange(timed.samples)) * 5 / 20)
 
 

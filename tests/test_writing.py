@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from generator.errors import InputError
-from generator.writing import replace
+from generator.writing import replace, replacing
 from tests.commands import tree
 
 OLD = {"c/robot.c": b"old", "c/stale.c": b"stale", "manifest.json": b"old"}
@@ -59,3 +59,32 @@ def test_an_interruption_restores_the_old_generation(tmp_path: Path, monkeypatch
     with pytest.raises(KeyboardInterrupt):
         replace(tmp_path / "robot", NEW)
     assert tree(tmp_path) == {f"robot/{name}": content for name, content in OLD.items()}
+
+
+def test_of_a_shared_entry_each_entry_is_replaced_by_itself(tmp_path: Path) -> None:
+    old = {"code/mine/stale.c": b"stale", "code/other/robot.c": b"other", "page.html": b"old"}
+    replace(tmp_path / "out", old)
+    with replacing(tmp_path / "out", "code") as fresh:
+        replace(fresh, {"code/mine/robot.c": b"new", "page.html": b"new"})
+    kept = {"code/mine/robot.c": b"new", "code/other/robot.c": b"other", "page.html": b"new"}
+    assert tree(tmp_path / "out") == kept
+
+
+def test_work_that_fails_leaves_nothing(tmp_path: Path) -> None:
+    def work() -> None:
+        with replacing(tmp_path / "out") as fresh:
+            (fresh / "robot.c").write_bytes(b"new")
+            raise OSError(2, "of the work")
+
+    with pytest.raises(OSError, match="of the work"):
+        work()
+    assert tree(tmp_path) == {}
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_is_refused_before_the_work(tmp_path: Path) -> None:
+    (tmp_path / "out").write_bytes(b"a file")
+    for folder in (tmp_path / "out", tmp_path / "out" / "deep"):
+        with pytest.raises(InputError, match="it cannot be written"), replacing(folder):
+            pytest.fail("the work began")
+    assert tree(tmp_path) == {"out": b"a file"}

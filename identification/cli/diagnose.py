@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
     from identification.diagnosis.finding import Told
     from identification.diagnosis.mending import Mended
+    from identification.diagnosis.where import Where
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +62,7 @@ def tested(new: Mended | None) -> list[str]:
     """Lines on the untouched runs."""
     if new is None:
         return []
-    from identification.diagnosis.results import together
+    from identification.diagnosis.played import together
 
     lines = [f"note: {note}" for note in new.notes]
     for kind, played in (("before", new.before), ("after", new.after)):
@@ -75,10 +76,8 @@ def summary(found: Diagnosis) -> list[str]:
     """Lines for the terminal: the verdict, where, what, how sure."""
     lines = [f"{found.robot.name}: {found.verdict} ({found.mode})"]
     lines += [f"note: {note}" for note in found.notes]
-    where = found.before
-    if where.joint:
-        region = f", {where.region}" if where.region else ""
-        lines.append(f"where            joint {where.joint}, over {where.variable or 'nothing in particular'}{region}")
+    if found.before.joint:
+        lines.append(f"where            {_place(found.before)}")
     for one in found.findings:
         lines.append(f"{one.status:<16} {one.hypothesis.named}")
         lines += [f"                 {_value(each)}" for each in one.told]
@@ -87,12 +86,17 @@ def summary(found: Diagnosis) -> list[str]:
         for other in one.alternatives:
             text = f"or {other.named}; apart by: {other.separating_experiment}"
             lines.append(f"                 {text}")
-    if found.after.joint and found.verdict == "unexplained":
-        region = found.after.region or "nothing orders it"
-        lines.append(f"unexplained      joint {found.after.joint}, over {found.after.variable}: {region}")
+    if found.after.joint:
+        lines.append(f"unexplained      {_place(found.after)}")
     return lines
 
 
 def _value(one: Told) -> str:
     """``vs 0.053 +- 0.0014 rad/s``."""
     return f"{one.name} {one.text('' if one.unit == '1' else f' {one.unit}')}"
+
+
+def _place(where: Where) -> str:
+    """``joint 2, over qd, ...``."""
+    region = f", {where.region}" if where.region else ""
+    return f"joint {where.joint}, over {where.variable or 'nothing in particular'}{region}"

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
+
+#: What joints have in the file that no motion limits or warms [A, K].
+NEVER = 1e6
 
 
 @dataclass(frozen=True)
 class Addition:
     """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below.
 
-    - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones.
+    - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones, and the joints' ``warm_up_time`` where the
+      file has none.
     - SIGNAL: keys of section ``signals`` with their value for the joints: an offset or a delay is added to the file's,
       a gain multiplies it, a limit, time or rise replaces it.
     - DRIVE: ``gear_ratio``, a factor of the joints' ratios; ``torque_drift``, added to the motors'; the rest as SIGNAL.
@@ -62,10 +66,21 @@ def addition(
     return Addition(one.kind, one.effect, joints, values, parameters, evidence, amplitude or {})
 
 
+def measured(offered: Sequence[Hypothesis]) -> list[Addition]:
+    """What the runs tell without any torque."""
+    result = []
+    for one in offered:
+        known = {name: value for name, value in one.measured.items() if value.value is not None}
+        said = ", ".join(f"{value.value:.3g} +- {value.std:.2g} {value.unit}" for value in known.values())
+        values = {name: value.value for name, value in known.items() if value.value is not None}
+        if values:
+            result.append(addition(one, {}, values, f"{one.title}, joint {one.joint}: {said}, measured without torque"))
+    return result
+
+
 def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
-    """True torque = (1 + start)(1 + drift warmth) recorded."""
-    warm = {"warm_up_time": shape["T"]} if "T" in shape else {"warm_rise": shape["rise"]}
-    return {"torque_drift": found[0], "torque_gain": 1 + found[1], **warm}
+    """True torque = (1 + start)(1 + drift warmth) recorded; the shape tells the warmth where the file does not."""
+    return {"torque_drift": found[0], "torque_gain": 1 + found[1], **shape}
 
 
 def _elastic(one: Hypothesis, found: float, shape: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:

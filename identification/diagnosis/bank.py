@@ -1,6 +1,7 @@
 """Every column that may explain the runs: the base parameters', the hypotheses', the torque; and their products.
 
-Numbers of columns are global: the p base parameters first, then the hypotheses' as they are tried; the torque is apart.
+Numbers of columns are global: the p base parameters first, then the hypotheses' as they are tried; the torque is apart,
+without that of the payload which a run is known to carry.
 All that selection asks for is in the Gram matrices of white rows, one a run.
 """
 
@@ -85,11 +86,12 @@ class Bank:
         self._joints: list[list[_Joint]] = []
         self._colours: list[list[Colour]] = []
         self.grams: list[Array] = []
-        for run in runs:
+        for run, scene in zip(runs, scenes, strict=True):
             base = regressors.base(run.sampled.motion)
+            tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
                 [
-                    _Joint([place[name] for name in names], list(run.decimated(W)), run.tau[k], run.kept[k])
+                    _Joint([place[name] for name in names], list(run.decimated(W)), tau[k], run.kept[k])
                     for k, (names, W) in enumerate(zip(regressors.structure, base, strict=True))
                 ]
             )

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from generator.cli.progress import stage
 from generator.robot.description import Robot
-from generator.writing import replace
+from generator.writing import replace, replacing
 from identification import recipe as recipes
-from identification.dataset import load
+from identification.dataset import Run, load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
-from identification.diagnosis.mending import Mended, mended
-from identification.diagnosis.prepared import prepared
+from identification.diagnosis.mending import GENERATED, Mended, mended
+from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import roles
@@ -46,28 +46,38 @@ def diagnosed(
 
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
-    Raises InputError for runs and parameter sets that cannot be used.
+    Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
+    used, before anything is looked for.
     """
     regressors = Regressors(robot)
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
-    with stage(f"reading {len(wanted.data) + len(wanted.validate) + len(wanted.test)} runs"):
-        first = [load(source, robot, recipe.columns) for source in wanted.data]
-        chosen = roles(first, wanted.validate, wanted.test)
+
+    def read(sources: Sequence[str], resting: bool = True) -> list[Run]:
+        return [load(source, robot, recipe.columns, resting=resting) for source in sources]
+
+    def ready(source: str) -> Prepared:
         # A part of a run that is good as a whole may stand still.
-        runs = [
-            prepared(load(source, robot, recipe.columns, resting=source not in wanted.data), recipe, regressors)
-            for source in (*chosen.train, *chosen.validate)
-        ]
+        return prepared(whole[source] if source in whole else read([source])[0], recipe, regressors)
+
+    with stage(f"reading {len(wanted.data) + len(wanted.validate) + len(wanted.test)} runs"):
+        fit, held, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
+        chosen = roles(fit, held, last, tested=not wanted.dry)
+        whole = {run.name: run for run in (*fit, *held, *last)}
+        runs = [ready(source) for source in (*chosen.train, *chosen.validate)]
+        # What cannot be played at the end is refused now.
+        for source in chosen.test:
+            ready(source)
 
     def told(text: str) -> None:
         with stage(text):
             pass
 
-    found = diagnose(regressors, runs, chosen, known, told, wanted.dry)
-    new = None if wanted.dry else mended(path, found, wanted.prior, folder, stage)
-    with stage("writing the report"):
-        files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}
-        replace(folder, files)
-    made = [] if new is None else [f"{robot.name}.yaml", "generated"]
+    with replacing(folder, GENERATED) as fresh:
+        found = diagnose(regressors, runs, chosen, known, told, wanted.dry)
+        new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
+        with stage("writing the report"):
+            files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}
+            replace(fresh, files)
+    made = [] if new is None else [f"{robot.name}.yaml", GENERATED]
     return found, new, [*files, *made]

@@ -18,19 +18,15 @@ Array = NDArray[np.float64]
 
 #: What columns may be made of here.
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
-#: Time constant of the warmth [s] where nothing tells it; written into the file with an effect that needs one.
-WARM_UP = 60.0
 #: Steps a second in which states are integrated.
 _STEPS = 250.0
 
 
-def warmth_of(scene: Scene) -> Array:
-    """From 0 to 1 with the time since the run's start (N)."""
-    return np.asarray(1 - np.exp(-scene.t / WARM_UP))
-
-
 class EffectColumns:
-    """``effect`` on ``joint``, coordinate ``k``; called with a scene and a shape it gives its columns (p x n x N)."""
+    """``effect`` on ``joint``, coordinate ``k``; called with a scene and a shape it gives its columns (p x n x N).
+
+    The drives are as warm as the robot's file says, or by ``warm_up_time`` [s] of the shape.
+    """
 
     def __init__(self, effect: Effect, joint: Joint, k: int, robot: Robot) -> None:
         self._k, self._numbers = k, [one.number for one in robot.moving]
@@ -50,7 +46,7 @@ class EffectColumns:
         assert self._function is not None
         values = [shape[name] for name in self._names]
         states = [] if self._rates is None else self._states(scene, values)
-        signals = self._signals(scene)
+        signals = self._signals(scene, shape.get("warm_up_time"))
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
         if self._positive is not None and np.min(self._positive(*values, *signals)) <= 0:
@@ -85,9 +81,9 @@ class EffectColumns:
                 [*(at.values[name] for name in self._names), at.qd, state], [rate, slope], "math"
             )
 
-    def _signals(self, scene: Scene) -> list[Array]:
+    def _signals(self, scene: Scene, warm_up_time: float | None) -> list[Array]:
         motion = scene.motion
-        warmth = warmth_of(scene)
+        warmth = scene.warmth(self._k, warm_up_time) if "warmth" in self._effect.needs else np.zeros(1)
         load = scene.load[self._k] if "load" in self._effect.needs else np.zeros(1)
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 

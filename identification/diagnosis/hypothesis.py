@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed, ranges
 from identification.diagnosis.scene import Scene
+from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
@@ -62,7 +63,8 @@ class Hypothesis:
     holds more than the model's says. ``shapes`` are searched, ``given`` are values that are known; both are values of
     the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
-    experiment that tells them apart.
+    experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque: there
+    is nothing to search, and the columns are zero.
     """
 
     effect: str
@@ -78,6 +80,7 @@ class Hypothesis:
     would_show: str = ""
     separating: Mapping[str, str] = field(default_factory=dict)
     tries: int = 0
+    measured: Mapping[str, Value] = field(default_factory=dict)
 
     @property
     def named(self) -> str:

@@ -40,8 +40,8 @@ class Lack:
     burst: tuple[str, float] | None = None
 
 
-def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, number: int, reference: float) -> Lack:
-    """Of coordinate k's white residuals (one a run, kept rows); ``reference`` is the power of noise."""
+def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, number: int) -> Lack:
+    """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1."""
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
         if not run.period or len(run.t) < 2 * run.period:
@@ -56,19 +56,19 @@ def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, nu
         phases += int(twice.sum())
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
-    burst = _burst(runs, residuals, k, reference)
+    burst = _burst(runs, residuals, k)
     if phases and freedom > 50:
         ratio = (common / phases) / max(differing / freedom, 1e-300)
         size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
         return Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
     rows = sum(len(e) for e in residuals)
     power = sum(float(e @ e) for e in residuals)
-    ratio = power / max(rows * reference, 1e-300)
-    p = float(chi2.sf(power / reference, rows)) if rows else 1.0
+    ratio = power / max(rows, 1)
+    p = float(chi2.sf(power, rows)) if rows else 1.0
     return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, burst)
 
 
-def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, reference: float) -> tuple[str, float] | None:
+def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int) -> tuple[str, float] | None:
     """Where the residual is far above the noise for a short time, once in all runs; not where a joint is unsettled."""
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
@@ -76,8 +76,8 @@ def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, referen
         if len(e) < 5 * _BURST:
             continue
         unsettled = run.unsettled[k][run.kept[k]]
-        power = np.convolve(np.where(unsettled, 0.0, e**2), np.ones(_BURST), "valid") / reference
-        if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)) / reference, 1.0):
+        power = np.convolve(np.where(unsettled, 0.0, e**2), np.ones(_BURST), "valid")
+        if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
             continue
         i = int(np.argmax(power))
         found.append(

@@ -54,7 +54,7 @@ class LinkSide:
 
     def torque_on(self, motion: Motion) -> Array:
         """Torques (n x N) of all but the joint's drive train."""
-        return self.scene.regressors.torques(self.values, motion)
+        return self.scene.torque_of(self.values, motion)
 
     @cached_property
     def load(self) -> Array:

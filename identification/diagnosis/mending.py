@@ -11,7 +11,7 @@ from generator.robot.description import Robot
 from generator.writing import replace
 from identification import recipe as recipes
 from identification.dataset import load
-from identification.diagnosis.addition import Addition, addition
+from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
@@ -22,6 +22,7 @@ from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
+from identification.diagnosis.untouched import objections, untouched
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
@@ -32,7 +33,7 @@ GENERATED = "generated"
 
 @dataclass(frozen=True)
 class Mended:
-    """The new robot file's ``text``, its ``robot`` and parameters, and where its code went (``generated``).
+    """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
     ``before`` and ``after`` are the test runs as the old and the new model play them; ``file_difference`` and
     ``groupings_difference`` are unified diffs.
@@ -60,7 +61,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """
     name = f"{found.robot.name}.yaml"
     old_text = path.read_text(encoding="utf-8-sig")
-    new = repaired(old_text, name, additions := [_addition(one) for one in found.findings])
+    aside = measured(found.found.offered)
+    additions = [*map(_addition, found.findings), *aside]
+    new = repaired(old_text, name, additions)
     old_regressors, regressors = found.found.bank.scenes[0].regressors, Regressors(new.robot)
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
@@ -78,17 +81,19 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         before = _played(found.roles.test, Player(old_regressors), values)
         after = _played(found.roles.test, player, fit.values)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
+        before, after = (tuple(played) for played in zip(*pairs, strict=True))
+    against = objections(untouched(found.found.bank, before, after))
     return Mended(
         text,
         new.robot,
         tuple(additions),
         fit,
-        tuple(old for old, _ in pairs),
-        tuple(now for _, now in pairs),
+        before,
+        after,
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
-        folder / GENERATED / found.robot.name,
-        (*new.notes, *fit.notes, *notes),
+        Path(GENERATED, found.robot.name),
+        (*(one.evidence for one in aside), *new.notes, *fit.notes, *notes, *against),
     )
 
 

@@ -9,6 +9,8 @@ Array = NDArray[np.float64]
 
 #: What a repetition may differ by, mean square over the motion's variance; and what must lie between two of them.
 _SAME, _OTHER = 1e-5, 0.05
+#: Spread of a joint [rad, m] below which it stands; and in parts of the largest, below which it is held and trembles.
+_STANDING, _HELD = 1e-9, 1e-3
 #: Shortest period [s].
 _SHORTEST = 0.5
 
@@ -16,11 +18,13 @@ _SHORTEST = 0.5
 def period_of(q: Array, period: float) -> int:
     """Samples after which positions q (n x N), sampled every ``period`` [s], repeat; 0 where they do not.
 
-    At least two whole periods must be there.
+    At least two whole periods must be there. A joint that hardly moves beside the others does not count: the steps of
+    its encoder do not repeat.
     """
     moved = q - q.mean(axis=-1, keepdims=True)
     spread = moved.std(axis=-1)
-    x = moved[spread > 1e-9] / spread[spread > 1e-9, None]
+    moving = spread > max(_STANDING, _HELD * spread.max())
+    x = moved[moving] / spread[moving, None]
     if not x.size:
         return 0
     lags, difference = _differences(x)

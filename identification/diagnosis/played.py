@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -112,6 +112,23 @@ def play(one: Prepared, player: Player, values: Mapping[str, float]) -> Played:
         body = np.array([payload.known.get(stem, values.get(name, 0.0)) for stem, name in payload.names().items()])
         model = model + np.stack([body @ columns for columns in player.regressors.payload(motion)])
     return Played(one.t, one.tau, one.decimated(model), one.kept)
+
+
+def together(played: Sequence[Played]) -> Residuals:
+    """The residuals of several played runs, by joint (coordinates from 0)."""
+    parts = [one.residuals.per_joint for one in played]
+    return Residuals(
+        {
+            k: Residual(
+                sum(part[k].rows for part in parts),
+                *(
+                    float(np.linalg.norm([getattr(part[k], name) for part in parts]))
+                    for name in ("norm", "torque", "spread")
+                ),
+            )
+            for k in range(len(played[0].kept))
+        }
+    )
 
 
 def aligned(one: Played, other: Played) -> tuple[Played, Played]:

@@ -40,8 +40,9 @@ class Prepared:
     """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
-    ``period`` is that of the motion in rows, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s,
-    m/s] in the rows that are left out, of ``sampled`` too.
+    ``period`` is that of the motion in rows, 0 where it is no whole number of them; ``repeats`` is that in samples, 0
+    where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of
+    ``sampled`` too.
     """
 
     sampled: Sampled
@@ -51,6 +52,19 @@ class Prepared:
     unsettled: NDArray[np.bool_]
     period: int
     slow: Array
+    repeats: int
+
+    @property
+    def note(self) -> str:
+        """Why no periods of the run are compared; empty where they are."""
+        if self.period:
+            return ""
+        name, factor = self.sampled.run.file, self.sampled.filters.factor
+        less = "noise is told from the model's faults less well"
+        if not self.repeats:
+            return f"the motion of {name} does not repeat: {less}"
+        period = f"the motion of {name} repeats after {self.repeats} samples"
+        return f"{period}, but one in {factor} is looked at: its periods are not compared, and {less}"
 
     def decimated(self, x: Array) -> Array:
         """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
@@ -71,9 +85,14 @@ def windowed(x: Array, factor: int) -> Array:
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     """The run by the diagnosis' filters, which replace those of ``recipe``.
 
-    Raises InputError for a run that is too short, or sampled too slowly.
+    Raises InputError for a run that is too short, sampled too slowly, or with a payload of which something is sought.
     """
     fast_enough(run, recipe)
+    if run.payload is not None and run.payload.sought:
+        problem = f"{', '.join(run.payload.sought)} of payload {run.payload.name} are sought"
+        raise InputError(
+            run.place, problem, "all ten in the sidecar, or none: a payload that is not known is looked for"
+        )
     length = run.samples * run.period
     if length < SHORTEST:
         raise InputError(run.place, f"a run of {length:.3g} s", f"{SHORTEST:g} s at least, better several periods")
@@ -103,4 +122,4 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow)
+    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow, period)

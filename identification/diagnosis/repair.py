@@ -14,22 +14,21 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import PRISMATIC, Joint, Robot
-from identification.diagnosis.addition import Addition
-from identification.diagnosis.effect_columns import WARM_UP
+from identification.diagnosis.addition import NEVER, Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-#: What joints have that no motion limits or warms [A, K].
-_NEVER = 1e6
+#: Time constant [s] of joints whose warmth nothing reads.
+_WARM_UP = 60.0
 #: What a correction is where the file says nothing, and its unit where it is not that of a position.
 _NEUTRAL = {
     "position_offset": 0.0,
     "torque_gain": 1.0,
     "torque_delay": 0.0,
     "link_delay": 0.0,
-    "current_limit": _NEVER,
-    "warm_up_time": WARM_UP,
-    "warm_rise": _NEVER,
+    "current_limit": NEVER,
+    "warm_up_time": _WARM_UP,
+    "warm_rise": NEVER,
 }
 _UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
@@ -49,7 +48,7 @@ class Repaired:
 
 
 def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
-    """The robot file ``text`` with all additions; an effect on several joints with the same values and evidence is one entry.
+    """The robot file ``text`` with all additions; an effect on joints with the same values and evidence is one entry.
 
     ``file`` is its name in messages. An effect that a joint has already is left as it is, and told.
 
@@ -87,8 +86,8 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     notes = [f"joint {j} has the effect {one.effect} already; the file's stays" for j in there]
     if not new:
         return text, notes
-    if "warmth" in effect.needs:
-        text = _with_warmth(text, robot)
+    if "warm_up_time" in one.values and not robot.signals.warm_up_time:
+        text = _with_signal(text, robot, "warm_up_time", one.values["warm_up_time"], new)
     where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
@@ -133,13 +132,6 @@ def _signal_unit(key: str, joint: Joint) -> str:
     if key == "position_offset":
         return "m" if joint.sigma == PRISMATIC else "rad"
     return _UNITS.get(key, "")
-
-
-def _with_warmth(text: str, robot: Robot) -> str:
-    """Something that says how warm the drives are."""
-    if robot.signals.warm_up_time or robot.signals.warm_rise:
-        return text
-    return _with_signal(text, robot, "warm_up_time", WARM_UP, ())
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from generator.version import VERSION
 from identification import outcome
-from identification.diagnosis.diagnosis import Diagnosis, Where
+from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.finding import Finding
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.mending import GENERATED, Mended
 from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.played import Played
-from identification.residuals import Residual, Residuals
+from identification.diagnosis.played import together
+from identification.diagnosis.where import Where
 
 
 def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
@@ -30,7 +29,7 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         "verdict": found.verdict,
         "where": _where(found.before),
         "findings": [_finding(one) for one in found.findings],
-        "unexplained": _where(found.after) if found.after.joint else None,
+        "unexplained": _where(found.after) if found.verdict == UNEXPLAINED else None,
         "invisible": [
             {"effect": one.effect, "joints": list(one.joints or (one.joint,)), "would_show": one.would_show}
             for one in found.invisible
@@ -50,24 +49,6 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         },
         "notes": [*found.notes, *(() if new is None else new.notes)],
     }
-
-
-def together(played: Sequence[Played]) -> Residuals:
-    """The residuals of several played runs, by joint."""
-    joints = range(len(played[0].kept))
-    parts = [one.residuals.per_joint for one in played]
-    return Residuals(
-        {
-            k: Residual(
-                sum(part[k].rows for part in parts),
-                *(
-                    float(np.linalg.norm([getattr(part[k], name) for part in parts]))
-                    for name in ("norm", "torque", "spread")
-                ),
-            )
-            for k in joints
-        }
-    )
 
 
 def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
 
 from generator.errors import InputError
-from identification.dataset import Run
+from identification.dataset import Run, part_of
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.prepared import SHORTEST
 
@@ -40,43 +42,57 @@ class Roles:
         return not set(self.test) & set(self.known)
 
 
-def roles(data: Sequence[Run], validate: Sequence[str], test: Sequence[str]) -> Roles:
+def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
     """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.
 
     Where none validates every run is held against what the others predict, or every block of time of a single one.
-    Raises InputError for a run too short to be split.
+    Where nothing is ``tested`` no run is spent on it. Raises InputError for runs that have samples in common, and for
+    one too short to be split.
     """
-    names = tuple(run.name for run in data)
+    _unshared({"fit": data, "validate": validate, "test": test})
+    fit, held, last = (tuple(run.name for run in runs) for runs in (data, validate, test))
     notes: list[str] = []
     fitted: list[Run] = list(data)
     ends: dict[str, float] = {}
-    if not test and len(names) >= _APART:
-        test = (names[-1],)
+    if tested and not test and len(fit) >= _APART:
+        last = (fit[-1],)
         notes.append(f"{data[-1].file}, the last run, tests: it is touched by nothing before the report")
         del fitted[-1]
-    elif not test:
-        test = tuple(_tail(run) for run in data)
+    elif tested and not test:
+        last = tuple(_tail(run) for run in data)
         shortest = min(map(_length, data), default=0.0)
         if _TESTED * shortest < _ENOUGH:
-            test = names
+            last = fit
             notes.append("the runs are short and test too, which tells nothing new; runs apart are stronger evidence")
         else:
             ends = {run.name: run.start + (1 - _TESTED) * _length(run) - _gap(run) for run in data}
             notes.append(f"the last {100 * _TESTED:.0f} % of every run test; runs apart are stronger evidence")
-    known = tuple(_part(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
+    known = tuple(part_of(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
     train = known
     if not validate and len(fitted) == 1:
         (run,) = fitted
-        train = tuple(_part(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + _length(run))))
+        train = tuple(part_of(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + _length(run))))
         notes.append(f"{len(train)} blocks of its time are each held against what the others predict")
     elif not validate:
         notes.append("each run is held against what the others predict")
-    return Roles(train, tuple(validate), tuple(test), (*known, *validate), tuple(notes))
+    return Roles(train, held, last, (*known, *held), tuple(notes))
+
+
+def _unshared(runs: Mapping[str, Sequence[Run]]) -> None:
+    """Refuses runs, by what they do, that are of one recording and share samples."""
+    every = [(run, use) for use, mine in runs.items() for run in mine]
+    for (one, use), (other, again) in combinations(every, 2):
+        start, end = max(one.start, other.start), min(one.start + _length(one), other.start + _length(other))
+        if one.sha256 == other.sha256 and end - start > max(one.period, other.period):
+            twice = f"{use} in {Path(one.name).name} and {again} in {Path(other.name).name}"
+            raise InputError(
+                other.place, f"its samples from {start:g} s to {end:g} s {twice}", "runs, or parts, that share none"
+            )
 
 
 def _tail(run: Run) -> str:
     """The end of a run that tests."""
-    return _part(run.name, run.start + (1 - _TESTED) * _length(run), run.start + _length(run))
+    return part_of(run.name, run.start + (1 - _TESTED) * _length(run), run.start + _length(run))
 
 
 def _gap(run: Run) -> float:
@@ -104,10 +120,3 @@ def _blocks(run: Run, end: float) -> list[tuple[float, float]]:
     each = (length - (blocks - 1) * gap) / blocks
     starts = [run.start + k * (each + gap) for k in range(blocks)]
     return [(start, start + each) for start in starts]
-
-
-def _part(name: str, start: float, end: float) -> str:
-    """A part of a run, or of a part of one."""
-    path, at, rest = name.rpartition("@")
-    plain = path if at and ":" in rest else name
-    return f"{plain}@{start:.9g}:{end:.9g}"

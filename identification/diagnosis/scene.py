@@ -10,15 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.corrections import warming_up
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
+#: Range [rad, m] that is the rounding of a joint which stands.
+_STILL = 1e-9
+
 
 @dataclass(frozen=True)
 class Scene:
-    """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI]."""
+    """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI].
+
+    The model carries the payload that the run's sidecar tells.
+    """
 
     sampled: Sampled
     regressors: Regressors
@@ -44,10 +51,37 @@ class Scene:
         """Time since the run's start [s] (N)."""
         return self.sampled.times - self.sampled.run.start
 
+    def warmth(self, k: int, warm_up_time: float | None = None) -> Array:
+        """How warm the drive of coordinate ``k`` is (N), 0 when the recording began: as the robot's file says, or by
+        ``warm_up_time`` [s].
+
+        Raises ValueError where neither tells.
+        """
+        if warm_up_time is not None:
+            return warming_up(self._inside(self.sampled.run.elapsed), warm_up_time)
+        if self.motion.warmth is None:
+            raise ValueError(f"nothing says how warm the drive of coordinate {k} is")
+        told: Array = self.motion.warmth[k]
+        return told
+
+    def rise(self, k: int) -> Array | None:
+        """Of the drive's temperature since the recording began [K] (N); None where the run has none."""
+        values = self.sampled.run.rises.get(f"temp{self.robot.moving[k].number}")
+        return None if values is None else self._inside(values)
+
+    def _inside(self, x: Array) -> Array:
+        """A signal of the whole run at the scene's samples."""
+        first = self.sampled.filters.first
+        return x[first : first + self.motion.samples]
+
     @property
     def period(self) -> float:
         """Of the samples [s]."""
         return self.sampled.run.period
+
+    def moves(self, k: int) -> bool:
+        """Whether coordinate ``k`` moves at all."""
+        return bool(np.ptp(self.motion.q[k]) > _STILL)
 
     @cached_property
     def torque(self) -> Array:
@@ -56,7 +90,19 @@ class Scene:
 
     def torque_on(self, motion: Motion) -> Array:
         """Torques of the model along another motion (n x N) [N m, N]."""
-        return self.regressors.torques(self.values, motion)
+        return self.torque_of(self.values, motion)
+
+    def torque_of(self, values: Mapping[str, float], motion: Motion) -> Array:
+        """Torques of the model with other ``values`` along another motion (n x N) [N m, N]."""
+        return self.regressors.torques(values, motion) + self.carried(motion)
+
+    def carried(self, motion: Motion) -> Array:
+        """Torques of the run's known payload along a motion (n x N) [N m, N] (report eq. 50); zero without one."""
+        payload = self.sampled.run.payload
+        if payload is None:
+            return np.zeros_like(motion.q)
+        body = np.array([payload.known[stem] for stem in payload.names()])
+        return np.stack([body @ columns for columns in self.regressors.payload(motion)])
 
     @cached_property
     def resting(self) -> Array:
@@ -66,7 +112,9 @@ class Scene:
 
     @cached_property
     def load(self) -> Array:
-        """Static loads of the transmissions (n x N): weight, springs and balancers, without the drives' offsets."""
+        """Static loads of the transmissions (n x N): weight, payload, springs and balancers, without the drives'
+        offsets.
+        """
         offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
         return np.asarray(self.resting - np.array(offsets)[:, None])
 

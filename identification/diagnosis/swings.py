@@ -70,9 +70,12 @@ def _most_alike(side: LinkSide, grids: Sequence[Array]) -> tuple[float, ...]:
     left = (side.scene.tau - side.scene.torque)[side.k]
     product, size = np.zeros((2, len(stiffness)))
     played = side.steps(Train(stiffness, damping, gap), _SAMPLES)
-    for y, M, (_, _, a) in zip(left.tolist(), side.inertia.tolist(), played, strict=False):
-        torque = M * a
-        product += y * torque
-        size += torque * torque
-    most = int(np.argmax(product / np.sqrt(np.where(size > 0, size, np.inf))))
+    # A drive train too stiff for the samples runs away; it is like nothing.
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for y, M, (_, _, a) in zip(left.tolist(), side.inertia.tolist(), played, strict=False):
+            torque = M * a
+            product += y * torque
+            size += torque * torque
+        alike = product / np.sqrt(size)
+    most = int(np.argmax(np.where(np.isfinite(alike), alike, -1.0)))
     return float(stiffness[most]), float(damping[most]), float(gap[most])

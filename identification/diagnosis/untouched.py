@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.played import Played
-from identification.diagnosis.results import together
+from identification.diagnosis.played import Played, together
 from identification.residuals import Residual
 
 #: Least gap to the noise, in squares of the residual, of which a share is told.
 _GAP = 0.25
+#: How much more of a joint a model must leave to be worse; and how much more than noise, to lack something, in its rms.
+_WORSE, _LACKING = 1.05, 2.0
 
 
 @dataclass(frozen=True)
@@ -55,3 +56,30 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
         for k, joint in enumerate(bank.scenes[0].robot.moving)
         if old[k].rows and new[k].rows
     }
+
+
+def objections(tried: Mapping[int, Untouched]) -> list[str]:
+    """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
+
+    A share is that of the torque's spread.
+    """
+    worse = [
+        f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
+        for number, one in tried.items()
+        if rms(one.after) > _WORSE * rms(one.before)
+    ]
+    lacking = [
+        f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
+        for number, one in tried.items()
+        if rms(one.after) > _LACKING * one.floor
+    ]
+    notes = []
+    if worse:
+        notes.append(f"the new model explains the untouched runs less well on {', '.join(worse)}")
+    if lacking:
+        where = ", ".join(lacking)
+        notes.append(
+            f"the untouched runs keep far more than noise on {where}: the model lacks more than was found, or they show"
+            " what the others did not"
+        )
+    return notes

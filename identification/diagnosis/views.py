@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 
 #: Bins over the range of a variable.
 BINS = 24
+#: Part of the joint's rms torque by which its load changes at least, to order anything.
+_FLAT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -73,10 +75,13 @@ def views(
         [run.decimated(scene.motion.qd[k])[rows] for run, scene, rows in zip(runs, scenes, kept, strict=True)]
     )
     number = scenes[0].robot.moving[k].number
+    tau = np.concatenate([run.tau[k, rows] for run, rows in zip(runs, kept, strict=True)])
+    usual = float(np.sqrt(np.mean(tau**2)))
     found: list[View] = []
     for name, (unit, _) in every[0].items():
         x = np.concatenate([mine[name][1][rows] for mine, rows in zip(every, kept, strict=True)])
-        if np.ptp(x) <= 1e-12 * max(np.abs(x).max(), 1e-300):
+        least = _FLAT * usual if name == "load" else 1e-12 * float(np.abs(x).max())
+        if np.ptp(x) <= least:
             continue
         sides = (-1, 1) if name in ("q by direction", "load") else (0,)
         found += _view(number, name, unit, x, e, forward, sides, power)

@@ -65,7 +65,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         kind=ELASTIC,
         joints=(joint.number,),
         variable="load",
-        would_show="a load that changes its sign while the joint moves, or an encoder on the link",
+        would_show="a load that changes its sign while the joint moves",
         separating={
             "joint_elasticity": "the same motion with a load that never changes its sign: backlash vanishes",
             "dahl_friction": "reversals under a load that keeps its sign: presliding shows at each, backlash at none",

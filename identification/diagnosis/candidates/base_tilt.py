@@ -8,7 +8,7 @@ axis. For these the base parameters tell nothing: their products with the angles
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,6 +22,7 @@ from generator.symbolic.model import Model
 from identification.diagnosis.hypothesis import BASE, Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
 from identification.observation import generated_module
+from identification.sidecar import Payload
 
 Array = NDArray[np.float64]
 
@@ -74,18 +75,28 @@ class Weight:
 
     def __init__(self, robot: Robot, gravity: sympy.Matrix) -> None:
         bare = replace(robot, gravity=tuple(gravity), effects=(), flexible=(), parameter_sets={})
-        model = derive(bare, names=("regressor_standard",), check=False)
-        uses_lengths = model.functions["regressor_standard"].uses_parameters
-        self._lengths = [model.default_parameters()] if uses_lengths else []
+        model = derive(bare, names=("regressor_standard", "payload_regressor"), check=False)
         self._bodies = {one.name: p for p, one in enumerate(model.standard_parameters)}
-        self._function: Any = generated_module(model).regressor_standard
+        self._regressor, self._payload = _at_rest(model, "regressor_standard"), _at_rest(model, "payload_regressor")
 
     def __call__(self, q: Array, standard: Mapping[str, float]) -> Array:
         """Torques (n x N) at rest in q (n x N), of values of the bodies' standard parameters; absent ones are zero."""
-        still = np.zeros_like(q.T)
         columns = [(p, standard[name]) for name, p in self._bodies.items() if standard.get(name)]
-        w = self._function(*self._lengths, q.T, still, still)
-        return np.asarray(sum((x * w[..., p] for p, x in columns), start=still).T)
+        w = self._regressor(q)
+        return np.asarray(sum((x * w[..., p] for p, x in columns), start=np.zeros_like(q.T)).T)
+
+    def carried(self, q: Array, payload: Payload | None) -> Array:
+        """Torques (n x N) at rest in q (n x N) of a known payload; zero without one."""
+        if payload is None:
+            return np.zeros_like(q)
+        return np.asarray(self._payload(q) @ np.array([payload.known[stem] for stem in payload.names()])).T
+
+
+def _at_rest(model: Model, name: str) -> Callable[[Array], Array]:
+    """A generated regressor at rest in positions (n x N): N x n x columns."""
+    function: Any = getattr(generated_module(model), name)
+    lengths = [model.default_parameters()] if model.functions[name].uses_parameters else []
+    return lambda q: np.asarray(function(*lengths, q.T, np.zeros_like(q.T), np.zeros_like(q.T)))
 
 
 @dataclass(frozen=True)
@@ -100,7 +111,8 @@ class _Columns:
         # Standard parameters that make the base parameters: those that give them their names have their values.
         heads = {base.head: scene.values.get(base.name, 0.0) for base in self.model.grouping.base}
         q = scene.motion.q
-        known = [weight(q, heads) for weight in self.weights.values()]
+        payload = scene.sampled.run.payload
+        known = [weight(q, heads) + weight.carried(q, payload) for weight in self.weights.values()]
         unknown = [self.weights[axis](q, _unseen(self.model, name)) for name, axis in self.hidden]
         return np.stack([*known, *unknown])
 

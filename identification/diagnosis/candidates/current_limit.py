@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.addition import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
 from identification.drive_train import coupling
@@ -34,7 +35,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     found = []
     for k, joint in enumerate(robot.moving):
         low, high = np.quantile(np.concatenate([np.abs(_current(scene, k)) for scene in scenes]), [_LOWEST, _HIGHEST])
-        if stated or not 0 < low < high:
+        if (stated and stated[k] < NEVER) or not 0 < low < high:
             continue
         found.append(
             Hypothesis(

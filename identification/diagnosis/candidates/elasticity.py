@@ -21,7 +21,8 @@ _STEPS, _DAMPINGS = 60, 3
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint whose drive train is stiff in the robot's file and whose link has no encoder of its own.
+    """One a joint whose drive train is stiff in the robot's file and whose link has no encoder of its own: with one,
+    ``identification.link_encoders`` tells the stiffness without any torque that a model lacks.
 
     The coefficient is the compliance 1/k by the torque's size, the shape ``k`` the stiffness by the frequency of the
     swing; they agree where ``Iam``, the drive train's inertia, is known.
@@ -58,7 +59,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         kind=ELASTIC,
         joints=(joint.number,),
         variable="frequency",
-        would_show="motion up to a third of the joint's resonance, or an encoder on the link",
+        would_show="motion up to a third of the joint's resonance; counterpoise stiffness by an encoder on the link",
         separating={
             "torque_delay": "speed steps at constant load: a delay shows at every step alike, elasticity by the "
             "load's inertia",

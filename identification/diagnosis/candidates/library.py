@@ -9,15 +9,17 @@ import numpy as np
 from generator.effects.effect import Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
-from identification.diagnosis.effect_columns import NEEDS, EffectColumns, warmth_of
+from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.orders import likely_orders
 from identification.diagnosis.scene import Scene
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
-#: Part of a whole warming up that some run must show.
+#: Part of a whole warming up that the runs must show.
 _WARMING = 0.2
+#: Time constant of the warmth [s] where the robot's file says nothing of it; a finding brings it into the file.
+_WARM_UP = 60.0
 #: What an effect shows in, by what its columns are made of; the first that fits.
 _VARIABLES = (
     ("warmth", "time"),
@@ -29,17 +31,17 @@ _VARIABLES = (
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """Each effect of the library on each joint without it."""
+    """Each effect of the library on each joint that moves and is without it."""
     if not scenes:
         return []
     robot = scenes[0].robot
-    warming = any(np.ptp(warmth_of(scene)) > _WARMING for scene in scenes)
     return [
         one
         for effect in library().values()
-        if warming or "warmth" not in effect.needs
         for k, joint in enumerate(robot.moving)
+        if any(scene.moves(k) for scene in scenes)
         if _possible(effect, joint, robot) and (effect.observables is None or _weighty(scenes)[k])
+        if "warmth" not in effect.needs or _warming(k, scenes)
         for one in _hypothesis(effect, joint, k, scenes)
     ]
 
@@ -61,9 +63,22 @@ def _weighty(scenes: Sequence[Scene]) -> list[bool]:
     return [bool(one > _WEIGHT * swing.max()) for one in swing]
 
 
+def _warming(k: int, scenes: Sequence[Scene]) -> bool:
+    """Whether the runs show a drive at different warmths."""
+    time = None if _told(scenes) else _WARM_UP
+    return bool(np.ptp(np.concatenate([scene.warmth(k, time) for scene in scenes])) > _WARMING)
+
+
+def _told(scenes: Sequence[Scene]) -> bool:
+    """Whether the robot's file tells the warmth of every run."""
+    return all(scene.motion.warmth is not None for scene in scenes)
+
+
 def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -> list[Hypothesis]:
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []
+    if "warmth" in effect.needs and not _told(scenes):
+        shapes.append(ShapeRange("warm_up_time", "s", _WARM_UP, _WARM_UP, points=(_WARM_UP,)))
     tries = 1
     for shape in effect.shapes:
         if not shape.tried:

@@ -1,7 +1,8 @@
 """Torque constants that change while a motor gets warm: true torque = (1 + start)(1 + drift w) recorded.
 
-The warmth w is 1 - exp(-t/T) by the clock of the run's file, or a temperature's rise where the run has one. ``drift``
-is ``torque_drift`` of the robot's drives; with ``start`` the constant differs already where w is 0.
+The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from the recording's beginning,
+or a temperature's rise since then where the runs have one. ``drift`` is ``torque_drift`` of the robot's drives; with
+``start`` the constant differs already where w is 0.
 """
 
 from __future__ import annotations
@@ -27,39 +28,41 @@ _RISE = 2.0
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """By time and, where every run has the joint's temperature, by that; none for a drift that the file states."""
+    """By the warmth of the file, else by time and, where every run has the joint's temperature, by that too; none for a
+    drift that the file states.
+    """
     if not scenes or scenes[0].robot.drives is None:
         return []
     robot = scenes[0].robot
     stated = robot.drives.torque_drift if robot.drives is not None else ()
-    duration = max(float(scene.t[-1] - scene.t[0]) for scene in scenes)
+    told = all(scene.motion.warmth is not None for scene in scenes)
+    duration = max(float(scene.sampled.run.elapsed[-1]) for scene in scenes)
     shortest = max(_SHORTEST * duration, _QUICK)
-    time = ShapeRange("T", "s", shortest, max(_LONGEST * duration, 2 * shortest))
+    time = ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * duration, 2 * shortest))
     found = []
     for k, joint in enumerate(robot.moving):
         if stated and stated[k]:
             continue
-        found.append(_hypothesis(joint, partial(_columns, k), (time,), {}))
-        column = f"temp{joint.number}"
-        if all(column in scene.sampled.run.others for scene in scenes):
-            values = np.concatenate([_temperature(scene, column) for scene in scenes])
-            cold, rise = float(values.min()), float(np.ptp(values))
-            if rise > _RISE:
-                found.append(_hypothesis(joint, partial(_columns, k), (), {"cold": cold, "rise": rise}))
+        if told:
+            found.append(_hypothesis(joint, partial(_columns, k), "drive's warmth"))
+            continue
+        found.append(_hypothesis(joint, partial(_columns, k), "time since the start", (time,)))
+        rises = [rise for scene in scenes if (rise := scene.rise(k)) is not None]
+        highest = max((float(rise.max()) for rise in rises), default=0.0)
+        if len(rises) == len(scenes) and highest > _RISE:
+            whole = ShapeRange("warm_rise", "K", highest, highest, points=(highest,))
+            found.append(_hypothesis(joint, partial(_columns, k), "drive's temperature", (whole,)))
     return found
 
 
-def _hypothesis(
-    joint: Joint, columns: partial[Array], shapes: tuple[ShapeRange, ...], given: Mapping[str, float]
-) -> Hypothesis:
+def _hypothesis(joint: Joint, columns: partial[Array], along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
     return Hypothesis(
         "torque_drift",
-        "drift of the torque constant with the " + ("time since the start" if shapes else "drive's temperature"),
+        f"drift of the torque constant with the {along}",
         joint.number,
         tuple(Coefficient(f"{name}{joint.number}", "1", -_LARGEST, _LARGEST) for name in ("torque_drift", "start")),
         columns,
         shapes=shapes,
-        given=given,
         kind=DRIVE,
         joints=(joint.number,),
         variable="time",
@@ -78,13 +81,7 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
 
 
 def _warmth(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    if "T" in shape:
-        return np.asarray(1 - np.exp(-scene.sampled.times / shape["T"]))
-    column = f"temp{scene.robot.moving[k].number}"
-    return (_temperature(scene, column) - shape["cold"]) / shape["rise"]
-
-
-def _temperature(scene: Scene, column: str) -> Array:
-    """A temperature [K] at the samples of the scene (N)."""
-    first = scene.sampled.filters.first
-    return scene.sampled.run.others[column][first : first + scene.motion.samples]
+    rise = scene.rise(k)
+    if "warm_rise" in shape and rise is not None:
+        return rise / shape["warm_rise"]
+    return scene.warmth(k, shape.get("warm_up_time"))

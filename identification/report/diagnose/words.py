@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
-from identification.diagnosis.diagnosis import KNOWN, NAMED, NOTHING, Where
+from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
-from identification.diagnosis.results import together
+from identification.diagnosis.played import together
 from identification.diagnosis.untouched import rms
+from identification.diagnosis.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
 
@@ -67,9 +68,15 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.verdict == NAMED:
         yield f"The model lacks {_named(found.findings)}."
         return
-    left = found.after if found.after.joint else found.before
+    if found.verdict == LOCATED:
+        yield "This was only to look where model and measurement disagree: nothing was named."
+        if found.before.joint:
+            yield f"Joint {found.before.joint} keeps more than noise, {_ordered(found.before)}."
+        else:
+            yield "No joint keeps more than noise."
+        return
     yield "Something is missing in the model that no effect of the library explains:"
-    yield f"joint {left.joint or _largest(subject)} keeps more than noise, {_ordered(left)}."
+    yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
 
@@ -151,7 +158,3 @@ def _ordered(where: Where) -> str:
     if not where.variable:
         return "and no variable orders it"
     return f"over {where.variable}" + (f" ({where.region})" if where.region else "")
-
-
-def _largest(subject: Subject) -> int:
-    return max(subject.found.after.lack, key=lambda one: one.size).joint

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
 from generator.review.words import plural
-from identification.diagnosis.diagnosis import NAMED, NOTHING
+from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING
 from identification.diagnosis.untouched import rms
 from identification.report.diagnose import words
 from identification.report.diagnose.subject import Subject
@@ -16,7 +16,7 @@ from identification.report.told import notes
 TITLE = "Diagnosis"
 ORDER = 10
 
-_VERDICTS = {NAMED: "named", NOTHING: "no discrepancy"}
+_VERDICTS = {NAMED: "named", NOTHING: "no discrepancy", LOCATED: "located"}
 
 
 def render(subject: Subject) -> Markup:

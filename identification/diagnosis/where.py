@@ -1,0 +1,95 @@
+"""Where model and measurement disagree: on which joint, over which variable, in which region of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from identification.diagnosis.finding import Finding
+from identification.diagnosis.lack_of_fit import Lack, lack_of_fit
+from identification.diagnosis.loop import Search
+from identification.diagnosis.views import View, strongest, views
+
+#: Part of the residual's variance that a variable must order to be a signature.
+_ORDERED = 0.05
+#: Part of what the strongest variable orders that the variable of a finding must order.
+_LEADS = 0.25
+#: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
+#: motor's phase other orders cancel.
+_SHOWN = ("q", "q by direction", "qd", "qdd", "load")
+
+
+@dataclass(frozen=True)
+class Where:
+    """Where model and measurement disagree most: ``joint`` (number, 0 if nowhere), ``variable``, its region in words.
+
+    ``shares`` are the parts of that joint's residual that each variable orders. ``lack`` is each joint's.
+    """
+
+    joint: int
+    variable: str
+    region: str
+    shares: Mapping[str, float]
+    lack: tuple[Lack, ...]
+    views: Mapping[int, tuple[View, ...]]
+
+
+def seen(found: Search, weights: Mapping[int, float]) -> Where:
+    """What values of columns by number leave of each joint, without a verdict on where that is most."""
+    bank = found.bank
+    numbers = [joint.number for joint in bank.scenes[0].robot.moving]
+    everything = range(len(bank.runs))
+    lacks, shown = [], {}
+    for k, number in enumerate(numbers):
+        white = [bank.residual(r, k, weights) for r in everything]
+        lacks.append(lack_of_fit(bank.runs, white, k, number))
+        raw = [bank.residual(r, k, weights, white=False) for r in everything]
+        shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
+    return Where(0, "", "", {}, tuple(lacks), shown)
+
+
+def located(seen: Where, among: Sequence[Lack]) -> Where:
+    """With the joint of ``among`` that lacks most, and what orders its residual."""
+    if not among:
+        return seen
+    worst = max(among, key=lambda one: one.size)
+    variable, shares = strongest(mine := seen.views[worst.joint])
+    region = _region(mine, variable)
+    if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:
+        run, t = worst.burst
+        variable, region = "time", f"once, at {t:.2f} s of {Path(run).name}"
+    return replace(seen, joint=worst.joint, variable=variable, region=region, shares=shares)
+
+
+def led(before: Where, first: Finding) -> Where:
+    """With the joint of the leading finding, which has been told from all others, and with its variable.
+
+    Another variable that orders far more of the residual stays where means over the finding's would show it.
+    """
+    joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
+    joint = first.hypothesis.joint or joints[0]
+    ordering, shares = strongest(before.views[joint])
+    variable = first.hypothesis.variable or ordering
+    if variable in _SHOWN and shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
+        variable = ordering
+    region = _region(before.views[joint], variable)
+    return replace(before, joint=joint, variable=variable, region=region, shares=shares)
+
+
+def _region(found: Sequence[View], variable: str) -> str:
+    """The bins that stand out of the noise's band, in words."""
+    parts = []
+    for one in found:
+        if one.variable != variable:
+            continue
+        out = np.abs(one.mean) - one.band
+        if not len(out) or out.max() <= 0:
+            continue
+        at = one.centre[out > 0.5 * out.max()]
+        way = {-1: " moving backward", 0: "", 1: " moving forward"}[one.direction]
+        span = f"{at.min():.3g} to {at.max():.3g}" if len(at) > 1 else f"about {at[0]:.3g}"
+        parts.append(f"{variable} {span} {one.unit}{way}")
+    return "; ".join(parts)

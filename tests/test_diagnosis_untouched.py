@@ -1,0 +1,28 @@
+"""What untouched runs say against a new model is told."""
+
+from __future__ import annotations
+
+from identification.diagnosis.untouched import Untouched, objections
+from identification.residuals import Residual
+
+
+def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
+    """Of 100 rows with a spread of 50 N m rms."""
+    one, other = (Residual(100, 10 * rms, 600.0, 500.0) for rms in (before, after))
+    return Untouched(one, other, floor)
+
+
+def test_a_model_that_leaves_noise_meets_no_objection() -> None:
+    assert objections({1: tried(1.02, 1.03), 2: tried(30.0, 1.4)}) == []
+
+
+def test_a_joint_that_got_worse_is_told() -> None:
+    assert objections({1: tried(1.4, 1.81), 2: tried(5.0, 1.0)}) == [
+        "the new model explains the untouched runs less well on joint 1 (2.8 % before, 3.62 % after)"
+    ]
+
+
+def test_joints_that_keep_more_than_noise_are_told() -> None:
+    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)})
+    where = "on joint 1 (40 %, noise 2 %), joint 2 (53.5 %, noise 2 %)"
+    assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")

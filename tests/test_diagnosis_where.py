@@ -1,0 +1,63 @@
+"""The joint and the variable that a diagnosis points at."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.lack_of_fit import Lack
+from identification.diagnosis.views import View
+from identification.diagnosis.where import Where, led, located
+
+
+def view(joint: int, variable: str, share: float) -> View:
+    """Means of which one stands out, at 0.5."""
+    mean = np.array([0.0, 0.0, 3.0, 0.0])
+    centre = np.array([-0.5, 0.0, 0.5, 1.0])
+    return View(joint, variable, "rad", 0, centre, mean, np.ones(4), np.full(4, 50), share)
+
+
+def seen(*lacks: Lack) -> Where:
+    shown = {one.joint: (view(one.joint, "q", 0.27), view(one.joint, "qd", 0.12), view(one.joint, "load", 0.04),
+                          view(one.joint, "time", 0.0))
+             for one in lacks}  # fmt: skip
+    return Where(0, "", "", {}, lacks, shown)
+
+
+BY_CHANCE = Lack(1, 1.4, 0.01, 0.6, True)
+SIGNIFICANT = Lack(2, 1.2, 1e-9, 0.4, True)
+EVENT = Lack(3, 1.0, 0.5, 0.0, True, ("A.csv", 12.4))
+
+
+def test_the_largest_of_those_that_count_is_told() -> None:
+    found = located(seen(BY_CHANCE, SIGNIFICANT, EVENT), [SIGNIFICANT, EVENT])
+    assert (found.joint, found.variable) == (2, "q")
+    assert found.region == "q 0.5 to 0.5 rad"
+    assert found.shares == {"q": 0.27, "qd": 0.12, "load": 0.04, "time": 0.0}
+    assert found.lack == (BY_CHANCE, SIGNIFICANT, EVENT)
+
+
+def test_where_none_counts_it_is_nowhere() -> None:
+    found = located(seen(BY_CHANCE, SIGNIFICANT), [])
+    assert (found.joint, found.variable, found.region, found.shares) == (0, "", "", {})
+
+
+def test_an_event_is_told_with_its_time_where_nothing_orders_the_residual() -> None:
+    one = Where(0, "", "", {}, (EVENT,), {3: (view(3, "q", 0.01),)})
+    found = located(one, [EVENT])
+    assert (found.joint, found.variable, found.region) == (3, "time", "once, at 12.40 s of A.csv")
+
+
+def finding(variable: str) -> Any:
+    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2, variable=variable))
+
+
+@pytest.mark.parametrize(
+    ("variable", "told"), [("qd", "qd"), ("load", "q"), ("time", "time"), ("frequency", "frequency"), ("", "q")]
+)
+def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
+    found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable))
+    assert (found.joint, found.variable) == (2, told)

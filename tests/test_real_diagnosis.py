@@ -1,0 +1,75 @@
+"""Recordings of real robots, where they are at hand: effects that were taken out of the robot file are named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from generator.robot.readers import read
+from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NAMED, Diagnosis
+from identification.diagnosis.mending import Mended
+from identification.diagnosis.played import together
+from tests.commands import ROOT
+from tests.test_real_runs import DATA, TEST, TRAIN, A, B, data
+
+pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no recordings of real robots in ../shared/data")
+
+
+def without(robot: str, folder: Path, *effects: str) -> Path:
+    """The robot's file without some of its effects, and without the values of a gas balancer that is one of them."""
+    path, kept, skipping = folder / f"{robot}.yaml", [], False
+    for line in (ROOT / "robots" / f"{robot}.yaml").read_text(encoding="utf-8").splitlines():
+        item = line.lstrip().startswith("- ")
+        skipping = any(f"effect: {one}" in line for one in effects) if item else skipping and line.startswith("    ")
+        if not skipping and not ("gas_balancer" in effects and line.lstrip().startswith("F02:")):
+            kept.append(line)
+    path.write_text("\n".join(kept) + "\n", encoding="utf-8")
+    return path
+
+
+def diagnosis(path: Path, wanted: Request) -> tuple[Diagnosis, Mended | None]:
+    found, new, _ = diagnosed(path, read(path), wanted, path.parent / "out", lambda *about: {})
+    return found, new
+
+
+def left(new: Mended | None) -> tuple[float, float]:
+    """||e||/||Y - mean(Y)|| of the runs that test in %, before and after."""
+    assert new is not None
+    before, after = (together(played).total.relative_to_mean for played in (new.before, new.after))
+    return before, after
+
+
+FRICTION = {(effect, (joint,)) for effect in ("viscous_friction", "coulomb_friction") for joint in range(1, 7)}
+
+
+def test_friction_payload_and_balancer_of_a_heavy_arm_are_named(tmp_path: Path) -> None:
+    """About 150 kg are mounted, which the set does not know."""
+    path = without("kr300", tmp_path, "viscous_friction", "coulomb_friction", "gas_balancer")
+    found, new = diagnosis(path, Request(data(A, B), prior="a_priori"))
+    assert found.verdict == NAMED
+    named = {(one.hypothesis.effect, one.joints): one for one in found.findings}
+    balancer = {key for key in named if key[0] in ("gas_balancer", "spring_balancer")}
+    assert {joints for _, joints in balancer} == {(2,)}
+    assert len(balancer) == 1
+    assert set(named) == FRICTION | {("payload", (1, 2, 3, 4, 5, 6))} | balancer
+    (one,) = (named[key] for key in balancer)
+    assert "gas_balancer" in {one.hypothesis.effect, *(other.effect for other in one.alternatives)}
+    before, after = left(new)
+    assert before > 100
+    assert after < 9
+
+
+def test_a_free_fit_says_that_it_cannot_see_the_balancer(tmp_path: Path) -> None:
+    found, _ = diagnosis(without("kr300", tmp_path, "gas_balancer"), Request(data(A, B), dry=True))
+    assert ("gas_balancer", 2) in {(one.effect, one.joint) for one in found.invisible}
+
+
+def test_a_coupled_wrist_is_named(tmp_path: Path) -> None:
+    found, new = diagnosis(without("tx40", tmp_path, "coupled_rotor"), Request(data(TRAIN), test=data(TEST)))
+    (one,) = (one for one in found.findings if one.hypothesis.effect == "coupled_rotor")
+    assert one.joints == (5, 6)
+    before, after = left(new)
+    assert before > 12
+    assert after < 8
