@@ -154,6 +154,7 @@ def test_a_dry_run_says_where_and_no_more(named: Case) -> None:
     words = Case(dry, None, report(dry)).words
     assert "nothing was named. Joint 1 keeps more than noise, over qd" in words
     assert "no effect of the library explains" not in words
+    assert "Ranking of the candidates" not in words
     nowhere = replace(dry, before=dry.after)
     assert "nothing was named. No joint keeps more than noise." in Case(nowhere, None, report(nowhere)).words
 

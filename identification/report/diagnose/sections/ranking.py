@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from generator.review.markup import Content, Markup, element, join, table
 from identification.diagnosis.bank import Variant
+from identification.diagnosis.diagnosis import LOCATED
 from identification.diagnosis.evidence import Evidence
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
@@ -18,7 +19,9 @@ ORDER = 60
 _LISTED = 12
 
 
-def render(subject: Subject) -> Markup:
+def render(subject: Subject) -> Markup | None:
+    if subject.found.verdict == LOCATED:
+        return None
     weighing = subject.found.found.weighing
     chosen = [one.evidence.variant for one in subject.found.found.choices]
     tables = {"before anything is named": _table(weighing.evidence([]), chosen)}
