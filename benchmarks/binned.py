@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from generator.review.markup import Markup, element
 from generator.review.svg import pixel, points, svg, text
+from generator.review.words import minus
 
 _WIDTH, _HEIGHT = 720.0, 300.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 70.0, 20.0, 48.0, 44.0
 _COLOURS = ("#3f7fbf", "#d98032")
-_TICKS = 5
+#: Steps between ticks at most.
+_TICKS = 6
 _STYLE = """
 text { font: 13px system-ui, sans-serif; fill: #24292f; }
 .title { font-weight: 600; } .tick { font-size: 11.5px; }
@@ -33,6 +36,13 @@ class Curve:
     after: bool = False
 
 
+def _ticks(low: float, high: float) -> list[float]:
+    """Round numbers from ``low`` to ``high``, with ``_TICKS`` steps at most."""
+    power = 10.0 ** math.floor(math.log10((high - low) / _TICKS))
+    step = next(power * k for k in (1, 2, 5, 10) if power * k * _TICKS >= high - low)
+    return [round(k * step, 12) for k in range(math.ceil(low / step), math.floor(high / step) + 1)]
+
+
 def binned(title: str, across: str, upward: str, curves: Sequence[Curve], band: Sequence[float]) -> str:
     """``curves`` with a grey band of half width ``band`` at the x of the first one."""
     xs = [x for one in curves for x in one.x]
@@ -49,17 +59,18 @@ def binned(title: str, across: str, upward: str, curves: Sequence[Curve], band: 
         text(0, _TOP - 12, upward, kind="name", anchor="start"),
         text(_WIDTH - _RIGHT, _HEIGHT - 6, across, kind="name", anchor="end"),
     ]
-    for i in range(_TICKS):
-        x, y = low + (high - low) * i / (_TICKS - 1), down + (up - down) * i / (_TICKS - 1)
-        (along, _), (_, above) = place(x, down), place(low, y)
+    for y in _ticks(down, up):
+        _, above = place(low, y)
         drawn.append(element("path", class_="grid", d=f"M {pixel(_LEFT)} {pixel(above)} H {pixel(_WIDTH - _RIGHT)}"))
-        drawn.append(text(_LEFT - 6, above + 4, f"{y:.3g}", kind="tick", anchor="end"))
-        drawn.append(text(along, _HEIGHT - _BOTTOM + 17, f"{x:.3g}", kind="tick"))
+        drawn.append(text(_LEFT - 6, above + 4, minus(f"{y:g}"), kind="tick", anchor="end"))
+    for x in _ticks(low, high):
+        along, _ = place(x, down)
+        drawn.append(text(along, _HEIGHT - _BOTTOM + 17, minus(f"{x:g}"), kind="tick"))
     first = curves[0]
     upper = [place(x, b) for x, b in zip(first.x, band, strict=True)]
     lower = [place(x, -b) for x, b in zip(first.x, band, strict=True)]
     drawn.append(element("polygon", class_="band", points=points([*upper, *reversed(lower)])))
-    start = _LEFT + 150
+    start = _LEFT + 45
     for one in curves:
         colour = _COLOURS[one.colour % len(_COLOURS)]
         line = [place(x, y) for x, y in zip(one.x, one.mean, strict=True)]

@@ -116,18 +116,16 @@ def numbers(found: Diagnosis) -> str:
     rows: list[dict[str, object]] = []
     truth = {name: one.value for name, one in PARAMETERS.items()} | {"vs": 0.05, "exponent": 1.0}
     for one in found.findings:
-        values = {name: (value.value, f"{value.std:.2g}") for name, value in one.parameters.items()}
-        values |= {name: (value, "") for name, value in one.shape.items()}
-        for name, (value, std) in values.items():
-            rows.append(
-                {
-                    "effect": one.hypothesis.title,
-                    "parameter": name,
-                    "hidden": f"{truth[name]:g}" if name in truth else "",
-                    "found": f"{value:.4g}",
-                    "std": std,
-                }
-            )
+        rows += [
+            {
+                "effect": one.hypothesis.title,
+                "parameter": each.name,
+                "hidden": f"{truth[each.name]:g}" if each.name in truth else "",
+                "found": f"{each.value:.4g}",
+                "std": "" if each.std is None else f"{each.std:.2g}",
+            }
+            for each in one.told
+        ]
     return table(rows)
 
 

@@ -61,6 +61,11 @@ class Run:
     notes: tuple[str, ...] = ()
 
     @property
+    def file(self) -> str:
+        """The file's name, without folders and without the part that was taken."""
+        return _parsed(self.name)[0].name
+
+    @property
     def samples(self) -> int:
         """N."""
         return int(self.q.shape[-1])

@@ -79,7 +79,7 @@ def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
     assert result["unexplained"] is None
     assert set(found["parameters"]) >= {"Fqc2", "Fqs2"}
     assert "firm             " in hidden.done.out
-    assert "on 2" in hidden.done.out
+    assert "on joint 2" in hidden.done.out
     assert "Traceback" not in hidden.done.err
 
 

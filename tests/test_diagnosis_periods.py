@@ -113,13 +113,14 @@ def test_what_is_said_is_kept() -> None:
     found = roles([recorded("A"), recorded("B")], [recorded("C")], [recorded("D"), recorded("E")])
     assert (found.train, found.validate, found.test) == (("A", "B"), ("C",), ("D", "E"))
     assert found.notes == ()
+    assert found.untouched
 
 
 def test_the_last_of_many_runs_tests_and_the_others_predict_each_other() -> None:
     runs = [recorded(name) for name in "ABC"]
     both = roles(runs, [], [])
     assert (both.train, both.validate, both.test, both.known) == (("A", "B"), (), ("C",), ("A", "B"))
-    assert both.notes[0].startswith("C tests")
+    assert both.notes[0].startswith("C, the last run, tests")
     one = roles(runs, [], [recorded("T")])
     assert (one.train, one.validate, one.test) == (("A", "B", "C"), (), ("T",))
     other = roles(runs, [recorded("V")], [])
@@ -145,6 +146,7 @@ def test_the_ends_of_two_runs_test_without_overlap(validate: list[str]) -> None:
 def test_short_runs_test_too_and_that_is_said() -> None:
     found = roles([recorded("A"), recorded("B")], [], [])
     assert found.test == found.known == found.train == ("A", "B")
+    assert not found.untouched
     assert "tells nothing new" in found.notes[0]
 
 

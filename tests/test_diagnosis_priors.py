@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.readers import read
+from identification.diagnosis.normal import Prior
 from identification.diagnosis.priors import prior_of
 from identification.observation import Motion, Regressors
 from tests.newton_euler import Arm
@@ -116,3 +117,14 @@ def test_an_unknown_set_is_refused(regressors: Regressors) -> None:
         prior_of(regressors.model, "drawings")
     assert "no parameter set 'drawings'" in str(refused.value)
     assert "drawing" in str(refused.value)
+
+
+def test_what_is_added_and_not_known_takes_its_direction_out_of_the_prior() -> None:
+    """The limit of a large standard deviation; a direction that was unknown before changes nothing."""
+    prior = Prior(np.zeros(3), np.diag([4.0, 9.0, 0.0]))
+    direction = np.array([1.0, 2.0, 0.5])
+    unknown, large = (prior.shifted(direction, 0.7, std) for std in (np.inf, 1e6))
+    assert unknown.precision == pytest.approx(large.precision, abs=1e-9)
+    assert direction @ unknown.precision @ direction == pytest.approx(0.0, abs=1e-12)
+    assert prior.shifted(np.array([0.0, 0.0, 1.0]), 0.7, np.inf).precision == pytest.approx(prior.precision)
+    assert prior.shifted(direction, 0.7, 0.0).precision == pytest.approx(prior.precision)

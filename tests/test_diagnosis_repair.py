@@ -70,6 +70,16 @@ def test_an_effect_with_the_same_values_on_several_joints_is_one_entry() -> None
     assert len(effects_of(found.robot)) == len(effects_of(robot_of(text_of("kr500"), "x"))) + 5
 
 
+def test_the_comment_tells_every_joint_of_an_effect_once() -> None:
+    found = repair(
+        "kr500",
+        Addition(EFFECT, "asymmetric_viscous", (3,), evidence="a name, firm", amplitude={3: 20.0}),
+        Addition(EFFECT, "asymmetric_viscous", (1,), evidence="a name, firm", amplitude={1: 1234.5}),
+    )
+    comment = "  # a name, firm: rms torque 1.23e+03 N m on joint 1, 20 N m on joint 3"
+    assert added(text_of("kr500"), found.text)[0] == comment
+
+
 def test_an_effect_that_is_there_is_not_written_twice() -> None:
     found = repair("kr500", Addition(EFFECT, "gas_balancer", (2,), {"l0": 1.0}), Addition(EFFECT, "offset", (1, 3)))
     assert found.text == text_of("kr500")

@@ -10,10 +10,13 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING, UNEXPLAINED
+from identification.diagnosis.finding import Told
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.untouched import rms
+from identification.outcome import Value
 from identification.report.diagnose.report import report
 from identification.report.diagnose.subject import Subject
+from identification.report.diagnose.words import values, verdict
 from identification.report.numbers import plain
 from tests.diagnosed_arm import NOISE, STAYS, Case, case
 from tests.reports import Page
@@ -31,9 +34,12 @@ def test_the_words_name_effect_joint_and_how_sure_it_is(named: Case) -> None:
     assert f"The model lacks {one.hypothesis.title} on joint 1" in named.words
     value = one.parameters["Fst1"].value
     assert value is not None
-    assert f"Fst1 = {plain(value, 4)} ± " in named.words
+    assert f"Fst1 = {plain(value, one.told[0].digits)} ± " in named.words
     assert f"It is {one.status}" in named.words
-    assert "of the gap between the two, in squares, is closed" in named.words
+    tried = Subject(named.found, named.after).tried[1]
+    within = rms(tried.after) <= tried.floor
+    assert ("that is not more than the noise" in named.words) == within
+    assert ("of the gap between the two, in squares, is closed" in named.words) != within
 
 
 def test_the_untouched_run_is_measured_against_noise(named: Case) -> None:
@@ -62,7 +68,7 @@ def test_every_section_of_a_finding_is_there(named: Case) -> None:
     for title in (
         "Where: lack of fit of each joint", "Where: residual over position, speed, load, time", "What is missing",
         "Where: spectrum of the residual", "Ranking of the candidates", "From the start to the noise",
-        "Before and after on untouched runs", "What changed in the robot file", "Parameters of the new model",
+        "Before and after on the runs that test", "What changed in the robot file", "Parameters of the new model",
         "Invisible on this data", "Runs and method",
     ):  # fmt: skip
         assert title in named.words, title
@@ -74,12 +80,63 @@ def test_every_section_of_a_finding_is_there(named: Case) -> None:
     assert report(named.found, named.after) == named.page
 
 
+@pytest.mark.parametrize(
+    ("value", "std", "written"),
+    [
+        (2051.527, 9.84, "2051.5"),
+        (0.0529644, 0.00137, "0.053"),
+        (40913.9, 69430.0, "41000"),
+        (-0.003514, 0.000459, "-0.00351"),
+        (1.25, None, "1.25"),
+        (1.25, math.inf, "1.25 (not shown by these runs)"),
+    ],
+)
+def test_a_value_is_written_as_far_as_it_is_known(value: float, std: float | None, written: str) -> None:
+    """The last digit is the second one of the standard deviation; two are written at least."""
+    assert Told("a", value, std, "1").text("").startswith(f"{written} +- " if std and std < math.inf else written)
+
+
+def test_what_stands_at_its_bound_has_no_deviation(named: Case) -> None:
+    one = replace(named.found.findings[0], parameters={"Fst1": Value(0.0, 0.0, "N m")})
+    first = one.told[0]
+    assert (first.value, first.std, first.at_bound) == (0.0, None, True)
+    assert "Fst1 = 0\u00a0N\u00a0m (at its bound)" in values(one)
+
+
+def test_an_effect_on_several_joints_is_told_once(named: Case) -> None:
+    one = named.found.findings[0]
+    other = replace(one, joints=(2,), hypothesis=replace(one.hypothesis, joint=2, joints=(2,)))
+    both = Case(found := replace(named.found, findings=(other, one)), None, report(found))
+    assert f"The model lacks {one.hypothesis.title} on joints 1 and 2." in both.words
+    apart = replace(named.found, findings=(replace(other, status="tentative"), one))
+    assert f"lacks {one.hypothesis.title} on joint 2 and {one.hypothesis.title} on joint 1." in " ".join(
+        verdict(Subject(apart))
+    )
+
+
+def test_a_shape_that_the_runs_do_not_tell_is_said(named: Case) -> None:
+    one = named.found.findings[0]
+    assert one.determined
+    assert "one by one" not in named.words
+    vague = replace(one, shape_std={"vs": 2 * one.shape["vs"]})
+    case = Case(found := replace(named.found, findings=(vague,)), None, report(found))
+    assert "The runs tell its torque, but not these values one by one" in case.words
+
+
+def test_runs_that_were_fitted_are_not_called_untouched(named: Case) -> None:
+    assert "On the untouched runs " in named.words
+    roles = replace(named.found.roles, known=named.found.roles.test)
+    case = Case(found := replace(named.found, roles=roles), named.after, report(found, named.after))
+    assert "On the runs that were fitted " in case.words
+    assert "Runs that nothing looked at before" not in case.words
+
+
 def test_a_right_model_is_said_to_be_right(tmp_path: Path) -> None:
     one = case(tmp_path, "nothing")
     assert one.found.verdict == NOTHING
     assert "The model explains these runs" in one.words
     assert "What is missing" not in one.words
-    assert "Before and after on untouched runs" not in one.words
+    assert "Before and after on the runs that test" not in one.words
 
 
 def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:

@@ -2,8 +2,9 @@
 
 Runs are as in `counterpoise identify`; FILE@FROM:TO takes a part of one, with times in s. Periodic motion with several
 periods a run is best. RUN are fitted, --validate holds the fit to account, --test is touched by nothing before the
-report; where one is missing, runs or parts of runs take its place. DIR receives diagnosis.json, report.html, the new
-robot file and the code generated from it.
+report. Without --validate each run is held against what the others predict; without --test the last of three runs or
+more tests, else the end of each. DIR receives diagnosis.json, report.html, the new robot file and the code generated
+from it.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from generator.resources import find_robot
 
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
+    from identification.diagnosis.finding import Told
     from identification.diagnosis.mending import Mended
     from identification.diagnosis.where import Where
 
@@ -66,7 +68,7 @@ def tested(new: Mended | None) -> list[str]:
     for kind, played in (("before", new.before), ("after", new.after)):
         found = together(played)
         each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.per_joint.items()))
-        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} % ({each})")
+        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %, by joint {each}")
     return lines
 
 
@@ -77,19 +79,21 @@ def summary(found: Diagnosis) -> list[str]:
     if found.before.joint:
         lines.append(f"where            {_place(found.before)}")
     for one in found.findings:
-        joints = ", ".join(map(str, one.joints))
-        lines.append(f"{one.status:<16} {one.hypothesis.title} on {joints}")
-        for name, value in one.parameters.items():
-            lines.append(f"                 {name} {value.value:.6g} +- {value.std:.2g} {value.unit}")
-        for name, number in one.shape.items():
-            std = f" +- {one.shape_std[name]:.2g}" if name in one.shape_std else ""
-            lines.append(f"                 {name} {number:.4g}{std}")
+        lines.append(f"{one.status:<16} {one.hypothesis.named}")
+        lines += [f"                 {_value(each)}" for each in one.told]
+        if not one.determined:
+            lines.append("                 the runs tell its torque, but not these values one by one")
         for other in one.alternatives:
-            text = f"or {other.title} on {', '.join(map(str, other.joints))}; apart by: {other.separating_experiment}"
+            text = f"or {other.named}; apart by: {other.separating_experiment}"
             lines.append(f"                 {text}")
     if found.after.joint:
         lines.append(f"unexplained      {_place(found.after)}")
     return lines
+
+
+def _value(one: Told) -> str:
+    """``vs 0.053 +- 0.0014 rad/s``."""
+    return f"{one.name} {one.text('' if one.unit == '1' else f' {one.unit}')}"
 
 
 def _place(where: Where) -> str:

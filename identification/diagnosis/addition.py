@@ -13,7 +13,7 @@ NEVER = 1e6
 
 @dataclass(frozen=True)
 class Addition:
-    """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below; ``evidence`` is a line for people.
+    """``kind`` as in ``hypothesis``; ``values`` [SI] of the file, see below.
 
     - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones, and the joints' ``warm_up_time`` where the
       file has none.
@@ -25,6 +25,7 @@ class Addition:
     - BODY: a payload, which base parameters hold; the file's text does not change.
 
     ``parameters`` [SI] are values of the model's parameters that come with it and that no rigid fit shows.
+    ``evidence`` is a line for people, ``amplitude`` the rms of its torque [N m, N] by the joint's number.
     """
 
     kind: str
@@ -33,10 +34,15 @@ class Addition:
     values: Mapping[str, float] = field(default_factory=dict)
     parameters: Mapping[str, float] = field(default_factory=dict)
     evidence: str = ""
+    amplitude: Mapping[int, float] = field(default_factory=dict)
 
 
 def addition(
-    one: Hypothesis, shape: Mapping[str, float], coefficients: Mapping[str, float], evidence: str = ""
+    one: Hypothesis,
+    shape: Mapping[str, float],
+    coefficients: Mapping[str, float],
+    evidence: str = "",
+    amplitude: Mapping[int, float] | None = None,
 ) -> Addition:
     """What a hypothesis becomes with its shape and the values of its coefficients by name."""
     found = [coefficients[each.name] for each in one.coefficients]
@@ -57,7 +63,7 @@ def addition(
         values, parameters = _elastic(one, found[0], {**one.given, **shape})
     else:
         values = dict(coefficients)
-    return Addition(one.kind, one.effect, joints, values, parameters, evidence)
+    return Addition(one.kind, one.effect, joints, values, parameters, evidence, amplitude or {})
 
 
 def measured(offered: Sequence[Hypothesis]) -> list[Addition]:

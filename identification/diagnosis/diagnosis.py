@@ -117,9 +117,8 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 
 
 def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
-    notes = [run.note for run in runs if run.note]
+    notes = list(dict.fromkeys(run.note for run in runs if run.note))
     for one in found:
         if not one.homogeneous:
-            joints = ", ".join(map(str, one.joints))
-            notes.append(f"{one.hypothesis.title} on {joints} differs between the runs: it drifts, or is chance")
+            notes.append(f"{one.hypothesis.named} differs between the runs: it drifts, or is chance")
     return notes

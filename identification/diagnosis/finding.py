@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.decimals import scientific
 from identification.diagnosis.evidence import Evidence
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
@@ -18,11 +20,17 @@ from identification.outcome import Value
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
+#: Relative standard deviation of a shape beyond which runs do not tell it.
+_VAGUE = 0.5
+#: Significant digits of a value without a standard deviation, and most of one with it.
+_DIGITS, _MOST = 4, 6
 #: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
 _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
     "speed",
     frozenset(("stribeck_friction", "lugre_friction")): "slow reversals at different accelerations",
+    frozenset(("gas_balancer", "spring_balancer")): "motion over the joint's whole range: gas stiffens as it is "
+    "compressed, a spring does not",
     frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
     frozenset(("load_friction", "position_friction")): "the same motion with another payload",
     frozenset(
@@ -33,13 +41,46 @@ _SEPARATING: Mapping[frozenset[str], str] = {
 
 @dataclass(frozen=True)
 class Alternative:
-    """Another effect that this data cannot tell from the one that was named."""
+    """Another effect that this data cannot tell from the one that was named; ``named`` says it in words."""
 
     effect: str
     title: str
     joints: tuple[int, ...]
+    named: str
     score: float
     separating_experiment: str
+
+
+@dataclass(frozen=True)
+class Told:
+    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``,
+    infinite for what the runs do not show.
+    """
+
+    name: str
+    value: float
+    std: float | None
+    unit: str
+    at_bound: bool = False
+
+    @property
+    def digits(self) -> int:
+        """Significant digits of the value, of which the standard deviation leaves the last two uncertain."""
+        if not self.std or not self.value or not math.isfinite(self.std):
+            return _DIGITS
+        before = math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.std))
+        return min(max(before + 2, 2), _MOST)
+
+    def text(self, unit: str, plus_minus: str = "+-") -> str:
+        """Value and standard deviation with the unit as it is written: ``0.053 +- 0.0014 rad/s``."""
+        std = "" if self.std in (None, math.inf) else f" {plus_minus} {_written(self.std or 0.0, 2)}"
+        remark = " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
+        return f"{_written(self.value, self.digits)}{std}{unit}{remark}"
+
+
+def _written(x: float, digits: int) -> str:
+    """Without a power of ten down to 1e-4, as small times are read."""
+    return f"{x:.{digits}g}" if 1e-4 <= abs(x) < 1e-3 else scientific(x, digits)
 
 
 @dataclass(frozen=True)
@@ -60,6 +101,25 @@ class Finding:
     amplitude: Mapping[int, float]
     shape_std: Mapping[str, float]
     homogeneous: bool = True
+
+    @property
+    def told(self) -> tuple[Told, ...]:
+        """Coefficients, then the shape."""
+        units = {shape.name: shape.unit for shape in self.hypothesis.shapes}
+        coefficients = [
+            Told(name, one.value, one.std or None, one.unit, not one.value and not one.std)
+            for name, one in self.parameters.items()
+            if one.value is not None
+        ]
+        shape = [
+            Told(name, value, self.shape_std.get(name), units.get(name, "1")) for name, value in self.shape.items()
+        ]
+        return (*coefficients, *shape)
+
+    @property
+    def determined(self) -> bool:
+        """Whether the runs tell its values one by one, and not only the torque that they make together."""
+        return all(std <= _VAGUE * abs(self.shape[name]) for name, std in self.shape_std.items())
 
 
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
@@ -101,7 +161,7 @@ def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
         or _SEPARATING.get(frozenset((mine.effect, one.effect)))
         or (one.would_show if one.would_show else "more motion of the joint: other ranges, speeds and loads")
     )
-    return Alternative(one.effect, one.title, one.joints or (one.joint,), other.score, experiment)
+    return Alternative(one.effect, one.title, one.joints or (one.joint,), one.named, other.score, experiment)
 
 
 def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:

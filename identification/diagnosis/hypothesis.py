@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.words import listed, ranges
 from identification.diagnosis.scene import Scene
 from identification.outcome import Value
 
@@ -82,9 +83,20 @@ class Hypothesis:
     measured: Mapping[str, Value] = field(default_factory=dict)
 
     @property
+    def named(self) -> str:
+        """``Stribeck friction on joint 3``; what sits on no joint by its title alone."""
+        return f"{self.title} on {on_joints(self.joints or (self.joint,))}" if self.joint else self.title
+
+    @property
     def variants(self) -> list[dict[str, float]]:
         """All combinations of the shapes' first grids; one empty dictionary where there are none."""
         result: list[dict[str, float]] = [dict(self.given)]
         for shape in self.shapes:
             result = [{**one, shape.name: x} for one in result for x in shape.grid()]
         return result
+
+
+def on_joints(numbers: Iterable[int]) -> str:
+    """``joint 2``, ``joints 1 to 4 and 6``."""
+    several = sorted(set(numbers))
+    return f"joint{'s' if len(several) > 1 else ''} {listed(ranges(several).split(', '))}"

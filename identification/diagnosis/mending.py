@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,14 +18,14 @@ from identification.diagnosis.finding import Finding
 from identification.diagnosis.hypothesis import BODY
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Played, Player, aligned, compiled, play
-from identification.diagnosis.prepared import prepared
+from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.untouched import objections, untouched
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
-from identification.sampling import Sampled, sampled
+from identification.sampling import Sampled
 
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
@@ -99,8 +99,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
 
 def _addition(one: Finding) -> Addition:
     values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
-    size = ", ".join(f"{rms:.3g} on joint {joint}" for joint, rms in sorted(one.amplitude.items()))
-    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}: rms torque {size}")
+    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
 def _description(found: Sequence[Finding]) -> str:
@@ -118,17 +117,17 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
     return prior
 
 
-def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
+def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
+    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
     robot = regressors.model.robot
     recipe = recipes.recipe_of(robot.name)
-    runs = [load(source, robot, recipe.columns, resting=True) for source in sources]
-    # Parts of runs that were split may be too short for the filters of an identification.
-    enough = [run for run in runs if run.samples >= recipe.at(run.rate).fewest]
-    return [sampled(run, recipe, regressors) for run in enough or runs]
+    for source in sources:
+        yield prepared(load(source, robot, recipe.columns, resting=True), recipe, regressors)
+
+
+def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
+    return [one.sampled for one in _prepared(sources, regressors)]
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
-    robot = player.regressors.model.robot
-    recipe = recipes.recipe_of(robot.name)
-    runs = (load(source, robot, recipe.columns, resting=True) for source in sources)
-    return tuple(play(prepared(one, recipe, player.regressors), player, values) for one in runs)
+    return tuple(play(one, player, values) for one in _prepared(sources, player.regressors))

@@ -49,9 +49,12 @@ class Prior:
         return np.asarray(np.pad(self.whole, (0, 1))[np.ix_(*place)])
 
     def shifted(self, direction: Array, value: float, std: float) -> Prior:
-        """With ``value`` times a direction (p) added to the parameters, known with a standard deviation."""
+        """With ``value`` times a direction (p) added to the parameters, known with a standard deviation, or not at all
+        where that is infinite.
+        """
         weighted = self.precision @ direction
-        lost = np.outer(weighted, weighted) * std**2 / (1 + std**2 * float(direction @ weighted))
+        variance = float(direction @ weighted) + (std**-2 if std else np.inf)
+        lost = np.outer(weighted, weighted) / variance if variance else 0.0
         return Prior(self.mean + direction * value, self.precision - lost)
 
 

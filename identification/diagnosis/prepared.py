@@ -41,7 +41,8 @@ class Prepared:
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
     ``period`` is that of the motion in rows, 0 where it is no whole number of them; ``repeats`` is that in samples, 0
-    where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out.
+    where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of
+    ``sampled`` too.
     """
 
     sampled: Sampled
@@ -58,7 +59,7 @@ class Prepared:
         """Why no periods of the run are compared; empty where they are."""
         if self.period:
             return ""
-        name, factor = self.sampled.run.name, self.sampled.filters.factor
+        name, factor = self.sampled.run.file, self.sampled.filters.factor
         less = "noise is told from the model's faults less well"
         if not self.repeats:
             return f"the motion of {name} does not repeat: {less}"
@@ -121,4 +122,4 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
     rows = period // factor if period and period % factor == 0 else 0
-    return Prepared(one, t, tau, kept, unsettled, rows, slow, period)
+    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow, period)

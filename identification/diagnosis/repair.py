@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -15,7 +15,7 @@ from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.diagnosis.addition import NEVER, Addition
-from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
+from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
 #: Time constant [s] of joints whose warmth nothing reads.
@@ -48,7 +48,7 @@ class Repaired:
 
 
 def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
-    """The robot file ``text`` with all additions; an effect on several joints with the same values is one entry.
+    """The robot file ``text`` with all additions; an effect on joints with the same values and evidence is one entry.
 
     ``file`` is its name in messages. An effect that a joint has already is left as it is, and told.
 
@@ -62,21 +62,20 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
 
 
 def _grouped(additions: Sequence[Addition]) -> list[Addition]:
-    """Effects with the same values put together, in the order of their first."""
+    """Effects with the same values and evidence put together, in the order of their first."""
 
     def key(one: Addition) -> tuple[object, ...]:
         if one.kind != EFFECT:
             return one.kind, one.effect, one.joints
-        return one.kind, one.effect, *sorted((name, _number(value)) for name, value in one.values.items())
+        return one.kind, one.effect, one.evidence, *sorted((name, _number(value)) for name, value in one.values.items())
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
     for _, group in groupby(sorted(additions, key=lambda one: first[key(one)]), key):
         each = list(group)
         joints = tuple(sorted({joint for one in each for joint in one.joints}))
-        evidence = "; ".join(dict.fromkeys(one.evidence for one in each if one.evidence))
-        same = each[0]
-        result.append(Addition(same.kind, same.effect, joints, same.values, same.parameters, evidence))
+        amplitude = {joint: rms for one in each for joint, rms in one.amplitude.items()}
+        result.append(replace(each[0], joints=joints, amplitude=amplitude))
     return result
 
 
@@ -92,7 +91,14 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
-    return with_item(text, "effects", entry, _plain(one.evidence)), notes
+    return with_item(text, "effects", entry, _comment(robot, one)), notes
+
+
+def _comment(robot: Robot, one: Addition) -> str:
+    """``title, firm: rms torque 5 N m on joint 1``."""
+    units = {joint.number: "N" if joint.sigma == PRISMATIC else "N m" for joint in robot.moving}
+    sizes = ", ".join(f"{rms:.3g} {units[joint]} on joint {joint}" for joint, rms in sorted(one.amplitude.items()))
+    return _plain(f"{one.evidence}: rms torque {sizes}" if sizes else one.evidence)
 
 
 def _values(effect: Effect, joint: Joint, shape: Mapping[str, float]) -> str:
@@ -106,7 +112,8 @@ def _values(effect: Effect, joint: Joint, shape: Mapping[str, float]) -> str:
 def _add_signal(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     for key, value in one.values.items():
         text = _with_signal(text, robot, key, value, one.joints)
-    return text, []
+    note = f"{one.effect} is in section signals of the robot file: it corrects recorded runs, generated code lacks it"
+    return text, [note]
 
 
 def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequence[int]) -> str:
@@ -135,7 +142,7 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     if one.effect == "gear_ratio":
         for number in one.joints:
             text = _with_ratio(text, robot, number, one.values["gear_ratio"])
-        return text, []
+        return text, [f"gear_ratio is in section drives of the robot file, changed on {on_joints(one.joints)}"]
     drift = [float(part) for part in drives.torque_drift] or [0.0] * len(robot.moving)
     for k, joint in enumerate(robot.moving):
         drift[k] += one.values["torque_drift"] if joint.number in one.joints else 0.0
@@ -143,7 +150,7 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     for key, value in one.values.items():
         if key != "torque_drift":
             text = _with_signal(text, robot, key, value, one.joints)
-    return text, []
+    return text, ["torque_drift is in sections drives and signals of the robot file"]
 
 
 def _with_ratio(text: str, robot: Robot, joint: int, factor: float) -> str:
@@ -174,7 +181,9 @@ def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     turn = Rotation.from_rotvec([one.values.get(f"tilt_{axis}", 0.0) for axis in "xyz"])
     pose = Rotation.from_matrix(np.array(robot.base[:3, :3].evalf(), dtype=float))
     angles = ", ".join(f"{angle:.9g} rad" for angle in (turn * pose).as_euler("xyz").tolist())
-    return with_value(text, ("base", "rotation"), f"[{angles}]"), []
+    return with_value(text, ("base", "rotation"), f"[{angles}]"), [
+        "the tilt of the base is in section base of the robot file"
+    ]
 
 
 def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -183,7 +192,7 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
     if not one.values.get("gap"):
         return text, []
-    return _add_effect(text, robot, Addition(EFFECT, "joint_elasticity", one.joints, one.values, evidence=one.evidence))
+    return _add_effect(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
 
 
 def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

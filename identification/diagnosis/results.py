@@ -65,19 +65,13 @@ def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:
 
 
 def _finding(one: Finding) -> dict[str, Any]:
-    shapes = {shape.name: shape.unit for shape in one.hypothesis.shapes}
     return {
         "effect": one.hypothesis.effect,
         "title": one.hypothesis.title,
         "joints": list(one.joints),
         "status": one.status,
-        "parameters": {
-            **{name: {"value": v.value, "std": v.std, "unit": v.unit} for name, v in one.parameters.items()},
-            **{
-                name: {"value": value, "std": one.shape_std.get(name), "unit": shapes.get(name, "")}
-                for name, value in one.shape.items()
-            },
-        },
+        "parameters": {each.name: {"value": each.value, "std": each.std, "unit": each.unit} for each in one.told},
+        "determined": one.determined,
         "amplitude": {str(number): value for number, value in one.amplitude.items()},
         "evidence": {
             "drop": one.evidence.drop,

@@ -36,6 +36,11 @@ class Roles:
     known: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
+    @property
+    def untouched(self) -> bool:
+        """Whether nothing but the test reads what tests."""
+        return not set(self.test) & set(self.known)
+
 
 def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
     """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.
@@ -51,7 +56,7 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     ends: dict[str, float] = {}
     if tested and not test and len(fit) >= _APART:
         last = (fit[-1],)
-        notes.append(f"{fit[-1]} tests: it is touched by nothing before the report")
+        notes.append(f"{data[-1].file}, the last run, tests: it is touched by nothing before the report")
         del fitted[-1]
     elif tested and not test:
         last = tuple(_tail(run) for run in data)

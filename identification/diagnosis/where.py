@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -59,7 +60,7 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
     region = _region(mine, variable)
     if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:
         run, t = worst.burst
-        variable, region = "time", f"once, at {t:.2f} s of {run}"
+        variable, region = "time", f"once, at {t:.2f} s of {Path(run).name}"
     return replace(seen, joint=worst.joint, variable=variable, region=region, shares=shares)
 
 
@@ -89,5 +90,6 @@ def _region(found: Sequence[View], variable: str) -> str:
             continue
         at = one.centre[out > 0.5 * out.max()]
         way = {-1: " moving backward", 0: "", 1: " moving forward"}[one.direction]
-        parts.append(f"{variable} {at.min():.3g} to {at.max():.3g} {one.unit}{way}")
+        span = f"{at.min():.3g} to {at.max():.3g}" if len(at) > 1 else f"about {at[0]:.3g}"
+        parts.append(f"{variable} {span} {one.unit}{way}")
     return "; ".join(parts)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
-from generator.review.words import listed, unit
+from generator.review.words import listed, minus, unit
 from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
-from identification.diagnosis.finding import FIRM, Finding
+from identification.diagnosis.finding import FIRM, Finding, Told
+from identification.diagnosis.hypothesis import on_joints
+from identification.diagnosis.played import together
+from identification.diagnosis.untouched import rms
 from identification.diagnosis.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
@@ -16,26 +18,35 @@ from identification.report.numbers import plain
 _LEAST_P = 1e-12
 
 
-def joints(numbers: Sequence[int]) -> str:
-    """``joint 2``, ``joints 5 and 6``, or the whole robot."""
-    if not any(numbers):
-        return "the whole robot"
-    return f"joint{'s' if len(numbers) > 1 else ''} {listed(map(str, numbers))}"
-
-
 def values(one: Finding) -> str:
-    """Parameters with their uncertainty, then the shape: ``Fs2 = 5.1 ± 0.1 N m, vs = 0.15 rad/s``."""
-    told = []
-    for name, value in one.parameters.items():
-        if value.value is not None:
-            text = f"{name} = {plain(value.value, 4)} ± {plain(value.std, 2)}"
-            told.append(text if value.unit == "1" else f"{text}\u00a0{unit(value.unit)}")
-    units = {shape.name: shape.unit for shape in one.hypothesis.shapes}
-    for name, number in one.shape.items():
-        symbol = units.get(name, "1")
-        text = f"{name} = {plain(number, 4)}"
-        told.append(text if symbol == "1" else f"{text}\u00a0{unit(symbol)}")
-    return ", ".join(told)
+    """Parameters with their uncertainty, then the shape: ``Fs2 = 5.1 ± 0.1 N m, vs = 0.15 ± 0.01 rad/s``."""
+    return ", ".join(map(_value, one.told))
+
+
+def _value(one: Told) -> str:
+    symbol = "" if one.unit == "1" else f"\u00a0{unit(one.unit)}"
+    return f"{one.name} = {minus(one.text(symbol, '±'))}"
+
+
+def alike(found: Sequence[Finding]) -> list[list[Finding]]:
+    """Findings together of which the same is to be said but for joints and numbers: an effect on several joints."""
+    groups: dict[tuple[object, ...], list[Finding]] = {}
+    for one in found:
+        own = one.joints if one.alternatives or not one.homogeneous or not one.determined else ()
+        groups.setdefault((one.hypothesis.effect, one.hypothesis.title, one.status, own), []).append(one)
+    return [sorted(group, key=lambda one: one.joints) for group in groups.values()]
+
+
+def named(group: Sequence[Finding]) -> str:
+    """Findings that are alike, by their title and joints."""
+    if len(group) == 1:
+        return group[0].hypothesis.named
+    return f"{group[0].hypothesis.title} on {on_joints(number for one in group for number in one.joints)}"
+
+
+def capitalised(text: str) -> str:
+    """As a sentence begins."""
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 def chance(p: float) -> str:
@@ -60,49 +71,60 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.verdict == LOCATED:
         yield "This was only to look where model and measurement disagree: nothing was named."
         if found.before.joint:
-            yield f"Joint {found.before.joint} keeps more than noise, {_ordered(subject, found.before)}."
+            yield f"Joint {found.before.joint} keeps more than noise, {_ordered(found.before)}."
         else:
             yield "No joint keeps more than noise."
         return
-    where = found.after
     yield "Something is missing in the model that no effect of the library explains:"
-    yield f"joint {where.joint} keeps more than noise, {_ordered(subject, where)}."
+    yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
 
 
-def finding(subject: Subject, one: Finding) -> Iterator[str]:
-    """How much, and how sure, of one effect."""
-    yield f"{one.hypothesis.title[:1].upper()}{one.hypothesis.title[1:]} on {joints(one.joints)}: {values(one)}."
+def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
+    """How much, and how sure, of one effect, on one joint or on several."""
+    one, several = group[0], len(group) > 1
+    yield f"{capitalised(named(group))}: {', '.join(map(values, group))}."
+    if not one.determined:
+        yield "The runs tell its torque, but not these values one by one: others make nearly the same."
     amplitude = [
         f"{plain(rms, 3)}\u00a0{unit(subject.torque_units[number])} on joint {number}"
-        for number, rms in sorted(one.amplitude.items(), key=lambda pair: -pair[1])[:3]
+        for each in group
+        for number, rms in sorted(each.amplitude.items(), key=lambda pair: -pair[1])[:3]
     ]
+    sizes = sorted(each.evidence.size for each in group)
+    size = f"{plain(sizes[0], 2)} to {plain(sizes[-1], 2)}" if several else plain(sizes[0], 2)
     yield f"Its torque is {listed(amplitude)} (rms); what of it nothing else in the model can stand for is"
-    yield f"{plain(one.evidence.size, 2)} times the noise."
-    e = one.evidence
-    yield f"It is {one.status}: chance would explain as much with a probability {_probability(e.p)}, and the sum of"
-    yield f"squares of runs that were not fitted falls by {plain(e.validation, 3)}, in variances of the noise."
+    yield f"{size} times the noise."
+    p, validation = max(each.evidence.p for each in group), min(each.evidence.validation for each in group)
+    least = " or more for each joint" if several else ""
+    yield f"It is {one.status}: chance would explain as much with a probability {_probability(p)}, and the sum of"
+    yield f"squares of runs that were not fitted falls by {plain(validation, 3)}{least}, in variances of the noise."
     if one.alternatives:
-        others = [f"{other.title} on {joints(other.joints)}" for other in one.alternatives]
+        others = [other.named for other in one.alternatives]
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
-        yield "No other effect of the library would do in its place."
+        yield f"No other effect of the library would do in its place{' on any of them' if several else ''}."
     if not one.homogeneous:
         yield "Its size differs between the runs: it drifts, or is chance."
 
 
 def change(subject: Subject) -> Iterator[str]:
-    """What naming it changed on the untouched runs."""
+    """What naming it changed on the runs that test."""
     tried = subject.tried
-    if not tried or not subject.found.findings:
+    if not tried or not subject.found.findings or subject.mended is None:
         return
+    totals = [together(played).total.relative_to_mean for played in (subject.mended.before, subject.mended.after)]
+    was, now = (f"{plain(one, 3)}\u202f%" for one in totals)
+    yield f"On the {tested(subject)} {now} of the torques' spread is left, instead of {was}."
     acted = [number for number in subject.found.findings[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
-        yield f"On the untouched runs joint {number} is left with {after}\u202f% of its torque's spread, instead of"
-        yield f"{before}\u202f%;"
+        yield f"Joint {number} is left with {after}\u202f%, instead of {before}\u202f%;"
+        if rms(one.after) <= one.floor:
+            yield "that is not more than the noise that was measured on the fitted runs."
+            continue
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
         if one.closed is not None:
             yield f"{plain(100 * one.closed, 3)}\u202f% of the gap between the two, in squares, is closed."
@@ -118,18 +140,21 @@ def mode(subject: Subject) -> str:
     )
 
 
-def shortened(subject: Subject, text: str) -> str:
-    """A text with the runs' names without their folders."""
-    for run in subject.found.runs:
-        text = text.replace(run.sampled.run.name, Path(run.sampled.run.name).name)
-    return text
+def tested(subject: Subject) -> str:
+    """The runs that test, by whether anything looked at them before."""
+    return "untouched runs" if subject.found.roles.untouched else "runs that were fitted"
 
 
 def _named(found: Sequence[Finding]) -> str:
-    return listed(f"{one.hypothesis.title} on {joints(one.joints)}" for one in found)
+    return listed(_with_alternatives(group) for group in alike(found))
 
 
-def _ordered(subject: Subject, where: Where) -> str:
+def _with_alternatives(group: Sequence[Finding]) -> str:
+    others = [other.named for other in group[0].alternatives]
+    return f"{named(group)} (or {' or '.join(others)})" if others else named(group)
+
+
+def _ordered(where: Where) -> str:
     if not where.variable:
         return "and no variable orders it"
-    return f"over {where.variable}" + (f" ({shortened(subject, where.region)})" if where.region else "")
+    return f"over {where.variable}" + (f" ({where.region})" if where.region else "")

@@ -2,43 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from generator.review.markup import Content, Markup, element, join, table
 from identification.diagnosis.finding import Finding
 from identification.report.diagnose.subject import Subject
-from identification.report.diagnose.words import chance, joints, values
-from identification.report.numbers import plain
-from identification.report.told import facts
+from identification.report.diagnose.words import capitalised, chance, values
+from identification.report.numbers import number
 
 TITLE = "What is missing"
 ORDER = 50
 
+_HEADS = ("effect", "values", "", "seen over", "size", "p", "fitted", "others")
+
 
 def render(subject: Subject) -> Markup | None:
-    if not subject.found.findings:
+    findings = subject.found.findings
+    if not findings:
         return None
-    return join([list(_finding(one)) for one in subject.found.findings])
-
-
-def _finding(one: Finding) -> Iterator[Markup]:
-    title = one.hypothesis.title
-    yield element("h3", f"{title[:1].upper()}{title[1:]} on {joints(one.joints)}: {one.status}")
-    e = one.evidence
-    yield facts(
-        {
-            "effect": one.hypothesis.effect,
-            "values": values(one),
-            "seen over": one.hypothesis.variable or "no single variable",
-            "size": f"{plain(e.size, 3)} times the noise, beside all that the model can fit",
-            "chance": f"{chance(e.p)}, for all shapes that were tried",
-            "fitted runs": f"the sum of squares falls by {plain(e.drop, 4)} variances of the noise",
-            "other runs": f"it falls by {plain(e.validation, 4)} on runs that were not fitted",
-        }
+    text = (
+        "The size is in the noise's rms, beside all that the model can fit. p is the probability that chance explains"
+        " as much, for all shapes that were tried. The last columns are by how much the sum of squares falls, in"
+        " variances of the noise, on the fitted runs and on runs that were not fitted."
     )
-    if one.alternatives:
-        rows: list[list[Content]] = [
-            [other.title, joints(other.joints), plain(other.score, 4), other.separating_experiment]
-            for other in one.alternatives
-        ]
-        yield table(("or else", "on", "evidence", "what would tell them apart"), rows, class_="remarks")
+    found = table(_HEADS, [_row(one) for one in findings], class_="remarks")
+    return join(element("p", text), found, [_alternatives(one) for one in findings if one.alternatives])
+
+
+def _row(one: Finding) -> list[Content]:
+    e = one.evidence
+    sizes = [number(e.size, 3), chance(e.p), number(e.drop, 4), number(e.validation, 4)]
+    return [capitalised(one.hypothesis.named), values(one), one.status, one.hypothesis.variable or "–", *sizes]
+
+
+def _alternatives(one: Finding) -> Markup:
+    rows: list[list[Content]] = [
+        [capitalised(other.named), number(other.score, 4), other.separating_experiment] for other in one.alternatives
+    ]
+    title = element("h3", f"What may stand in the place of {one.hypothesis.named}")
+    return join(title, table(("effect", "evidence", "what would tell them apart"), rows, class_="remarks"))

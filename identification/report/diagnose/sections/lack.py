@@ -14,6 +14,11 @@ from identification.report.series import numbers
 TITLE = "Where: lack of fit of each joint"
 ORDER = 20
 
+_NONE = (
+    "No joint keeps more than the noise. On short runs that do not repeat, the noise holds part of what the model"
+    " lacks; candidates tell more."
+)
+
 
 def render(subject: Subject) -> Markup:
     found = subject.found
@@ -43,5 +48,9 @@ def render(subject: Subject) -> Markup:
         for one, other in zip(found.before.lack, found.after.lack, strict=True)
     ]  # fmt: skip
     heads = ("joint", "before: ratio", "p", "size", "with the findings: ratio", "p", "size", "")
-    picture = chart(bars, layout, "Lack of fit of each joint before and after", height=250)
+    picture = (
+        chart(bars, layout, "Lack of fit of each joint before and after", height=250)
+        if any(one.size for one in found.before.lack)
+        else element("p", _NONE)
+    )
     return join(element("p", text), picture, table(heads, rows, class_="numbers"))

@@ -10,7 +10,7 @@ from identification.diagnosis.diagnosis import LOCATED
 from identification.diagnosis.evidence import Evidence
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
-from identification.report.diagnose.words import chance, joints
+from identification.report.diagnose.words import chance
 from identification.report.numbers import NONE, number
 
 TITLE = "Ranking of the candidates"
@@ -45,10 +45,9 @@ def _table(ranked: Sequence[Evidence], chosen: Sequence[Variant]) -> Markup:
         hypothesis = one.variant.hypothesis
         is_named = (hypothesis.effect, hypothesis.joint) in named
         remark = element("b", "named") if is_named else element("span", one.why_not or "passes", class_="faint")
-        where = joints(hypothesis.joints or (hypothesis.joint,))
         # Of what is within chance nothing else is looked at.
         validation = number(one.validation, 4) if one.validation else NONE
         sizes = [number(one.score, 4), number(one.drop, 4), validation, number(one.size, 2), chance(one.p)]
-        rows.append([str(place), f"{hypothesis.title}, {where}", *sizes, remark])
+        rows.append([str(place), hypothesis.named, *sizes, remark])
     heads = ("", "effect", "evidence", "fitted", "others", "size", "p", "")
     return table(heads, rows, class_="ranking") if rows else element("p", "Nothing in the library explains anything.")

@@ -24,7 +24,7 @@ def render(subject: Subject) -> Markup:
     }
     periods = {Path(one.sampled.run.name).name: _period(one) for one in found.runs}
     about = {
-        "untouched": ", ".join(found.roles.test) or "none",
+        "tests": ", ".join(Path(one).name for one in found.roles.test) or "none",
         "noise": "autoregressive, measured joint by joint and run by run",
         "evidence": "chi-squared beyond all that was tried, a drop on runs that were not fitted, bounds of physics",
         "mode": found.mode,

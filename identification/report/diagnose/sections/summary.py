@@ -22,12 +22,11 @@ _VERDICTS = {NAMED: "named", NOTHING: "no discrepancy", LOCATED: "located"}
 def render(subject: Subject) -> Markup:
     mended = () if subject.mended is None else subject.mended.notes
     return join(
-        element("p", " ".join(words.verdict(subject)), class_="verdict"),
-        [element("p", " ".join(words.finding(subject, one))) for one in subject.found.findings],
-        element("p", " ".join(words.change(subject))) if subject.tried else None,
+        element("p", " ".join([*words.verdict(subject), *words.change(subject)]), class_="verdict"),
+        [element("p", " ".join(words.finding(subject, group))) for group in words.alike(subject.found.findings)],
         element("p", words.mode(subject)),
         element("div", list(_cards(subject)), class_="cards results"),
-        notes([words.shortened(subject, one) for one in (*subject.found.notes, *mended)]),
+        notes([*subject.found.notes, *mended]),
     )
 
 
@@ -38,9 +37,12 @@ def _cards(subject: Subject) -> Iterator[Markup]:
         yield card(f"joint {found.before.joint}", "disagrees most", f"over {found.before.variable or 'no variable'}")
     worst = max(found.before.lack, key=lambda one: one.size)
     left = max(found.after.lack, key=lambda one: one.size)
-    yield card(f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs")
+    if worst.size:
+        yield card(
+            f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs"
+        )
     if subject.tried:
         number = max(subject.tried, key=lambda k: rms(subject.tried[k].before) - rms(subject.tried[k].after))
         one = subject.tried[number]
         change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
-        yield card(change, f"left on joint {number}", "untouched runs, of the spread")
+        yield card(change, f"left on joint {number}", f"{words.tested(subject)}, of the spread")

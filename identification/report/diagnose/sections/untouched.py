@@ -1,4 +1,4 @@
-"""The untouched runs, played through the code of the old and the new model."""
+"""The runs that test, played through the code of the old and the new model."""
 
 from __future__ import annotations
 
@@ -12,15 +12,18 @@ from identification.report.fit_chart import fit_chart
 from identification.report.numbers import NONE, number, percent
 from identification.report.series import numbers, points_each
 
-TITLE = "Before and after on untouched runs"
+TITLE = "Before and after on the runs that test"
 ORDER = 80
+
+_KNOWN = "These runs were fitted too: how the models do on new motion is not shown."
 
 
 def render(subject: Subject) -> Markup | None:
     if not subject.tested:
         return None
+    new = "Runs that nothing looked at before." if subject.found.roles.untouched else _KNOWN
     text = (
-        "Runs that nothing looked at before. The model after is the new robot file's, regenerated; its parameters come"
+        f"{new} The model after is the new robot file's, regenerated; its parameters come"
         " from the fitted runs alone. The noise is what was measured on the other runs, at these rows' rate."
     )
     seen = [joint for joint in subject.numbers if joint in subject.tried]
@@ -38,14 +41,14 @@ def _bars(subject: Subject) -> Markup:
     )
     data = [{"type": "bar", "name": n, "x": names, "y": numbers(y), "marker": {"color": c}} for n, c, y in kinds]
     layout = {"xaxis": axis(""), "yaxis": axis("residual of the spread", "%"), "bargap": 0.3}
-    return chart(data, layout, "Residual of the untouched runs before and after, beside the noise", height=260)
+    return chart(data, layout, "Residual of the runs that test before and after, beside the noise", height=260)
 
 
 def _table(subject: Subject) -> Markup:
     rows: list[list[Content]] = []
     for joint, one in subject.tried.items():
         symbol = f"\u202f{unit(subject.torque_units[joint])}"
-        closed = NONE if one.closed is None else percent(100 * one.closed)
+        closed = NONE if one.closed is None else percent(100 * min(one.closed, 1.0))
         sizes = [[number(value, 4), symbol] for value in (rms(one.before), rms(one.after), one.floor)]
         rows.append(
             [str(joint), *sizes, percent(one.before.relative_to_mean), percent(one.after.relative_to_mean), closed]

@@ -7,7 +7,6 @@ import numpy as np
 from generator.review.markup import Markup, element, join
 from identification.report.chart import ESTIMATED, INK, MEASURED, RESIDUAL, axis, chart
 from identification.report.diagnose.subject import Subject
-from identification.report.diagnose.words import joints
 from identification.report.series import numbers
 
 TITLE = "From the start to the noise"
@@ -30,7 +29,7 @@ def render(subject: Subject) -> Markup | None:
         variant = one.evidence.variant
         columns += variant.columns
         levels.append(every.misfit(columns, every.solution(columns)[0]))
-        names.append(f"{variant.hypothesis.title}, {joints(variant.hypothesis.joints or (variant.hypothesis.joint,))}")
+        names.append(variant.hypothesis.named)
     sizes = np.sqrt(np.array(levels) / max(every.rows, 1))
     steps = np.diff(sizes)
     data = {
@@ -56,7 +55,7 @@ def render(subject: Subject) -> Markup | None:
         "annotations": [{**place, "text": "noise", "showarrow": False}],
     }
     text = (
-        "White residual, all joints together, of all runs but the untouched ones: as the model was, then with one"
-        " finding after the other, parameters fitted anew each time. 1 is noise alone."
+        "White residual, all joints together, of the runs that are fitted and that validate: as the model was, then"
+        " with one finding after the other, parameters fitted anew each time. 1 is noise alone."
     )
     return join(element("p", text), chart([data], layout, TITLE, height=120 + _BAR * (len(names) + 1)))
