@@ -35,7 +35,7 @@ EVENT = Lack(3, 1.0, 0.5, 0.0, True, ("A.csv", 12.4))
 def test_the_largest_of_those_that_count_is_told() -> None:
     found = located(seen(BY_CHANCE, SIGNIFICANT, EVENT), [SIGNIFICANT, EVENT])
     assert (found.joint, found.variable) == (2, "q")
-    assert found.region == "q 0.5 to 0.5 rad"
+    assert found.region == "q about 0.5 rad"
     assert found.shares == {"q": 0.27, "qd": 0.12, "load": 0.04, "time": 0.0}
     assert found.lack == (BY_CHANCE, SIGNIFICANT, EVENT)
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from benchmarks.diagnosis_study.drawing import MODES, cells
 from benchmarks.diagnosis_study.page import JSON, tables, write
-from benchmarks.diagnosis_study.runner import Plan, run
+from benchmarks.diagnosis_study.runner import Plan, kept, run
 
 
 def main() -> int:
@@ -27,10 +27,11 @@ def main() -> int:
     told = parser.parse_args()
     wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
     plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
-    results = []
+    made = []
     for one in run(plan):
-        results.append(one)
+        made.append(one)
         print(_line(one), flush=True)
+    results = made if told.development else kept()
     found = tables(results)
     if told.development:
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))

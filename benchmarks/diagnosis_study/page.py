@@ -30,6 +30,7 @@ def tables(results: Sequence[summary.Result]) -> dict[str, Any]:
         "laws": summary.rows_of_laws(results),
         "numbers": summary.rows_of_numbers(results),
         "baselines": rows_of_simpler_ways(results),
+        "limits": summary.detection_limits(results),
         "power": {
             law: [{"size": size, "hits": one.hits, "count": one.count} for size, one in curve]
             for law, curve in summary.power(results).items()
@@ -65,6 +66,8 @@ def page(found: Mapping[str, Any]) -> str:
         parts += [
             "## Power",
             "![Share of cases in which an effect is named, over its size](images/diagnosis_power.svg)",
+            "Detection limit: the smallest size of the curve from which on at least nine of ten cases are named.",
+            table(found["limits"]),
         ]
     return "\n\n".join(_filled(part) for part in parts if part) + "\n"
 

@@ -26,12 +26,13 @@ from benchmarks.diagnosis_study.runs import FITTED, NAMES
 from benchmarks.diagnosis_study.scoring import scored
 from benchmarks.diagnosis_study.sizing import OutOfReach
 from tests.plant.robot_file import PRIOR
+from tests.plant.simulate import RanAway
 
 ROOT = Path(__file__).parents[2]
 #: Where results of cases are kept, by the code that they came from.
 RESULTS = ROOT / "build" / "diagnosis_study"
 #: What a result depends on.
-_SOURCES = ("generator", "identification", "tests/plant", "benchmarks/diagnosis_study")
+_SOURCES = ("generator", "identification", "templates", "tests/plant", "benchmarks/diagnosis_study")
 #: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
 MISMATCH = 0.05
 #: Seconds after which a diagnosis counts as broken.
@@ -76,7 +77,7 @@ def result(
         folder = keep or Path(temporary)
         try:
             done = made(case)
-        except (OutOfReach, ValueError) as error:
+        except (OutOfReach, RanAway) as error:
             return {"case": case.record(), "skipped": str(error)}
         done.write(folder)
         start = time.perf_counter()
@@ -91,14 +92,17 @@ def result(
         return record
 
 
-def folder_of_results() -> Path:
-    """The folder of RESULTS for the code as it is: what another code answered does not count."""
+def folder_of_results(reserved: bool = True) -> Path:
+    """The folder of RESULTS for the code as it is: what another code answered does not count.
+
+    Cases of the development, without ``reserved`` laws, have one of their own: they are other draws.
+    """
     digest = sha256()
     for source in _SOURCES:
         for file in sorted((ROOT / source).rglob("*")):
-            if file.suffix in (".py", ".c", ".in", ".h", ".json"):
+            if file.is_file() and "__pycache__" not in file.parts:
                 digest.update(file.read_bytes())
-    return RESULTS / digest.hexdigest()[:16]
+    return RESULTS / (digest.hexdigest()[:16] + ("" if reserved else "_development"))
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,7 @@ def run(plan: Plan) -> Iterator[dict[str, Any]]:
 
     Cells take turns, so that a study that is stopped has some of each.
     """
-    folder = folder_of_results()
+    folder = folder_of_results(plan.reserved)
     folder.mkdir(parents=True, exist_ok=True)
     end = time.monotonic() + 60 * plan.minutes
     draws = _DRAWS * plan.count
@@ -138,6 +142,12 @@ def run(plan: Plan) -> Iterator[dict[str, Any]]:
                     if "skipped" not in one:
                         counted[one["case"]["cell"], one["case"]["mode"]] += 1
                     yield one
+
+
+def kept() -> list[dict[str, Any]]:
+    """Every result that there is of the code as it is, whichever study made it."""
+    files = sorted(folder_of_results().glob("*.json"))
+    return [json.loads(file.read_text(encoding="utf-8")) for file in files]
 
 
 def _batched(items: list[Any], size: int) -> Iterator[list[Any]]:

@@ -13,6 +13,9 @@ from benchmarks.diagnosis_study.runner import MISMATCH
 from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
 
+#: Share of cases in which an effect must be named to be called detected.
+_NEARLY_ALWAYS = 0.9
+
 Result = Mapping[str, Any]
 Row = dict[str, object]
 
@@ -107,6 +110,20 @@ def power(results: Sequence[Result]) -> dict[str, list[tuple[float, Share]]]:
             if flags:
                 curves.setdefault(law, []).append((size, share(flags)))
     return curves
+
+
+def detection_limits(results: Sequence[Result]) -> list[Row]:
+    """For each law of the power curve the smallest size from which on it is nearly always named, in torque too."""
+    rows: list[Row] = []
+    for law, curve in power(results).items():
+        weak = [size for size, one in curve if one.hits < _NEARLY_ALWAYS * one.count]
+        strong = [size for size, _ in curve if size > max(weak, default=0.0)]
+        limit = f"{strong[0]:g}" if strong else f"above {curve[-1][0]:g}"
+        at = strong[0] if strong else curve[-1][0]
+        hidden = [one["truth"]["hidden"][0] for mode in MODES for one in of(results, f"power_{at:g}x", mode)]
+        torque = median(one["torque"] for one in hidden if one["law"] == law)
+        rows.append({"law": law, "size over the noise": limit, "rms torque there, median, N m or N": f"{torque:.3g}"})
+    return rows
 
 
 def counts(results: Sequence[Result]) -> dict[str, int]:

@@ -41,6 +41,10 @@ class Controller:
     longest_step: float = 1.25e-4
 
 
+class RanAway(Exception):
+    """The closed loop did not hold the robot."""
+
+
 def own_effects(robot: Robot) -> tuple[Effect, ...]:
     """Viscous and Coulomb friction and offset of every joint, then the robot's own effects: what it has unless told
     otherwise.
@@ -64,7 +68,7 @@ def make_run(
     """Play a trajectory on a robot with its ``own`` effects (None: all of ``own_effects``) and more ``effects``.
 
     ``seed`` is that of the noise; ``start_time`` [s] is when the log begins on the clock of warm-up, ripple's
-    wandering, collisions. Raises ValueError for rates that do not divide, and where the motion runs away.
+    wandering, collisions. Raises ValueError for rates that do not divide, RanAway where the motion does.
     """
     sensors, controller = sensors or Sensors(), controller or Controller()
     everything = (*(own_effects(robot) if own is None else own), *effects)
@@ -112,7 +116,7 @@ def _play(
         ctypes.byref(plant), step, per_tick, len(qr), per_row, pointer(qr), pointer(qdr), pointer(rows)
     )
     if written < 0:
-        raise ValueError(f"{robot.name} ran away")
+        raise RanAway(f"{robot.name} ran away")
     rows = rows[skipped:-1]
     channels = {name: rows[:, k * n : (k + 1) * n] for k, name in enumerate(_CHANNELS)}
     truth = Truth(**channels, torque=rows[:, len(_CHANNELS) * n :])
