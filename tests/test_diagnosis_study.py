@@ -167,7 +167,8 @@ def record(cell: str, named: list[dict[str, Any]], hidden: list[Hidden], verdict
     """A result as the runner makes it."""
     drawn = Case(cell, "three_axis", FREE, 1, tuple(hidden))
     acting = [
-        {"law": one.law, "joint": one.joint, "joints": [one.joint], "size": 30.0, "invisible": False} for one in hidden
+        {"law": one.law, "joint": one.joint, "joints": [one.joint], "size": 30.0, "torque": 12.0, "invisible": False}
+        for one in hidden
     ]
     truth = {"case": drawn.record(), "mismatch": 0.0, "hidden": acting}
     score = scored(truth, answer(*named, verdict=verdict)).record()
@@ -198,6 +199,7 @@ def test_the_page_says_what_the_results_say() -> None:
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
     assert "| dahl_friction |" in text
     assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}
+    assert "| stribeck | 1 | 12 |" in text
 
 
 def test_the_committed_page_is_of_the_committed_results() -> None:

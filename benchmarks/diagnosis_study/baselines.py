@@ -6,11 +6,13 @@ squares has it; BIC is asked on the white rows of the diagnosis as well. Their n
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pysindy.optimizers import STLSQ
 
 from benchmarks.diagnosis_study.case import KNOWN, Case
 from benchmarks.diagnosis_study.runs import FITTED, NAMES
@@ -24,7 +26,6 @@ from identification.diagnosis.priors import prior_of
 from identification.diagnosis.whitening import Colour
 from identification.observation import Regressors
 from identification.recipe import Recipe
-from tests.plant.robot import Array
 from tests.plant.robot_file import PRIOR
 
 Name = tuple[str, int]
@@ -62,23 +63,24 @@ def held_out(weighing: Weighing, variant: Variant, chosen: list[Variant]) -> flo
 
 
 def sparse(weighing: Weighing) -> list[Name]:
-    """Sequentially thresholded least squares on every candidate's best shape; a name is kept if a coefficient is."""
+    """Sequentially thresholded least squares on every candidate's best shape; a name is kept if a coefficient is.
+
+    PySINDy's, on rows that have the same sums of squares and products as the whitened ones after projection.
+    """
     S, p = weighing.normal.schur, weighing.normal.base
     whole = np.diag(weighing.normal.gram)
     variants = [one.variant for one in weighing.evidence([]) if np.all(whole[list(one.variant.columns)] > 0)]
-    at = np.array(_columns(variants)) - p
+    at = np.array(_columns(variants))
     whose = [k for k, one in enumerate(variants) for _ in one.columns]
-    size = np.sqrt(np.maximum(np.diag(S)[at], 1e-12 * whole[at + p]))
-    A = S[np.ix_(at, at)] / np.outer(size, size)
-    b = S[at, -1] / size / np.sqrt(max(float(S[-1, -1]), 1e-300))
-    kept = np.arange(len(at))
-    x: Array = np.zeros(0)
-    for _ in range(_ROUNDS):
-        x = np.linalg.solve(A[np.ix_(kept, kept)] + _RIDGE * np.eye(len(kept)), b[kept])
-        strong = np.abs(x) >= _THRESHOLD
-        if strong.all():
-            break
-        kept = kept[strong]
+    size = np.sqrt(np.maximum(np.diag(S)[at - p], 1e-12 * whole[at]))
+    torque = np.sqrt(max(float(S[-1, -1]), 1e-300))
+    products = S[np.ix_([*(at - p), -1], [*(at - p), -1])] / np.outer([*size, torque], [*size, torque])
+    values, vectors = np.linalg.eigh(products)
+    rows = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that nothing is kept is an answer
+        fit = STLSQ(threshold=_THRESHOLD, alpha=_RIDGE, max_iter=_ROUNDS).fit(rows[:, :-1], rows[:, -1:])
+    kept = np.flatnonzero(fit.coef_[0])
     return [_name(variants[k]) for k in dict.fromkeys(whose[i] for i in kept)]
 
 

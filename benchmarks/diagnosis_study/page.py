@@ -58,8 +58,8 @@ def page(found: Mapping[str, Any]) -> str:
         "## Parameters and the gap",
         table(found["numbers"]),
         "## Simpler ways on the same runs",
-        "Stepwise BIC, a held-out gate alone and sequentially thresholded least squares (STLSQ) see the rows and "
-        "candidates of the diagnosis, each joint weighted by its noise; BIC is asked on white rows as well.",
+        "Stepwise BIC, a held-out gate alone and sequentially thresholded least squares (PySINDy's STLSQ) see the rows "
+        "and candidates of the diagnosis, each joint weighted by its noise; BIC is asked on white rows as well.",
         table(found["baselines"]),
     ]
     if found["power"]:
