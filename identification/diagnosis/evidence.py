@@ -163,7 +163,7 @@ class Weighing:
         validation = self.gain(variant, others)
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
-        promised = drop * self._held_out.rows / self.normal.rows / (1 + unexplained / self.normal.rows)
+        promised = self._held_out.promise(variant, x, columns_of(others)) / (1 + unexplained / self.normal.rows)
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         share = _SHARE if common(variant) else _RARE_SHARE

@@ -29,27 +29,33 @@ class HeldOut:
             self._turns = [(tuple(one for one in fitted if one != out), fitted) for out in fitted]
         self._inverses: dict[tuple[tuple[int, ...], tuple[int, ...]], Array] = {}
 
-    @property
-    def rows(self) -> int:
-        """How many rows are predicted."""
-        predicted = [set(more) - set(fewer) for fewer, more in self._turns]
-        return sum(int(self._bank.rows(r).sum()) for runs in predicted for r in runs)
-
     def gain(self, variant: Variant, chosen: Sequence[int]) -> float:
         """Drop of the predicted runs' sum of squares with a variant beside the columns ``chosen``."""
-        return sum(
-            self._drop(more, variant, chosen) - self._drop(fewer, variant, chosen) for fewer, more in self._turns
-        )
 
-    def _drop(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> float:
-        """Drop of the sum of squares of some runs, fitted by themselves."""
+        def drop(runs: tuple[int, ...]) -> float:
+            part, size = self._part(runs, variant, chosen)
+            return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
+
+        return sum(drop(more) - drop(fewer) for fewer, more in self._turns)
+
+    def promise(self, variant: Variant, coefficients: Array, chosen: Sequence[int]) -> float:
+        """That drop, if the variant acts with these coefficients."""
+
+        def square(runs: tuple[int, ...]) -> float:
+            part, _ = self._part(runs, variant, chosen)
+            return float(coefficients @ part[:-1, :-1] @ coefficients)
+
+        return sum(square(more) - square(fewer) for fewer, more in self._turns)
+
+    def _part(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> tuple[Array, Array]:
+        """What is left beside ``chosen`` of the products of the variant's columns and the torque over some runs, fitted
+        by themselves; squares of the whole columns.
+        """
         beside = [*range(len(self._bank.base)), *chosen]
         at = [*variant.columns, self._bank.count]
         across = self._products(runs, beside, at)
         own = self._products(runs, at, at)
-        part = own - across.T @ self._inverse(runs, beside) @ across
-        size = np.diag(own)[:-1]
-        return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
+        return own - across.T @ self._inverse(runs, beside) @ across, np.diag(own)[:-1]
 
     def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
         key = (runs, tuple(columns))

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.evidence import Weighing
-from identification.diagnosis.hypothesis import EFFECT, Hypothesis
+from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
 from identification.diagnosis.prepared import Prepared
@@ -71,9 +72,11 @@ def search(
     """
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
+    acting = Acting()
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
-        scenes = [Scene(run.sampled, regressors, values) for run in runs]
+        beside = acting.torque if acting.effects else None
+        scenes = [Scene(run.sampled, regressors, values, acting.coefficients, beside) for run in runs]
         bank = Bank(runs, scenes)
         offered = hypotheses([scenes[r] for r in train])
         for one in offered:
@@ -89,7 +92,8 @@ def search(
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = weighing.normal.solution(columns)
         values = dict(zip(bank.base, solution.tolist(), strict=False))
-        if all(one.hypothesis.kind == EFFECT for one in chosen):
+        acting = Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
+        if not acting.again:
             break
     return Search(bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
 

@@ -17,12 +17,15 @@ Array = NDArray[np.float64]
 _STEP = 1e-4
 
 
-def sensitivity(torque_on: Callable[[Motion], Array], motion: Motion, change: Motion) -> Array:
-    """Torque (n x N) per unit of ``change`` of the motion, by a central difference.
+def sensitivity(torque_on: Callable[[Motion], Array], motion: Motion, change: Motion, about: float = 0.0) -> Array:
+    """Torque (n x N) per unit of ``change`` of the motion, by a central difference; between none and ``about`` times
+    the change where that is known to be near.
 
     ``change`` holds what is added to positions, speeds and accelerations. Speeds and accelerations enter the torque
     up to their squares, but for the signs of friction: the step is small in the positions alone.
     """
+    if about:
+        return (torque_on(_moved(motion, change, about)) - torque_on(motion)) / about
     largest = float(np.abs(change.q).max())
     step = _STEP / largest if largest > 0 else 1.0
     return (torque_on(_moved(motion, change, step)) - torque_on(_moved(motion, change, -step))) / (2 * step)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,12 +24,15 @@ _STILL = 1e-9
 class Scene:
     """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI].
 
-    The model carries the payload that the run's sidecar tells.
+    The model carries the payload that the run's sidecar tells. ``found`` are coefficients by name that an earlier
+    search has found, and ``beside`` the torques (n x N) along a scene of the effects among them.
     """
 
     sampled: Sampled
     regressors: Regressors
     values: Mapping[str, float]
+    found: Mapping[str, float] = field(default_factory=dict)
+    beside: Callable[[Scene], Array] | None = None
 
     @property
     def robot(self) -> Robot:
@@ -85,12 +88,15 @@ class Scene:
 
     @cached_property
     def torque(self) -> Array:
-        """Torques of the model along the motion (n x N) [N m, N]."""
+        """Torques along the motion (n x N) [N m, N], as ``torque_on``."""
         return self.torque_on(self.motion)
 
     def torque_on(self, motion: Motion) -> Array:
-        """Torques of the model along another motion (n x N) [N m, N]."""
-        return self.torque_of(self.values, motion)
+        """Torques along another motion (n x N) [N m, N] of the model and of the effects that were found."""
+        tau = self.torque_of(self.values, motion)
+        if self.beside is not None:
+            tau = tau + self.beside(Scene(replace(self.sampled, motion=motion), self.regressors, self.values))
+        return tau
 
     def torque_of(self, values: Mapping[str, float], motion: Motion) -> Array:
         """Torques of the model with other ``values`` along another motion (n x N) [N m, N]."""
@@ -108,7 +114,7 @@ class Scene:
     def resting(self) -> Array:
         """Torques of the model at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
         still = np.zeros_like(self.motion.q)
-        return self.torque_on(Motion(self.motion.q, still, still))
+        return self.torque_on(replace(self.motion, qd=still, qdd=still, states=None))
 
     @cached_property
     def load(self) -> Array:

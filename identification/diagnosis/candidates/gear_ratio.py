@@ -49,6 +49,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    result = sensitivity(scene.torque_on, scene.motion, scaled(scene, k, -1.0))
-    result[k] -= scene.torque[k]
+    e = scene.found.get(f"gear_ratio_error{scene.robot.moving[k].number}", 0.0)
+    # Positions change by 1 / (1 + e) - 1 = -e / (1 + e).
+    share = 1 / (1 + e)
+    result = share * sensitivity(scene.torque_on, scene.motion, scaled(scene, k, -1.0), share * e)
+    result[k] = share * (result[k] - scene.torque[k])
     return result[None]

@@ -52,4 +52,5 @@ def _hypothesis(k: int, joint: Joint) -> Hypothesis:
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     change = change_of(scene, k, np.ones_like(scene.t))
-    return sensitivity(scene.torque_on, scene.motion, change)[None]
+    about = scene.found.get(f"position_offset{scene.robot.moving[k].number}", 0.0)
+    return sensitivity(scene.torque_on, scene.motion, change, about)[None]

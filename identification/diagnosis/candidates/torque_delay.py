@@ -1,4 +1,4 @@
-"""Torques that are recorded later than positions: tau_recorded(t) = tau(t - s) = tau(t) - s dtau/dt."""
+"""Torques that are recorded later than positions: tau_recorded(t) = tau(t - s), at first tau(t) - s dtau/dt."""
 
 from __future__ import annotations
 
@@ -31,12 +31,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesis:
-    name = "torque_delay" if k is None else f"torque_delay{joint}"
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
         joint,
-        (Coefficient(name, "s", -_LONGEST, _LONGEST),),
+        (Coefficient(_name(None if k is None else joint), "s", -_LONGEST, _LONGEST),),
         partial(_columns, k),
         kind=SIGNAL,
         joints=joints,
@@ -53,8 +52,14 @@ def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesi
     )
 
 
+def _name(joint: int | None) -> str:
+    return "torque_delay" if joint is None else f"torque_delay{joint}"
+
+
 def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
-    late = -scene.rate(scene.torque)
+    s = scene.found.get(_name(None if k is None else scene.robot.moving[k].number), 0.0)
+    tau, t = scene.torque, scene.t
+    late = np.stack([np.interp(t - s, t, row) - row for row in tau]) / s if s else -scene.rate(tau)
     if k is None:
         return late[None]
     result = np.zeros((1, *late.shape))
