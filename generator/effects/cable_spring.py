@@ -15,7 +15,16 @@ EFFECT = Effect(
     parameters=(LinearParameter("kc", ("N m/rad", "N/m"), "stiffness of hoses and cables", 0.0),),
     columns=_columns,
     potential_energy=lambda at: (at.q * (at.q / 2 - at.values["neutral"]),),
-    shapes=(Shape("neutral", "rad", "position where nothing pulls", prismatic="m", tried=(0.0,), relative="range"),),
+    shapes=(
+        Shape(
+            "neutral",
+            "rad",
+            "position where nothing pulls",
+            prismatic="m",
+            tried=(-2.0, -1.0, 0.0, 1.0, 2.0),
+            relative="position",
+        ),
+    ),
     needs=("q",),
     on_link=True,
     sign_convention="the motor supplies kc (q - neutral) against the pull",

@@ -111,12 +111,13 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
 
 
 def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
-    scale = 1.0
+    zero, unit = 0.0, 1.0
     if shape.relative == "speed":
-        scale = float(max(np.abs(scene.motion.qd[k]).max() for scene in scenes))
-    elif shape.relative == "range":
-        scale = float(max(np.ptp(scene.motion.q[k]) for scene in scenes))
-    return tuple(scale * one for one in shape.tried)
+        unit = float(max(np.abs(scene.motion.qd[k]).max() for scene in scenes))
+    elif shape.relative == "position":
+        q = np.concatenate([scene.motion.q[k] for scene in scenes])
+        zero, unit = float(q.max() + q.min()) / 2, float(np.ptp(q)) / 2
+    return tuple(zero + unit * one for one in shape.tried)
 
 
 def _variable(effect: Effect) -> str:
