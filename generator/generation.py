@@ -36,7 +36,7 @@ def generate(
     numbers, and the folder is ``out/<robot's name>_<set>``. Nothing is written before everything has been derived.
     Raises InputError for a bad robot file, a set that it lacks or a folder that cannot be written.
     """
-    with stage(f"reading {robot_file}"):
+    with stage(f"reading {robot_file.name}"):
         robot = read(robot_file)
     with stage(f"deriving the model of {robot.name}"):
         model = derive(robot, plain=plain, parameter_set=parameter_set)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.hypothesis import Hypothesis
@@ -117,7 +118,14 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 
 
 def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
-    notes = list(dict.fromkeys(run.note for run in runs if run.note))
+    unlike: dict[str, list[str]] = {}
+    for run in runs:
+        if run.unlike:
+            unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
+    notes = [
+        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well"
+        for why, names in unlike.items()
+    ]
     for one in found:
         if not one.homogeneous:
             notes.append(f"{one.hypothesis.named} differs between the runs: it drifts, or is chance")

@@ -93,7 +93,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
         Path(GENERATED, found.robot.name),
-        (*(one.evidence for one in aside), *new.notes, *fit.notes, *notes, *against),
+        tuple(dict.fromkeys((*(one.evidence for one in aside), *new.notes, *fit.notes, *notes, *against))),
     )
 
 

@@ -55,16 +55,14 @@ class Prepared:
     repeats: int
 
     @property
-    def note(self) -> str:
+    def unlike(self) -> str:
         """Why no periods of the run are compared; empty where they are."""
         if self.period:
             return ""
-        name, factor = self.sampled.run.file, self.sampled.filters.factor
-        less = "noise is told from the model's faults less well"
         if not self.repeats:
-            return f"the motion of {name} does not repeat: {less}"
-        period = f"the motion of {name} repeats after {self.repeats} samples"
-        return f"{period}, but one in {factor} is looked at: its periods are not compared, and {less}"
+            return "does not repeat"
+        factor = self.sampled.filters.factor
+        return f"repeats after {self.repeats} samples, of which one in {factor} is looked at: periods are not compared"
 
     def decimated(self, x: Array) -> Array:
         """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
