@@ -157,8 +157,9 @@ def test_what_nothing_loads_rubs_not() -> None:
 def test_position_friction(tmp_path: Path) -> None:
     model = arm(tmp_path, "position_friction", "order: 2")
     q = np.array([0.3, 0.3, 0.3, 0.8, 0.8])
-    expected = np.sign(SPEEDS) * (2 * np.cos(2 * q) - 3 * np.sin(2 * q))
-    assert torque(model, {"Fqc1": 2, "Fqs1": -3}, q=q, qd=SPEEDS) == pytest.approx(expected)
+    expected = np.sign(SPEEDS) * (2 * np.cos(2 * q) - 3 * np.sin(2 * q) + 0.4 * np.cos(4 * q) + 0.7 * np.sin(4 * q))
+    values = {"Fqc1": 2, "Fqs1": -3, "Fq2c1": 0.4, "Fq2s1": 0.7}
+    assert torque(model, values, q=q, qd=SPEEDS) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(
@@ -166,15 +167,17 @@ def test_position_friction(tmp_path: Path) -> None:
 )
 def test_ripple_follows_the_motor(tmp_path: Path, effect: str, stem: str, order: int) -> None:
     q = np.linspace(-1, 1, 5)
-    expected = 2 * np.cos(order * q) - 3 * np.sin(order * q)
-    found = torque(arm(tmp_path, effect), {f"{stem}c1": 2, f"{stem}s1": -3}, q=q, qd=SPEEDS)
+    first, second = order * q, 2 * order * q
+    expected = 2 * np.cos(first) - 3 * np.sin(first) + 0.5 * np.cos(second) + 0.7 * np.sin(second)
+    values = {f"{stem}c1": 2, f"{stem}s1": -3, f"{stem}2c1": 0.5, f"{stem}2s1": 0.7}
+    found = torque(arm(tmp_path, effect), values, q=q, qd=SPEEDS)
     assert found == pytest.approx(expected, abs=1e-12)
 
 
 def test_coupled_motors_share_their_ripple_by_equal_power() -> None:
     made = every_effect()
     (wrist,) = (one for one in effects_of(made) if one.effect.id == "motor_ripple" and one.joint.number == 2)
-    cosine, _ = wrist.columns()
+    cosine, *_ = wrist.columns()
     assert set(cosine) == {1, 2}
     assert (cosine[1] / cosine[2]).equals(Rational(5, 4) / Rational(-165, 4))
 

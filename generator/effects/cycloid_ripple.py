@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import Column, Effect, Shape, Site
 from generator.effects.laws import ripple
 from generator.robot.description import REVOLUTE
 
@@ -14,23 +14,19 @@ def _phase(at: Site) -> sympy.Expr:
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
-    cosine, sine = ripple.torque_columns(_phase(at))
-    return at.on_joint(cosine), at.on_joint(sine)
+    return tuple(at.on_joint(one) for one in ripple.torque_columns(_phase(at)))
 
 
 EFFECT = Effect(
     id="cycloid_ripple",
     title="torque ripple of the cycloid",
-    parameters=(
-        LinearParameter("Ryc", ("N m", "N"), "cosine part of the cycloid's ripple, on the joint side"),
-        LinearParameter("Rys", ("N m", "N"), "sine part of the cycloid's ripple, on the joint side"),
-    ),
+    parameters=ripple.parameters("Ry", ("N m", "N"), "the cycloid's ripple, on the joint side"),
     columns=_columns,
     potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"]),
     shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0, tried=(1.0,), whole=True, several=300),),
     kinds=(REVOLUTE,),
     needs=("q",),
-    sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q)",
+    sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q), and so on",
     assumptions="no dependence on the load",
     source=(
         "Blanche and Yang, Cycloid drives with machining tolerances, Journal of Mechanisms, Transmissions and "

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Effect, LinearParameter, Shape
+from generator.effects.effect import Effect, Shape
+from generator.effects.laws import ripple
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
 
@@ -13,10 +14,7 @@ _TRIED = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)
 EFFECT = Effect(
     id="motor_ripple",
     title="torque ripple of the motor",
-    parameters=(
-        LinearParameter("Rmc", ("N m", "N"), "cosine part of the motor's ripple, on the joint side"),
-        LinearParameter("Rms", ("N m", "N"), "sine part of the motor's ripple, on the joint side"),
-    ),
+    parameters=ripple.parameters("Rm", ("N m", "N"), "the motor's ripple, on the joint side"),
     columns=ripple_columns,
     potential_energy=ripple_energy,
     shapes=(
@@ -26,7 +24,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("motor",),
-    sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r), q_r = N q its position",
+    sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r) and so on, q_r = N q its position",
     assumptions="a torque of the position alone: its amplitude does not depend on the current",
     source=(
         "Mattavelli, Tubiana and Zigliotto, Torque-ripple reduction in PM synchronous motor drives using repetitive "

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import Column, Effect, Shape, Site
+from generator.effects.laws import ripple
 from generator.robot.description import REVOLUTE
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
     direction, phase = sympy.sign(at.qd), at.values["order"] * at.q
-    return at.on_joint(direction * sympy.cos(phase)), at.on_joint(direction * sympy.sin(phase))
+    return tuple(at.on_joint(direction * one) for one in ripple.torque_columns(phase))
 
 
 EFFECT = Effect(
     id="position_friction",
     title="friction that varies with the position",
-    parameters=(
-        LinearParameter("Fqc", ("N m", "N"), "cosine part of the friction's variation"),
-        LinearParameter("Fqs", ("N m", "N"), "sine part of the friction's variation"),
-    ),
+    parameters=ripple.parameters("Fq", ("N m", "N"), "the friction's variation"),
     columns=_columns,
     shapes=(
         Shape(
@@ -34,8 +32,8 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("q", "qd"),
-    sign_convention="the motor supplies sign(qd) (Fqc cos(order q) + Fqs sin(order q)); sign(0) = 0",
-    assumptions="a variation of Coulomb friction, which must be at least sqrt(Fqc^2 + Fqs^2)",
+    sign_convention="the motor supplies sign(qd) (Fqc cos(order q) + Fqs sin(order q) and so on); sign(0) = 0",
+    assumptions="a variation of Coulomb friction, which must be at least as large",
     source="Armstrong-Helouvry, Control of Machines with Friction, 1991",
     rank=76,
 )

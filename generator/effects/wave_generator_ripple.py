@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Effect, LinearParameter, Shape
+from generator.effects.effect import Effect, Shape
+from generator.effects.laws import ripple
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
 
 EFFECT = Effect(
     id="wave_generator_ripple",
     title="torque ripple of the wave generator",
-    parameters=(
-        LinearParameter("Rwc", ("N m", "N"), "cosine part of the wave generator's ripple, on the joint side"),
-        LinearParameter("Rws", ("N m", "N"), "sine part of the wave generator's ripple, on the joint side"),
-    ),
+    parameters=ripple.parameters("Rw", ("N m", "N"), "the wave generator's ripple, on the joint side"),
     columns=ripple_columns,
     potential_energy=ripple_energy,
     shapes=(
@@ -30,7 +28,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("motor",),
-    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r), q_r = N q its position",
+    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) and so on, q_r = N q its position",
     assumptions="the wave generator sits on the motor; no dependence on the load",
     source=(
         "Tuttle and Seering, A nonlinear model of a harmonic drive gear transmission, IEEE Transactions on Robotics "

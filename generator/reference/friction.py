@@ -36,7 +36,8 @@ def _gradual(at: At) -> Columns:
 
 def _of_position(at: At) -> Columns:
     phase = at.shape["order"] * at.q
-    return at.direction * cosine(phase), at.direction * sine(phase)
+    parts = cosine(phase), sine(phase), cosine(2 * phase), sine(2 * phase)
+    return tuple(at.direction * one for one in parts)
 
 
 #: By the effects' ids; sources as in ``generator.effects``.
@@ -50,5 +51,5 @@ LAWS: Mapping[str, Law] = {
     "gradual_friction": Law(("Fg",), _gradual),
     "load_friction": Law(("Fl",), lambda at: (at.direction * abs(at.load),)),
     "warm_friction": Law(("Fvw", "Fcw"), lambda at: (at.warmth * at.qd, at.warmth * at.direction)),
-    "position_friction": Law(("Fqc", "Fqs"), _of_position),
+    "position_friction": Law(("Fqc", "Fqs", "Fq2c", "Fq2s"), _of_position),
 }

@@ -11,14 +11,16 @@ from generator.reference.law import At, Columns, Law
 
 def _law(stem: str, along: Literal["joint", "motor"]) -> Law:
     def torque(at: At) -> Columns:
-        slope = at.shape["order"] * at.ratio
-        return cosine(slope * at.q), sine(slope * at.q)
+        phase = at.shape["order"] * at.ratio * at.q
+        return cosine(phase), sine(phase), cosine(2 * phase), sine(2 * phase)
 
     def potential(at: At) -> Columns:
         slope = at.shape["order"] * at.ratio
-        return sine(slope * at.q) / slope, (1 - cosine(slope * at.q)) / slope
+        phase = slope * at.q
+        first = sine(phase) / slope, (1 - cosine(phase)) / slope
+        return *first, sine(2 * phase) / (2 * slope), (1 - cosine(2 * phase)) / (2 * slope)
 
-    return Law((f"{stem}c", f"{stem}s"), torque, potential=potential, along=along)
+    return Law((f"{stem}c", f"{stem}s", f"{stem}2c", f"{stem}2s"), torque, potential=potential, along=along)
 
 
 #: By the effects' ids.

@@ -37,8 +37,7 @@ _RANGES = {
     "Fp": (1.0, 5.0),
     "Fst": (1.0, 8.0),
     "Fg": (1.0, 8.0),
-    "Fqc": (-2.0, 2.0),
-    "Fqs": (-2.0, 2.0),
+    **{f"Fq{part}": (-2.0, 2.0) for part in ("c", "s", "2c", "2s")},
     "kc": (5.0, 50.0),
     "Fl": (0.01, 0.2),
     "Fd": (2.0, 15.0),
@@ -47,7 +46,7 @@ _RANGES = {
     "Fh": (2.0, 15.0),
     "Fvw": (-3.0, -0.5),
     "Fcw": (-4.0, -0.5),
-    **{f"R{part}{phase}": (-3.0, 3.0) for part in "mwy" for phase in "cs"},
+    **{f"R{part}{phase}": (-3.0, 3.0) for part in "mwy" for phase in ("c", "s", "2c", "2s")},
 }
 
 

@@ -28,7 +28,7 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 LOCATED = "located"
 
 #: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint; chance.
-_SMALL, _PART, _CHANCE = 0.2, 0.4, 1e-4
+_SMALL, _PART, _CHANCE = 0.2, 0.5, 1e-4
 #: Where nothing repeats the noise is not known apart from the model, and more must stay.
 _SMALL_APERIODIC = 0.5
 

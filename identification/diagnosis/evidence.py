@@ -149,7 +149,7 @@ class Weighing:
         return bounded(S[np.ix_(at, at)], S[at, -1], *variant.bounds, size)
 
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
-        drop, variant, x = found
+        drop, variant, x = self._asked_for(found, others)
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
         used = len(x)
         tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
@@ -160,6 +160,8 @@ class Weighing:
         one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
+        if not self._itself(drop, variant, others):
+            return replace(one, why_not="what it explains is another effect")
         validation = self.gain(variant, others)
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
@@ -174,6 +176,25 @@ class Weighing:
         if _at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         return replace(one, passes=True)
+
+    def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
+        """Without coefficients that only refine, where they explain no more than chance."""
+        drop, variant, x = found
+        kept = [i for i, one in enumerate(variant.coefficients) if not one.refines]
+        if len(kept) == len(x):
+            return found
+        plain = variant.only(kept)
+        values, less = self.beside(plain, others)
+        return found if chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA else (less, plain, values)
+
+    def _itself(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether the essential coefficients explain beyond chance, and a part of it, what the others do not."""
+        if not any(one.essential for one in variant.hypothesis.coefficients):
+            return True
+        rest = [i for i, one in enumerate(variant.coefficients) if not one.essential]
+        less = self.beside(variant.only(rest), others)[1] if rest else 0.0
+        count = len(variant.columns) - len(rest)
+        return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
 
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""

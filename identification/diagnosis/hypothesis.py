@@ -21,13 +21,16 @@ EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base",
 @dataclass(frozen=True)
 class Coefficient:
     """A parameter that the columns multiply: its name in the robot's parameters or in the correction, its unit [SI],
-    and closed physical bounds, None where free.
+    and closed physical bounds, None where free. Without one that is ``essential`` the effect would be another one; one
+    that ``refines`` is taken only where it explains beyond chance.
     """
 
     name: str
     unit: str
     lower: float | None = None
     upper: float | None = None
+    essential: bool = False
+    refines: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,31 @@
-"""A torque that repeats with a turning part: Rc cos(phase) + Rs sin(phase), and the energy that it swings with."""
+"""A torque that repeats with a turning part, Rc cos(phase) + Rs sin(phase) + R2c cos(2 phase) + R2s sin(2 phase), and
+the energy that it swings with. Nothing that turns is so true that it has no second harmonic.
+"""
 
 from __future__ import annotations
 
 import sympy
 
-
-def torque_columns(phase: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """Torque per unit of the cosine and of the sine part."""
-    return sympy.cos(phase), sympy.sin(phase)
+from generator.effects.effect import LinearParameter
 
 
-def energy_columns(phase: sympy.Expr, slope: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """Energy per unit of either part, zero at phase 0; ``slope`` is the phase per position of the joint."""
-    return sympy.sin(phase) / slope, (1 - sympy.cos(phase)) / slope
+def parameters(stem: str, units: tuple[str, str], what: str) -> tuple[LinearParameter, ...]:
+    """The four parts of ``what``: ``stem`` with c and s, and with 2c and 2s, which refine them."""
+    return (
+        LinearParameter(f"{stem}c", units, f"cosine part of {what}"),
+        LinearParameter(f"{stem}s", units, f"sine part of {what}"),
+        LinearParameter(f"{stem}2c", units, "cosine part of its second harmonic", refines=True),
+        LinearParameter(f"{stem}2s", units, "sine part of its second harmonic", refines=True),
+    )
+
+
+def torque_columns(phase: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """Torque per unit of each part."""
+    cosine, sine = sympy.cos(phase), sympy.sin(phase)
+    return cosine, sine, 2 * cosine**2 - 1, 2 * cosine * sine
+
+
+def energy_columns(phase: sympy.Expr, slope: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """Energy per unit of each part, zero at phase 0; ``slope`` is the phase per position of the joint."""
+    cosine, sine = sympy.cos(phase), sympy.sin(phase)
+    return sine / slope, (1 - cosine) / slope, cosine * sine / slope, sine**2 / slope

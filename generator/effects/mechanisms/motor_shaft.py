@@ -9,13 +9,12 @@ from generator.effects.laws import ripple
 
 
 def ripple_columns(at: Site) -> tuple[Column, ...]:
-    """Torque on the motor per unit of the cosine and of the sine part."""
-    cosine, sine = ripple.torque_columns(_phase(at))
-    return at.on_motor(cosine), at.on_motor(sine)
+    """Torque on the motor per unit of each part."""
+    return tuple(at.on_motor(one) for one in ripple.torque_columns(_phase(at)))
 
 
 def ripple_energy(at: Site) -> tuple[sympy.Expr, ...]:
-    """Energy per unit of the cosine and of the sine part [J/unit]."""
+    """Energy per unit of each part [J/unit]."""
     return ripple.energy_columns(_phase(at), at.values["order"] * at.ratios[at.joint.number])
 
 

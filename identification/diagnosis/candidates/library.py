@@ -90,7 +90,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         unit = shape.unit_on(joint)
         shapes.append(ShapeRange(shape.name, unit, min(points), max(points), points=points, whole=shape.whole))
     coefficients = tuple(
-        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower) for one in effect.parameters
+        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
+        for one in effect.parameters
     )
     given = {one.name: float(one.default) for one in effect.shapes if not one.tried and one.default is not None}
     return [

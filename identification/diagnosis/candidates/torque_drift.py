@@ -60,7 +60,10 @@ def _hypothesis(joint: Joint, columns: partial[Array], along: str, shapes: tuple
         "torque_drift",
         f"drift of the torque constant with the {along}",
         joint.number,
-        tuple(Coefficient(f"{name}{joint.number}", "1", -_LARGEST, _LARGEST) for name in ("torque_drift", "start")),
+        (
+            Coefficient(f"torque_drift{joint.number}", "1", -_LARGEST, _LARGEST, essential=True),
+            Coefficient(f"start{joint.number}", "1", -_LARGEST, _LARGEST),
+        ),
         columns,
         shapes=shapes,
         kind=DRIVE,

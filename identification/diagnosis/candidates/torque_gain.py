@@ -16,8 +16,8 @@ from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
-#: Largest relative error of a torque.
-_LARGEST = 0.45
+#: Relative errors of a torque: ``torque_gain`` is between a half and two.
+_LEAST, _LARGEST = -0.45, 0.6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -31,7 +31,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             "torque_gain",
             "error of the torque's gain",
             joint.number,
-            (Coefficient(f"torque_gain_error{joint.number}", "1", -_LARGEST, _LARGEST),),
+            (Coefficient(f"torque_gain_error{joint.number}", "1", _LEAST, _LARGEST),),
             partial(_columns, k),
             kind=SIGNAL,
             joints=(joint.number,),
