@@ -69,12 +69,12 @@ def test_an_equal_alternative_is_listed_and_a_tentative_name_is_none() -> None:
     assert scored({"hidden": []}, answer(verdict=NOTHING)).named == ()
 
 
-def test_a_further_harmonic_is_no_further_effect() -> None:
+def test_a_further_harmonic_is_a_further_effect() -> None:
+    """An effect holds two harmonics."""
     ripple = {"law": "ripple_motor", "joint": 2, "joints": [2], "size": 3.0, "invisible": False}
     first, second = told("motor_ripple", [2]), told("wave_generator_ripple", [2])
-    assert scored({"hidden": [ripple]}, answer(first, second)).extra == 0
-    assert scored({"hidden": [ripple]}, answer(second)).extra == 1
-    assert scored({"hidden": [ripple]}, answer(first, told("wave_generator_ripple", [3]))).extra == 1
+    assert scored({"hidden": [ripple]}, answer(first)).extra == 0
+    assert scored({"hidden": [ripple]}, answer(first, second)).extra == 1
 
 
 def test_the_share_of_the_gap_that_closed() -> None:

@@ -16,9 +16,9 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 class Score:
     """``found`` of the ``visible`` hidden effects are named, ``first`` says that the first finding is one of
     them, ``listed`` counts those that are an alternative of a finding only, ``invisible_told`` those of
-    ``invisible`` that are said to be so. ``extra`` are named effects that are not hidden. ``within`` is whether
-    the named parameter is within two standard deviations of the truth, ``closed`` the share of the explainable gap
-    that closed on the untouched run; None where there is nothing to say.
+    ``invisible`` that are said to be so, or named all the same. ``extra`` are named effects that are not hidden.
+    ``within`` is whether the named parameter is within two standard deviations of the truth, ``closed`` the share of
+    the explainable gap that closed on the untouched run; None where there is nothing to say.
     """
 
     verdict: str
@@ -62,14 +62,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
     stand_ins = {
         k for k, told in enumerate(findings) if k not in matched and any(_alternative(told, o) for o in visible)
     }
-    parts = {
-        k
-        for one in visible
-        if hits[id(one)] is not None
-        for k, told in enumerate(findings)
-        if told["effect"] in STUDY.laws[one["law"]].also and int(one["joint"]) in _joints(told)
-    }
-    extra = len(findings) - len(matched | lucky | stand_ins | parts)
+    extra = len(findings) - len(matched | lucky | stand_ins)
     where = diagnosis.get("where") or {}
     within = None
     if len(visible) == 1 and (k := hits[id(visible[0])]) is not None:
@@ -84,7 +77,9 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
         extra=extra,
         tentative=tentative,
         invisible=len(hidden),
-        invisible_told=sum(_told_invisible(diagnosis, one) for one in hidden),
+        invisible_told=sum(
+            _told_invisible(diagnosis, one) or any(_is(told, one) for told in findings) for one in hidden
+        ),
         joint_right=_joint_right(where, truth["hidden"]) if _seen(truth) else None,
         variable_right=_variable_right(where, visible) if len(visible) == 1 == len(truth["hidden"]) else None,
         within=within,

@@ -13,14 +13,12 @@ FILE = Path(__file__).with_name("study.json")
 
 @dataclass(frozen=True)
 class Expected:
-    """For a law of the plant: ``named`` are the ids that are right, ``also`` such as may stand for its further
-    harmonics beside one of them; ``variables`` what it shows in; ``joints`` by
+    """For a law of the plant: ``named`` are the ids that are right; ``variables`` what it shows in; ``joints`` by
     robot, from 1, where not all; ``anywhere`` where it has no joint of its own; ``parameter`` of the finding and the
     factor from the law's size to it, where it has one.
     """
 
     named: tuple[str, ...]
-    also: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
     joints: Mapping[str, tuple[int, ...]] | None = None
     anywhere: bool = False
@@ -49,7 +47,6 @@ def _expected(record: Mapping[str, Any]) -> Expected:
     joints = record.get("joints")
     return Expected(
         named=tuple(record["named"]),
-        also=tuple(record.get("also", ())),
         variables=tuple(record.get("variables", ())),
         joints=None if joints is None else {robot: tuple(at) for robot, at in joints.items()},
         anywhere=record.get("anywhere", False),

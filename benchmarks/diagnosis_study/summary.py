@@ -170,7 +170,7 @@ _ONE: Mapping[str, Question] = {
     "nothing else named": _if_seen(lambda s: not s["extra"]),
     "the right joint in `where`": lambda s: s["joint_right"],
     "the right variable in `where`": lambda s: s["variable_right"],
-    "invisible ones answered as such": lambda s: s["invisible_told"] > 0 if s["invisible"] else None,
+    "invisible ones answered as such, or named": lambda s: s["invisible_told"] > 0 if s["invisible"] else None,
 }
 _ALL: Mapping[str, Question] = {
     "all named": _if_seen(lambda s: s["found"] == s["visible"]),

@@ -13,6 +13,9 @@ from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
 
+#: Part of a value by which two searches may differ about it.
+_NEAR = 0.01
+
 
 @dataclass(frozen=True)
 class Acting:
@@ -37,6 +40,15 @@ class Acting:
         """Whether columns depend on what was found: on the model's torque, or on the load of a transmission."""
         on_load = len(self.variants) > 1 and any(one.hypothesis.variable == "load" for one in self.variants)
         return on_load or any(one.hypothesis.kind != EFFECT for one in self.variants)
+
+    def near(self, before: Acting) -> bool:
+        """Whether another search, in whose columns ``before`` acts, would find the same."""
+        old, new = before.coefficients, self.coefficients
+        shapes = [{(v.hypothesis.effect, v.hypothesis.joint) for v in one.effects} for one in (before, self)]
+        signals = [c.name for one in self.variants if one not in self.effects for c in one.coefficients]
+        return shapes[0] == shapes[1] and all(
+            abs(new[name] - old.get(name, 0.0)) <= _NEAR * abs(new[name]) for name in signals
+        )
 
     def torque(self, scene: Scene) -> Array:
         """Torques (n x N) of the effects along a scene."""

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 #: Part of a column's largest value on any joint below which it is zero on a joint.
 _NOTHING = 1e-9
+#: Part of the largest torque that is none, per unit of a coefficient.
+_ROUNDING = 1e-12
 #: Torque per unit from which a motion has run away.
 _ENDLESS = 1e30
 
@@ -74,13 +76,17 @@ class _Joint:
 
 
 class Bank:
-    """Columns of several runs; ``scenes`` and ``runs`` in the same order."""
+    """Columns of several runs; ``scenes`` and ``runs`` in the same order.
+
+    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs.
+    """
 
     def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
         self.runs, self.scenes = tuple(runs), tuple(scenes)
         regressors = scenes[0].regressors
         self.base: tuple[str, ...] = regressors.names
         self.variants: list[Variant] = []
+        self.nowhere: dict[tuple[str, int], Hypothesis] = {}
         self.count = len(self.base)
         place = {name: k for k, name in enumerate(self.base)}
         self._joints: list[list[_Joint]] = []
@@ -121,7 +127,8 @@ class Bank:
                 return None
             per_run.append(columns)
         largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
-        if not largest:
+        if largest <= _ROUNDING * max(float(np.abs(run.tau).max(initial=0.0)) for run in self.runs):
+            self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
             return None
         acts = [
             j for j in range(self.dof) if max(np.abs(columns[:, j]).max() for columns in per_run) > _NOTHING * largest

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed
 from generator.robot.description import Robot
+from identification.diagnosis.evidence import key_of
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.lack_of_fit import Lack
@@ -88,7 +89,7 @@ def diagnose(
         FREE if prior is None else KNOWN,
         verdict,
         named,
-        tuple(found.weighing.invisible()),
+        _invisible(found),
         before,
         after,
         roles,
@@ -98,6 +99,12 @@ def diagnose(
         tuple(_residuals(found, found.weights)),
         tuple(notes),
     )
+
+
+def _invisible(found: Search) -> tuple[Hypothesis, ...]:
+    """What these runs cannot show, without what was found all the same."""
+    chosen = {key_of(one.evidence.variant) for one in found.choices}
+    return tuple(one for one in found.weighing.invisible() if (one.effect, one.joint) not in chosen)
 
 
 def _large(lack: Lack, before: Where) -> bool:

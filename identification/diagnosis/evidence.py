@@ -42,6 +42,8 @@ _OF_SPEED = ("qd", "time since reversal")
 _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
 _UNLIKE = 0.25
+#: What shows an effect that makes no torque along the runs.
+_ELSEWHERE = "other motion or another place of the base, if any: along these runs it makes no torque"
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
@@ -244,7 +246,9 @@ class Weighing:
         return bool(np.all(off < 4 * np.sqrt(variances) + _UNLIKE))
 
     def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth."""
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
+        no torque along the runs.
+        """
         left: dict[tuple[str, int], list[float]] = {}
         whose: dict[tuple[str, int], Hypothesis] = {}
         for variant in self.bank.variants:
@@ -252,7 +256,9 @@ class Weighing:
             at = np.array(variant.columns) - self.normal.base
             left.setdefault(key, []).append(float(self.normal.left[at].max()))
             whose[key] = variant.hypothesis
-        return [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
+        taken_up = [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
+        nowhere = [one for key, one in self.bank.nowhere.items() if key not in left and not one.measured]
+        return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
 
 
 def common(variant: Variant) -> bool:

@@ -24,7 +24,7 @@ from identification.observation import Regressors
 Array = NDArray[np.float64]
 
 #: Times that columns which depend on the model are made anew with what was found.
-_PASSES = 2
+_PASSES = 3
 
 
 @dataclass(frozen=True)
@@ -92,8 +92,8 @@ def search(
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = weighing.normal.solution(columns)
         values = dict(zip(bank.base, solution.tolist(), strict=False))
-        acting = Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
-        if not acting.again:
+        before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
+        if not acting.again or acting.near(before):
             break
     return Search(bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
 
