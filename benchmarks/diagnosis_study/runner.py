@@ -7,10 +7,9 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Callable, Container, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import asdict, dataclass
 from hashlib import sha256
 from itertools import islice
 from math import inf
@@ -19,7 +18,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.diagnosis_study.baselines import named_by_baselines
-from benchmarks.diagnosis_study.case import KNOWN, Case
+from benchmarks.diagnosis_study.case import KNOWN, Case, Hidden
+from benchmarks.diagnosis_study.case import case as case_of
 from benchmarks.diagnosis_study.drawing import cases
 from benchmarks.diagnosis_study.making import made
 from benchmarks.diagnosis_study.runs import FITTED, NAMES
@@ -46,6 +46,8 @@ _DRAWS = 6
 BASELINES = ("null", "one_3x", "one_1x", "outside")
 
 Command = Callable[[Path, Case], dict[str, Any]]
+#: Robot, mode and what is hidden.
+Place = tuple[str, str, Hidden]
 
 
 def diagnose(folder: Path, case: Case) -> dict[str, Any]:
@@ -77,8 +79,10 @@ def result(
         folder = keep or Path(temporary)
         try:
             done = made(case)
-        except (OutOfReach, RanAway) as error:
+        except RanAway as error:
             return {"case": case.record(), "skipped": str(error)}
+        except OutOfReach as error:
+            return {"case": case.record(), "skipped": str(error), "barren": asdict(error.hidden)}
         done.write(folder)
         start = time.perf_counter()
         answer = command(folder, case)
@@ -128,30 +132,49 @@ def run(plan: Plan) -> Iterator[dict[str, Any]]:
     folder = folder_of_results(plan.reserved)
     folder.mkdir(parents=True, exist_ok=True)
     end = time.monotonic() + 60 * plan.minutes
-    draws = _DRAWS * plan.count
-    drawn = {key: list(islice(cases(*key, plan.reserved), draws)) for key in plan.cells}
     counted = dict.fromkeys(plan.cells, 0)
+    barren: set[Place] = set()
+    queue = _queue(plan, counted, barren)
+    running: set[Future[dict[str, Any]]] = set()
     with ProcessPoolExecutor(plan.processes) as pool:
-        for attempt in range(draws):
-            left = [key for key in plan.cells if counted[key] < plan.count]
-            wanted = [(drawn[key][attempt], counted[key] < plan.baselines) for key in left]
-            for some in _batched(wanted, plan.processes):
-                if time.monotonic() > end:
-                    return
-                for one in pool.map(partial(_kept, folder), *zip(*some, strict=True)):
-                    if "skipped" not in one:
-                        counted[one["case"]["cell"], one["case"]["mode"]] += 1
-                    yield one
+        while True:
+            room = plan.processes - len(running) if time.monotonic() < end else 0
+            running |= {pool.submit(_kept, folder, *one) for one in islice(queue, room)}
+            if not running:
+                return
+            ready, running = wait(running, return_when=FIRST_COMPLETED)
+            for one in (future.result() for future in ready):
+                if "skipped" not in one:
+                    counted[one["case"]["cell"], one["case"]["mode"]] += 1
+                elif "barren" in one:
+                    barren.add(_place(case_of(one["case"]), Hidden(**one["barren"])))
+                yield one
+
+
+def _queue(plan: Plan, counted: Mapping[tuple[str, str], int], barren: Container[Place]) -> Iterator[tuple[Case, bool]]:
+    """Cases by turns of the cells that want some, and whether simpler ways are asked.
+
+    A law that did not reach its size in a place is not tried there again.
+    """
+    draws = {key: islice(cases(*key, plan.reserved), _DRAWS * plan.count) for key in plan.cells}
+    while draws:
+        for key in list(draws):
+            possible = (one for one in draws[key] if not any(_place(one, what) in barren for what in one.hidden))
+            one = next(possible, None) if counted[key] < plan.count else None
+            if one is None:
+                del draws[key]
+            else:
+                yield one, counted[key] < plan.baselines
+
+
+def _place(one: Case, what: Hidden) -> Place:
+    return one.robot, one.mode, what
 
 
 def kept() -> list[dict[str, Any]]:
     """Every result that there is of the code as it is, whichever study made it."""
     files = sorted(folder_of_results().glob("*.json"))
     return [json.loads(file.read_text(encoding="utf-8")) for file in files]
-
-
-def _batched(items: list[Any], size: int) -> Iterator[list[Any]]:
-    return (items[at : at + size] for at in range(0, len(items), size))
 
 
 def _kept(folder: Path, case: Case, baselines: bool) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from benchmarks.diagnosis_study.case import Hidden
 from benchmarks.diagnosis_study.prior import deviation
 from tests.plant.effect import Effect
 from tests.plant.known_effects import textbook
@@ -41,7 +42,11 @@ _PLAUSIBLE = 10.0
 
 
 class OutOfReach(Exception):
-    """No size of the law makes the effect as large as wanted."""
+    """No size of the law makes the effect as large as wanted: ``hidden`` is what was."""
+
+    def __init__(self, hidden: Hidden) -> None:
+        super().__init__(f"{hidden.law} on joint {hidden.joint} does not come to {hidden.size:g} times the noise")
+        self.hidden = hidden
 
 
 @dataclass(frozen=True)
@@ -173,4 +178,4 @@ def sized(
         amount *= min(max(target / size.left, 0.02), 50.0)
         if abs(amount) > largest:
             break
-    raise OutOfReach(f"{effect.law} on joint {effect.joint} does not come to {target:g} times the noise")
+    raise OutOfReach(Hidden(effect.law, effect.joint, target, effect.other))
