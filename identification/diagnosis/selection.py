@@ -20,6 +20,7 @@ from identification.diagnosis.evidence import (
     likely,
 )
 from identification.diagnosis.normal import bounded
+from identification.diagnosis.refinement import refined
 
 Array = NDArray[np.float64]
 
@@ -30,6 +31,8 @@ _BETTER, _EQUAL = 6.0, 0.01
 #: Part of the evidence by which a rare effect must be better than a common one.
 _RARE = 0.1
 _MOST, _ROUNDS = 18, 3
+#: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have.
+_RIVALS, _RIVAL = 3, 0.4
 #: Hypotheses whose pairs are tried when single ones do not do.
 _PAIRED = 20
 
@@ -47,6 +50,7 @@ class Selection:
 
     def __init__(self, weighing: Weighing) -> None:
         self.weighing = weighing
+        self._tried: set[tuple[tuple[str, int], frozenset[tuple[str, int]]]] = set()
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
@@ -64,7 +68,7 @@ class Selection:
                     break
                 chosen += pair
             else:
-                chosen.append(self._refined(first.variant, chosen))
+                chosen.append(refined(self.weighing, first.variant, chosen))
             chosen = self._exchanged(chosen, chosen[-1], 1)
         chosen = self._standing(self._exchanged(chosen, None, _ROUNDS))
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
@@ -84,7 +88,7 @@ class Selection:
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
         chosen = self._standing(chosen)
-        return [self._refined(one, [other for other in chosen if other is not one]) for one in chosen]
+        return [refined(self.weighing, one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other."""
@@ -107,12 +111,12 @@ class Selection:
                 if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
-                refined = one
+                better = one
                 mine = self.weighing.of(one, others)
                 best = self._challenger(mine, others)
                 if best is not None:
-                    refined = self._refined(best.variant, others)
-                    mine = self.weighing.of(refined, others)
+                    better = refined(self.weighing, best.variant, others)
+                    mine = self.weighing.of(better, others)
                 place = chosen.index(one)
                 chosen[place : place + 1] = [mine.variant] if mine.passes else []
             if chosen == before:
@@ -125,8 +129,8 @@ class Selection:
         What is rare must be better than what is common in the fitted runs and in the others.
         """
         usual = likely(mine.variant, others)
-        for one in self.weighing.evidence(others):
-            if not one.passes or key_of(one.variant) == key_of(mine.variant):
+        for one in self._rivals(mine, others):
+            if not one.passes:
                 continue
             margin, rare = _BETTER, not likely(one.variant, others)
             if usual and rare:
@@ -138,31 +142,22 @@ class Selection:
                 return one
         return None
 
-    def _refined(self, variant: Variant, others: Sequence[Variant]) -> Variant:
-        """With shapes between the tried ones where they explain more."""
-        best = variant
-        score = self.weighing.of(best, others).score
-        for shape in variant.hypothesis.shapes:
-            points = shape.grid()
-            if shape.whole or len(points) < 3:
-                continue
-            log = min(points) > 0
-            scale = np.log if log else np.asarray
-            step = 0.5 * float(np.median(np.diff(np.sort(scale(points)))))
-            for _ in range(3):
-                here = float(scale(best.shape[shape.name]))
-                for x in (here - step, here + step):
-                    value = float(np.exp(x)) if log else x
-                    tried = self.weighing.bank.add(variant.hypothesis, {**best.shape, shape.name: value})
-                    if tried is None:
-                        continue
-                    tried = tried.only(variant.used)
-                    self.weighing.refresh()
-                    again = self.weighing.of(tried, others).score
-                    if again > score + 0.5:
-                        best, score = tried, again
-                step /= 2
-        return best
+    def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:
+        """Other hypotheses in the place of ``mine``, the best first.
+
+        Where shapes are compared, those of the nearest rivals are refined too: on its grid alone the right one loses.
+        """
+        found = [one for one in self.weighing.evidence(others) if key_of(one.variant) != key_of(mine.variant)]
+        if not mine.variant.hypothesis.shapes:
+            return found
+        near = [one for one in found if one.drop > _RIVAL * mine.drop and one.variant.hypothesis.shapes]
+        near = [one for one in near if one.variant.joints == mine.variant.joints][:_RIVALS]
+        beside = frozenset(map(key_of, others))
+        for one in near:
+            if (key_of(one.variant), beside) not in self._tried:
+                self._tried.add((key_of(one.variant), beside))
+                found[found.index(one)] = self.weighing.of(refined(self.weighing, one.variant, others), others)
+        return sorted(found, key=lambda one: -one.score)
 
     def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
         """Two that explain together what neither may alone."""
