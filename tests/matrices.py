@@ -49,6 +49,15 @@ def whitened(one: Bank) -> Bank:
     return one
 
 
+def several(effect: str, coefficients: Sequence[Coefficient], columns: Sequence[Array]) -> Hypothesis:
+    """An effect of several coefficients, each with its column in every run (runs x N)."""
+
+    def of(scene: Any, shape: Mapping[str, float]) -> Array:
+        return np.stack([column[scene.number] for column in columns])[:, None]
+
+    return Hypothesis(effect, effect, 1, tuple(coefficients), of)
+
+
 def hypothesis(
     effect: str,
     columns: Callable[[int, Mapping[str, float]], Array],

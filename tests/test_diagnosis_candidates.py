@@ -18,7 +18,9 @@ from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
+from identification.diagnosis.acting import Acting
 from identification.diagnosis.addition import measured
+from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.hypothesis import SIGNAL, Hypothesis
 from identification.diagnosis.link_side import LinkSide
@@ -120,6 +122,44 @@ def test_columns_are_what_the_law_adds(case: str, robots: Callable[[str], Known]
         (coefficient,) = [one for one in hypothesis.coefficients if one.name == key]
         assert coefficient.lower is None or coefficient.lower <= value
         assert coefficient.upper is None or value <= coefficient.upper
+
+
+#: Robot, law, joint, size; the candidate, its joint, the coefficient and what the size is of it.
+LARGE: Mapping[str, tuple[str, Effect, str, int, str, float]] = {
+    "encoder": (HEAVY, Effect("encoder_offset", 3, 0.2), "position_offset", 3, "position_offset3", -0.2),
+    "ratio": (HEAVY, Effect("gear_ratio", 2, 0.1), "gear_ratio", 2, "gear_ratio_error2", 0.1),
+    "delay": (HEAVY, Effect("delay", 1, 0.03), "torque_delay", 0, "torque_delay", -0.03),
+}
+
+
+@pytest.mark.parametrize("case", LARGE)
+def test_what_is_large_is_exact_about_what_was_found(case: str, robots: Callable[[str], Known]) -> None:
+    name, effect, candidate, joint, key, value = LARGE[case]
+    scene, truth, kept = played(robots(name), effect, WAY)
+    (hypothesis,) = offered([scene], candidate, joint)
+    _, first = fitted(hypothesis.columns(scene, {}), truth, kept, scene)
+    near = replace(scene, found={key: 0.9 * value})
+    x, second = fitted(hypothesis.columns(near, {}), truth, kept, near)
+    again = replace(scene, found={key: float(x[0])})
+    (last,), third = fitted(hypothesis.columns(again, {}), truth, kept, again)
+    assert last == pytest.approx(value, rel=0.01)
+    assert 1 - third < 0.1 * (1 - first)
+    assert 1 - second < 0.3 * (1 - first)
+
+
+def test_effects_that_were_found_act_in_what_depends_on_the_torque(robots: Callable[[str], Known]) -> None:
+    """A payload loads the transmissions, and is late as the rest of the torque is."""
+    scene, truth, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
+    (payload,) = offered([scene], "payload", 0)
+    acts = [j for j in range(6) if np.abs(payload.columns(scene, {})[:, j]).any()]
+    variant = Variant(payload, {}, tuple(range(len(payload.coefficients))), tuple(acts), tuple(range(5)))
+    x, _ = fitted(payload.columns(scene, {}), truth, np.ones_like(rows(truth), dtype=bool), scene)
+    acting = Acting((variant,), tuple(x.tolist()))
+    loaded = replace(scene, found=acting.coefficients, beside=acting.torque)
+    assert np.linalg.norm(loaded.torque - scene.torque - truth) < 0.02 * np.linalg.norm(truth)
+    still = replace(scene.motion, qd=0 * scene.motion.q, qdd=0 * scene.motion.q)
+    weight = x @ payload.columns(replace(scene, sampled=replace(scene.sampled, motion=still)), {}).transpose(1, 0, 2)
+    assert loaded.load - scene.load == pytest.approx(weight)
 
 
 def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import pytest
@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.evidence import Weighing
-from identification.diagnosis.hypothesis import Hypothesis, ShapeRange
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.selection import Choice, Selection
-from tests.matrices import bank, hypothesis, run, whitened
+from tests.matrices import bank, hypothesis, run, several, whitened
 
 Array = NDArray[np.float64]
 
@@ -145,6 +145,55 @@ def test_a_shape_is_refined_between_the_tried_ones() -> None:
     assert abs(np.log(found.evidence.variant.shape["v"] / 0.29)) < abs(np.log(0.45 / 0.29))
 
 
+def test_shapes_that_lean_on_each_other_are_refined_together() -> None:
+    """A valley that runs across both values, which steps of one at a time do not follow."""
+    data = Data(17)
+    x = data.draw.uniform(0.2, 2.0, size=(RUNS, COUNT))
+
+    def law(r: int, shape: Mapping[str, float]) -> Array:
+        return np.asarray(x[r] ** shape["a"] * np.exp(-shape["a"] * shape["b"] * x[r]))
+
+    grids = [
+        ShapeRange("a", "1", 0.5, 8.0, points=(0.5, 2.0, 8.0)),
+        ShapeRange("b", "1", 0.3, 5.0, points=(0.3, 1.2, 5.0)),
+    ]
+    true = {"a": 3.1, "b": 0.8}
+    effect = np.stack([8.0 * law(r, true) for r in range(RUNS)])
+    (found,) = search(data.bank(effect, [hypothesis("shaped", law, grids)]))
+    assert found.evidence.variant.shape == pytest.approx(true, rel=0.1)
+
+
+def test_what_a_run_hardly_moves_must_not_show_there() -> None:
+    """The validating run excites the effect a tenth as much: its gain is what that lets expect."""
+    data = Data(18)
+    column = data.column() * np.array([1.0, 1.0, 0.15])[:, None]
+    one = data.bank(1.5 * column, [fixed("right", column)])
+    (found,) = search(one)
+    promised = found.evidence.drop * one.rows(2).sum() / sum(one.rows(r).sum() for r in TRAIN)
+    assert found.evidence.validation < 0.1 * promised
+
+
+def test_a_refinement_is_taken_where_the_runs_ask_for_it() -> None:
+    data = Data(19)
+    first, second = data.column(), data.column()
+    parts = [Coefficient("c", "1"), Coefficient("c2", "1", refines=True)]
+    offered = [several("wave", parts, [first, second])]
+    (plain,) = search(data.bank(0.5 * first, offered))
+    (both,) = search(data.bank(0.5 * first + 0.3 * second, offered))
+    assert [one.name for one in plain.evidence.variant.coefficients] == ["c"]
+    assert [one.name for one in both.evidence.variant.coefficients] == ["c", "c2"]
+
+
+def test_without_what_makes_it_an_effect_is_another() -> None:
+    data = Data(20)
+    gain, growing = data.column(), data.column()
+    drift = several("drift", [Coefficient("drift", "1", essential=True), Coefficient("start", "1")], [growing, gain])
+    offered = [drift, fixed("gain", gain)]
+    assert names(search(data.bank(0.5 * gain, offered))) == {"gain"}
+    assert names(search(data.bank(0.5 * gain + 0.3 * growing, offered))) == {"drift"}
+    assert search(data.bank(0.5 * gain, [drift])) == []
+
+
 @pytest.mark.parametrize("true", [0.01, 8.0])
 def test_a_shape_at_the_end_of_what_was_tried_is_refused(true: float) -> None:
     data = Data(9)
@@ -216,7 +265,7 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     data = Data(15)
     hidden = data.base[:, 0] - 2 * data.base[:, 1] + 0.003 * data.column()
     seen = data.base[:, 0] + data.column()
-    one = data.bank(0.3 * hidden, [fixed("hidden", hidden), fixed("seen", seen)])
+    one = data.bank(0.3 * hidden, [fixed("hidden", hidden), fixed("seen", seen), fixed("nowhere", 0 * seen)])
     weighing = Weighing(one, TRAIN, VALIDATE, None)
-    assert [each.effect for each in weighing.invisible()] == ["hidden"]
+    assert [each.effect for each in weighing.invisible()] == ["hidden", "nowhere"]
     assert Selection(weighing).search() == []
