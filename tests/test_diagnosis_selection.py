@@ -153,10 +153,8 @@ def test_shapes_that_lean_on_each_other_are_refined_together() -> None:
     def law(r: int, shape: Mapping[str, float]) -> Array:
         return np.asarray(x[r] ** shape["a"] * np.exp(-shape["a"] * shape["b"] * x[r]))
 
-    grids = [
-        ShapeRange("a", "1", 0.5, 8.0, points=(0.5, 2.0, 8.0)),
-        ShapeRange("b", "1", 0.3, 5.0, points=(0.3, 1.2, 5.0)),
-    ]
+    points = {"a": (0.5, 2.0, 8.0), "b": (0.3, 1.2, 5.0)}
+    grids = [ShapeRange(name, "1", min(some), max(some), points=some) for name, some in points.items()]
     true = {"a": 3.1, "b": 0.8}
     effect = np.stack([8.0 * law(r, true) for r in range(RUNS)])
     (found,) = search(data.bank(effect, [hypothesis("shaped", law, grids)]))
