@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from math import cos, sin
@@ -22,7 +22,7 @@ from identification.diagnosis.acting import Acting
 from identification.diagnosis.addition import measured
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
-from identification.diagnosis.hypothesis import SIGNAL, Hypothesis
+from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
@@ -132,15 +132,27 @@ LARGE: Mapping[str, tuple[str, Effect, str, int, str, float]] = {
 }
 
 
+@dataclass(frozen=True)
+class Found:
+    """Coefficients that a search has found, none of them a torque of its own."""
+
+    coefficients: Mapping[str, float]
+
+    def torque(self, scene: Scene) -> Array:
+        return np.zeros_like(scene.motion.q)
+
+    load = torque
+
+
 @pytest.mark.parametrize("case", LARGE)
 def test_what_is_large_is_exact_about_what_was_found(case: str, robots: Callable[[str], Known]) -> None:
     name, effect, candidate, joint, key, value = LARGE[case]
     scene, truth, kept = played(robots(name), effect, WAY)
     (hypothesis,) = offered([scene], candidate, joint)
     _, first = fitted(hypothesis.columns(scene, {}), truth, kept, scene)
-    near = replace(scene, found={key: 0.9 * value})
+    near = replace(scene, beside=Found({key: 0.9 * value}))
     x, second = fitted(hypothesis.columns(near, {}), truth, kept, near)
-    again = replace(scene, found={key: float(x[0])})
+    again = replace(scene, beside=Found({key: float(x[0])}))
     (last,), third = fitted(hypothesis.columns(again, {}), truth, kept, again)
     assert last == pytest.approx(value, rel=0.01)
     assert 1 - third < 0.1 * (1 - first)
@@ -155,11 +167,24 @@ def test_effects_that_were_found_act_in_what_depends_on_the_torque(robots: Calla
     variant = Variant(payload, {}, tuple(range(len(payload.coefficients))), tuple(acts), tuple(range(5)))
     x, _ = fitted(payload.columns(scene, {}), truth, np.ones_like(rows(truth), dtype=bool), scene)
     acting = Acting((variant,), tuple(x.tolist()))
-    loaded = replace(scene, found=acting.coefficients, beside=acting.torque)
+    loaded = replace(scene, beside=acting)
     assert np.linalg.norm(loaded.torque - scene.torque - truth) < 0.02 * np.linalg.norm(truth)
     still = replace(scene.motion, qd=0 * scene.motion.q, qdd=0 * scene.motion.q)
     weight = x @ payload.columns(replace(scene, sampled=replace(scene.sampled, motion=still)), {}).transpose(1, 0, 2)
     assert loaded.load - scene.load == pytest.approx(weight)
+
+
+def test_what_sits_on_the_drive_loads_no_transmission(robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
+    drive, link = (
+        Hypothesis(name, name, 2, (Coefficient("c", "N m"),), lambda scene, shape: np.ones((1, *scene.motion.q.shape)))
+        for name in ("offset", "cable_spring")
+    )
+    for hypothesis, load in ((drive, 0.0), (link, 5.0)):
+        acting = Acting((Variant(hypothesis, {}, (0,), (1,), (0,)),), (5.0,))
+        acted = replace(scene, beside=acting)
+        assert acted.torque - scene.torque == pytest.approx(5.0)
+        assert acted.load - scene.load == pytest.approx(load)
 
 
 def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> None:

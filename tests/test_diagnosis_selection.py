@@ -161,6 +161,38 @@ def test_shapes_that_lean_on_each_other_are_refined_together() -> None:
     assert found.evidence.variant.shape == pytest.approx(true, rel=0.1)
 
 
+def test_effects_that_overlap_are_refined_beside_each_other() -> None:
+    """The shape that is best alone is not the one that is best beside another effect."""
+    data = Data(21)
+    x = data.draw.uniform(0.0, 5.0, size=(RUNS, COUNT))
+
+    def law(r: int, place: float) -> Array:
+        return np.asarray(np.exp(-((x[r] - place) ** 2)))
+
+    def offer(name: str, points: tuple[float, ...]) -> Hypothesis:
+        shape = ShapeRange("place", "1", min(points), max(points), log=False, points=points)
+        return hypothesis(name, lambda r, given: law(r, given["place"]), [shape])
+
+    effect = np.stack([2.0 * law(r, 1.3) + 2.0 * law(r, 2.9) for r in range(RUNS)])
+    offered = [offer("left", (0.5, 1.1, 1.7)), offer("right", (2.5, 3.1, 3.7))]
+    found = {one.evidence.variant.hypothesis.effect: one.evidence.variant for one in search(data.bank(effect, offered))}
+    assert found["left"].shape["place"] == pytest.approx(1.3, abs=0.1)
+    assert found["right"].shape["place"] == pytest.approx(2.9, abs=0.1)
+
+
+def test_a_place_has_no_zero() -> None:
+    """Where the log begins to count positions does not matter to what is found."""
+    for zero in (0.0, 3.0):
+        data = Data(22)
+        x = zero + data.draw.uniform(-1.0, 1.0, size=(RUNS, COUNT))
+        points = tuple(zero + one for one in (-2.0, -1.0, 0.0, 1.0, 2.0))
+        shape = ShapeRange("neutral", "rad", min(points), max(points), log=False, points=points)
+        effect = 2.0 * (x - (zero - 0.4))
+        offered = [hypothesis("spring", lambda r, given, x=x: x[r] - given["neutral"], [shape])]
+        (found,) = search(data.bank(effect, offered))
+        assert found.evidence.variant.shape["neutral"] - zero == pytest.approx(-0.4, abs=0.05)
+
+
 def test_what_a_run_hardly_moves_must_not_show_there() -> None:
     """The validating run excites the effect a tenth as much: its gain is what that lets expect."""
     data = Data(18)

@@ -11,7 +11,7 @@ from typing import Any
 
 from benchmarks.diagnosis_study.drawing import MODES, cells
 from benchmarks.diagnosis_study.page import JSON, tables, write
-from benchmarks.diagnosis_study.runner import Plan, kept, run
+from benchmarks.diagnosis_study.runner import Plan, folder_of_results, kept, run
 
 
 def main() -> int:
@@ -27,11 +27,11 @@ def main() -> int:
     told = parser.parse_args()
     wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
     plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
-    made = []
-    for one in run(plan):
+    made, folder = [], folder_of_results(plan.reserved)
+    for one in run(plan, folder):
         made.append(one)
         print(_line(one), flush=True)
-    results = made if told.development else kept()
+    results = made if told.development else kept(folder)
     found = tables(results)
     if told.development:
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))

@@ -46,8 +46,8 @@ _DRAWS = 6
 BASELINES = ("null", "one_3x", "one_1x", "outside")
 
 Command = Callable[[Path, Case], dict[str, Any]]
-#: Robot, mode and what is hidden.
-Place = tuple[str, str, Hidden]
+#: Robot, mode, motion and what is hidden.
+Place = tuple[str, str, str, Hidden]
 
 
 def diagnose(folder: Path, case: Case) -> dict[str, Any]:
@@ -124,12 +124,12 @@ class Plan:
     processes: int = 1
 
 
-def run(plan: Plan) -> Iterator[dict[str, Any]]:
+def run(plan: Plan, folder: Path) -> Iterator[dict[str, Any]]:
     """Results of the plan's cases, made or read from earlier runs, as they come.
 
-    Cells take turns, so that a study that is stopped has some of each.
+    Cells take turns, so that a study that is stopped has some of each. With several processes, which draws are left out
+    as out of reach may differ by a few.
     """
-    folder = folder_of_results(plan.reserved)
     folder.mkdir(parents=True, exist_ok=True)
     end = time.monotonic() + 60 * plan.minutes
     counted = dict.fromkeys(plan.cells, 0)
@@ -168,12 +168,12 @@ def _queue(plan: Plan, counted: Mapping[tuple[str, str], int], barren: Container
 
 
 def _place(one: Case, what: Hidden) -> Place:
-    return one.robot, one.mode, what
+    return one.robot, one.mode, one.motion, what
 
 
-def kept() -> list[dict[str, Any]]:
-    """Every result that there is of the code as it is, whichever study made it."""
-    files = sorted(folder_of_results().glob("*.json"))
+def kept(folder: Path) -> list[dict[str, Any]]:
+    """Every result that there is of the same code, whichever study made it."""
+    files = sorted(folder.glob("*.json"))
     return [json.loads(file.read_text(encoding="utf-8")) for file in files]
 
 
@@ -185,6 +185,8 @@ def _kept(folder: Path, case: Case, baselines: bool) -> dict[str, Any]:
         done = result(case, baselines=baselines and case.cell in BASELINES)
     except subprocess.TimeoutExpired:
         done = {"case": case.record(), "failed": f"no answer within {_PATIENCE} s"}
+    except (ValueError, ArithmeticError) as error:
+        done = {"case": case.record(), "failed": f"{type(error).__name__}: {error}"}
     half = file.with_suffix(".part")
     half.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
     half.replace(file)

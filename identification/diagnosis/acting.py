@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.library import library
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.hypothesis import BODY, EFFECT
 from identification.diagnosis.scene import Scene
@@ -31,11 +33,6 @@ class Acting:
         return dict(zip(names, self.values, strict=True))
 
     @property
-    def effects(self) -> tuple[Variant, ...]:
-        """Those that are torques of their own, whatever the model's."""
-        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY))
-
-    @property
     def again(self) -> bool:
         """Whether columns depend on what was found: on the model's torque, or on the load of a transmission."""
         on_load = len(self.variants) > 1 and any(one.hypothesis.variable == "load" for one in self.variants)
@@ -44,17 +41,31 @@ class Acting:
     def near(self, before: Acting) -> bool:
         """Whether another search, in whose columns ``before`` acts, would find the same."""
         old, new = before.coefficients, self.coefficients
-        shapes = [{(v.hypothesis.effect, v.hypothesis.joint) for v in one.effects} for one in (before, self)]
-        signals = [c.name for one in self.variants if one not in self.effects for c in one.coefficients]
-        return shapes[0] == shapes[1] and all(
+        torques = [{(v.hypothesis.effect, v.hypothesis.joint) for v in one._torques} for one in (before, self)]
+        signals = [c.name for one in self.variants if one not in self._torques for c in one.coefficients]
+        return torques[0] == torques[1] and all(
             abs(new[name] - old.get(name, 0.0)) <= _NEAR * abs(new[name]) for name in signals
         )
 
     def torque(self, scene: Scene) -> Array:
-        """Torques (n x N) of the effects along a scene."""
+        """Torques (n x N) [N m, N] along a scene of what is a torque of its own, whatever the model's."""
+        return self._sum(self._torques, scene)
+
+    def load(self, scene: Scene) -> Array:
+        """Those among them that load the transmissions (n x N) [N m, N]: bodies, and effects on the links."""
+        on_links = [
+            one for one in self._torques if one.hypothesis.kind == BODY or library()[one.hypothesis.effect].on_link
+        ]
+        return self._sum(on_links, scene)
+
+    @property
+    def _torques(self) -> tuple[Variant, ...]:
+        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY))
+
+    def _sum(self, variants: Sequence[Variant], scene: Scene) -> Array:
         result = np.zeros_like(scene.motion.q)
         values = self.coefficients
-        for one in self.effects:
+        for one in variants:
             columns = one.hypothesis.columns(scene, one.shape)
             for i, coefficient in zip(one.used, one.coefficients, strict=True):
                 result += values[coefficient.name] * columns[i]

@@ -286,7 +286,7 @@ def _at_end(variant: Variant) -> bool:
     """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
     for shape in variant.hypothesis.shapes:
         points = shape.grid()
-        if shape.whole or len(points) < 4 or min(points) <= 0:
+        if shape.whole or len(points) < 4 or not shape.log:
             continue
         value = variant.shape[shape.name]
         if value <= min(points) * 0.7 or value >= max(points) * 1.4:

@@ -20,7 +20,8 @@ from identification.outcome import Value
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
-#: Relative standard deviation of a shape beyond which runs do not tell it.
+#: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
+#: its zero means nothing.
 _VAGUE = 0.5
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
@@ -107,9 +108,10 @@ class Finding:
         """Coefficients, then the shape."""
         units = {shape.name: shape.unit for shape in self.hypothesis.shapes}
         coefficients = [
-            Told(name, one.value, one.std or None, one.unit, not one.value and not one.std)
-            for name, one in self.parameters.items()
-            if one.value is not None
+            Told(c.name, one.value, one.std or None, one.unit, not one.value and not one.std)
+            for c in self.hypothesis.coefficients
+            if (one := self.parameters[c.name]).value is not None
+            if one.std or not c.refines
         ]
         shape = [
             Told(name, value, self.shape_std.get(name), units.get(name, "1")) for name, value in self.shape.items()
@@ -119,7 +121,9 @@ class Finding:
     @property
     def determined(self) -> bool:
         """Whether the runs tell its values one by one, and not only the torque that they make together."""
-        return all(std <= _VAGUE * abs(self.shape[name]) for name, std in self.shape_std.items())
+        shapes = {one.name: one for one in self.hypothesis.shapes}
+        sizes = {name: abs(self.shape[name]) if shapes[name].log else shapes[name].spacing for name in self.shape_std}
+        return all(std <= _VAGUE * sizes[name] for name, std in self.shape_std.items())
 
 
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from generator.review.words import listed, ranges
 from identification.diagnosis.scene import Scene
@@ -37,7 +37,8 @@ class Coefficient:
 class ShapeRange:
     """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``).
 
-    ``points`` are tried instead where they are given. ``whole`` tells that nothing lies between them.
+    ``points`` are tried instead where they are given, even over the logarithm if ``log``. ``whole`` tells that nothing
+    lies between them.
     """
 
     name: str
@@ -55,6 +56,30 @@ class ShapeRange:
             return list(self.points)
         space = np.geomspace if self.log else np.linspace
         return [float(x) for x in space(self.low, self.high, self.count)]
+
+    @property
+    def free(self) -> bool:
+        """Whether values between the tried ones are searched."""
+        return not self.whole and len(self.grid()) > 2
+
+    @property
+    def spacing(self) -> float:
+        """Usual step of the grid, of the logarithm if ``log``."""
+        return float(np.median(np.diff(np.sort(self._even(self.grid())))))
+
+    def moved(self, value: float, steps: float) -> float:
+        """A value moved by steps of the grid, to one step beyond its ends at most."""
+        ends = np.sort(self._even(self.grid()))[[0, -1]] + self.spacing * np.array([-1.0, 1.0])
+        even = float(np.clip(self._even(value) + steps * self.spacing, *ends))
+        return float(np.exp(even)) if self.log else even
+
+    def steps(self, start: float, end: float) -> float:
+        """How many steps of the grid lie between two values."""
+        return float(self._even(end) - self._even(start)) / self.spacing
+
+    def _even(self, values: ArrayLike) -> Array:
+        """On the scale on which the grid is even."""
+        return np.asarray(np.log(values) if self.log else values, dtype=float)
 
 
 @dataclass(frozen=True)

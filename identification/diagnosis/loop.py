@@ -75,8 +75,7 @@ def search(
     acting = Acting()
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
-        beside = acting.torque if acting.effects else None
-        scenes = [Scene(run.sampled, regressors, values, acting.coefficients, beside) for run in runs]
+        scenes = [Scene(run.sampled, regressors, values, acting) for run in runs]
         bank = Bank(runs, scenes)
         offered = hypotheses([scenes[r] for r in train])
         for one in offered:

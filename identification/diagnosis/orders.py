@@ -23,7 +23,7 @@ def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ..
     for scene in scenes:
         step = max(1, scene.motion.samples // _SAMPLES)
         q = scene.motion.q[k, ::step]
-        e = (scene.tau[k] - scene.torque[k])[::step]
+        e = (scene.tau[k] - scene.model_torque[k])[::step]
         e = e - e.mean()
         turn = np.exp(1j * q)
         phase = turn**_LOWEST

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,19 +21,28 @@ Array = NDArray[np.float64]
 _STILL = 1e-9
 
 
+class Beside(Protocol):
+    """What acts beside the model: coefficients by name, torques and loads (n x N) [N m, N] along a scene."""
+
+    @property
+    def coefficients(self) -> Mapping[str, float]: ...
+
+    def torque(self, scene: Scene) -> Array: ...
+
+    def load(self, scene: Scene) -> Array: ...
+
+
 @dataclass(frozen=True)
 class Scene:
     """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI].
 
-    The model carries the payload that the run's sidecar tells. ``found`` are coefficients by name that an earlier
-    search has found, and ``beside`` the torques (n x N) along a scene of the effects among them.
+    The model carries the payload that the run's sidecar tells; ``beside`` is what an earlier search has found.
     """
 
     sampled: Sampled
     regressors: Regressors
     values: Mapping[str, float]
-    found: Mapping[str, float] = field(default_factory=dict)
-    beside: Callable[[Scene], Array] | None = None
+    beside: Beside | None = None
 
     @property
     def robot(self) -> Robot:
@@ -94,9 +104,7 @@ class Scene:
     def torque_on(self, motion: Motion) -> Array:
         """Torques along another motion (n x N) [N m, N] of the model and of the effects that were found."""
         tau = self.torque_of(self.values, motion)
-        if self.beside is not None:
-            tau = tau + self.beside(Scene(replace(self.sampled, motion=motion), self.regressors, self.values))
-        return tau
+        return tau if self.beside is None else tau + self.beside.torque(self._alone(motion))
 
     def torque_of(self, values: Mapping[str, float], motion: Motion) -> Array:
         """Torques of the model with other ``values`` along another motion (n x N) [N m, N]."""
@@ -111,10 +119,23 @@ class Scene:
         return np.stack([body @ columns for columns in self.regressors.payload(motion)])
 
     @cached_property
+    def model_torque(self) -> Array:
+        """Torques along the motion (n x N) [N m, N] of the model alone."""
+        return self.torque_of(self.values, self.motion)
+
+    @cached_property
     def resting(self) -> Array:
-        """Torques of the model at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
+        """Torques of the model alone at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
+        return self.torque_of(self.values, self._at_rest)
+
+    @property
+    def _at_rest(self) -> Motion:
         still = np.zeros_like(self.motion.q)
-        return self.torque_on(replace(self.motion, qd=still, qdd=still, states=None))
+        return replace(self.motion, qd=still, qdd=still, states=None)
+
+    def _alone(self, motion: Motion) -> Scene:
+        """The model by itself on another motion: what acts beside it may ask for its load."""
+        return Scene(replace(self.sampled, motion=motion), self.regressors, self.values)
 
     @cached_property
     def load(self) -> Array:
@@ -122,7 +143,12 @@ class Scene:
         offsets.
         """
         offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
-        return np.asarray(self.resting - np.array(offsets)[:, None])
+        load = np.asarray(self.resting - np.array(offsets)[:, None])
+        return load if self.beside is None else load + self.beside.load(self._alone(self._at_rest))
+
+    def found(self, name: str) -> float:
+        """A coefficient that an earlier search has found, zero where it has not."""
+        return 0.0 if self.beside is None else self.beside.coefficients.get(name, 0.0)
 
     def rate(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, central differences."""

@@ -23,6 +23,8 @@ from identification.diagnosis.normal import bounded
 from identification.diagnosis.refinement import refined
 
 Array = NDArray[np.float64]
+#: Effect and joint.
+Key = tuple[str, int]
 
 #: What is unexplained, in parts of the noise, from which several effects must be missing.
 _GROSS = 20.0
@@ -50,16 +52,18 @@ class Selection:
 
     def __init__(self, weighing: Weighing) -> None:
         self.weighing = weighing
-        self._tried: set[tuple[tuple[str, int], frozenset[tuple[str, int]]]] = set()
+        #: Rivals whose shapes have been refined, each with what it stood beside.
+        self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
         chosen = list(start) or self._common_start()
         paired = False
-        seen: set[frozenset[tuple[str, int]]] = set()
+        seen: set[frozenset[Key]] = set()
+        refused: set[Key] = set()
         while len(chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
-            seen.add(known)
-            passing = [one for one in self.weighing.evidence(chosen) if one.passes]
+            offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
+            passing = [one for one in offered if one.passes]
             first = next(iter([*(one for one in passing if likely(one.variant, chosen)), *passing]), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
@@ -70,6 +74,11 @@ class Selection:
             else:
                 chosen.append(refined(self.weighing, first.variant, chosen))
             chosen = self._exchanged(chosen, chosen[-1], 1)
+            if first is not None and frozenset(map(key_of, chosen)) == known:
+                refused.add(key_of(first.variant))
+            else:
+                seen.add(known)
+                refused.clear()
         chosen = self._standing(self._exchanged(chosen, None, _ROUNDS))
         return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
 
@@ -111,12 +120,10 @@ class Selection:
                 if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
-                better = one
-                mine = self.weighing.of(one, others)
+                mine = self.weighing.of(refined(self.weighing, one, others), others)
                 best = self._challenger(mine, others)
                 if best is not None:
-                    better = refined(self.weighing, best.variant, others)
-                    mine = self.weighing.of(better, others)
+                    mine = self.weighing.of(refined(self.weighing, best.variant, others), others)
                 place = chosen.index(one)
                 chosen[place : place + 1] = [mine.variant] if mine.passes else []
             if chosen == before:
@@ -154,10 +161,10 @@ class Selection:
         near = [one for one in near if one.variant.joints == mine.variant.joints][:_RIVALS]
         beside = frozenset(map(key_of, others))
         for one in near:
-            if (key_of(one.variant), beside) not in self._tried:
-                self._tried.add((key_of(one.variant), beside))
-                found[found.index(one)] = self.weighing.of(refined(self.weighing, one.variant, others), others)
-        return sorted(found, key=lambda one: -one.score)
+            if (key_of(one.variant), beside) not in self._refined:
+                self._refined.add((key_of(one.variant), beside))
+                refined(self.weighing, one.variant, others)
+        return [one for one in self.weighing.evidence(others) if key_of(one.variant) != key_of(mine.variant)]
 
     def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
         """Two that explain together what neither may alone."""

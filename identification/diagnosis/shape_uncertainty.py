@@ -12,8 +12,8 @@ from identification.diagnosis.normal import inverse
 
 Array = NDArray[np.float64]
 
-#: Relative step of a shape value.
-_STEP = 0.02
+#: Difference by which a shape is differentiated, in steps of its grid.
+_STEP = 0.05
 #: Part of a parameter that the rows must show for it to be known at all.
 _SEEN = 0.99
 
@@ -33,10 +33,12 @@ def deviations(
         variant = choice.evidence.variant
         for shape in variant.hypothesis.shapes:
             here = variant.shape[shape.name]
-            if shape.whole or len(shape.grid()) < 3 or not here:
+            if not shape.free:
                 continue
-            step = _STEP * abs(here)
-            moved = bank.add(variant.hypothesis, {**variant.shape, shape.name: here + step})
+            near = shape.moved(here, _STEP)
+            near = near if near > here else shape.moved(here, -_STEP)
+            step = near - here
+            moved = bank.add(variant.hypothesis, {**variant.shape, shape.name: near})
             if moved is None:
                 continue
             moved = moved.only(variant.used)

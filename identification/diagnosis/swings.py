@@ -67,7 +67,7 @@ def _about(x: float, grid: Array) -> Array:
 def _most_alike(side: LinkSide, grids: Sequence[Array]) -> tuple[float, ...]:
     """The combination whose swing has the largest cosine with the residual."""
     stiffness, damping, gap = (x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij"))
-    left = (side.scene.tau - side.scene.torque)[side.k]
+    left = (side.scene.tau - side.scene.model_torque)[side.k]
     product, size = np.zeros((2, len(stiffness)))
     played = side.steps(Train(stiffness, damping, gap), _SAMPLES)
     # A drive train too stiff for the samples runs away; it is like nothing.

@@ -49,7 +49,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    e = scene.found.get(f"gear_ratio_error{scene.robot.moving[k].number}", 0.0)
+    e = scene.found(f"gear_ratio_error{scene.robot.moving[k].number}")
     # Positions change by 1 / (1 + e) - 1 = -e / (1 + e).
     share = 1 / (1 + e)
     result = share * sensitivity(scene.torque_on, scene.motion, scaled(scene, k, -1.0), share * e)

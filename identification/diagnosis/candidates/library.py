@@ -88,7 +88,9 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
             return []
         tries *= shape.several or len(points)
         unit = shape.unit_on(joint)
-        shapes.append(ShapeRange(shape.name, unit, min(points), max(points), points=points, whole=shape.whole))
+        even = shape.relative == "position" or min(points) <= 0
+        one = ShapeRange(shape.name, unit, min(points), max(points), log=not even, points=points, whole=shape.whole)
+        shapes.append(one)
     coefficients = tuple(
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
         for one in effect.parameters

@@ -15,7 +15,7 @@ from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
 
-#: Largest offset [rad, m]: beyond it the first order does not hold.
+#: Largest offset [rad, m] that nobody would have seen.
 _LARGEST = {False: 0.3, True: 0.1}
 
 
@@ -52,5 +52,5 @@ def _hypothesis(k: int, joint: Joint) -> Hypothesis:
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     change = change_of(scene, k, np.ones_like(scene.t))
-    about = scene.found.get(f"position_offset{scene.robot.moving[k].number}", 0.0)
+    about = scene.found(f"position_offset{scene.robot.moving[k].number}")
     return sensitivity(scene.torque_on, scene.motion, change, about)[None]

@@ -57,7 +57,7 @@ def _name(joint: int | None) -> str:
 
 
 def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
-    s = scene.found.get(_name(None if k is None else scene.robot.moving[k].number), 0.0)
+    s = scene.found(_name(None if k is None else scene.robot.moving[k].number))
     tau, t = scene.torque, scene.t
     late = np.stack([np.interp(t - s, t, row) - row for row in tau]) / s if s else -scene.rate(tau)
     if k is None:

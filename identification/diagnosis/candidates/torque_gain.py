@@ -16,7 +16,7 @@ from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
-#: Relative errors of a torque: ``torque_gain`` is between a half and two.
+#: Relative errors of a torque: with them ``torque_gain`` stays within what a robot file may say.
 _LEAST, _LARGEST = -0.45, 0.6
 
 
