@@ -26,7 +26,7 @@ EFFECT = Effect(
     shapes=(Shape("order", "1", "periods per turn of the joint", lower=0.0, tried=(1.0,), whole=True, several=300),),
     kinds=(REVOLUTE,),
     needs=("q",),
-    sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q), and so on",
+    sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q) + the second harmonic",
     assumptions="no dependence on the load",
     source=(
         "Blanche and Yang, Cycloid drives with machining tolerances, Journal of Mechanisms, Transmissions and "

@@ -24,7 +24,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("motor",),
-    sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r) and so on, q_r = N q its position",
+    sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r) + the second harmonic; q_r = N q",
     assumptions="a torque of the position alone: its amplitude does not depend on the current",
     source=(
         "Mattavelli, Tubiana and Zigliotto, Torque-ripple reduction in PM synchronous motor drives using repetitive "

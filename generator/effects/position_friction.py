@@ -32,7 +32,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("q", "qd"),
-    sign_convention="the motor supplies sign(qd) (Fqc cos(order q) + Fqs sin(order q) and so on); sign(0) = 0",
+    sign_convention="the motor supplies sign(qd) (Fqc cos(order q) + Fqs sin(order q) + second harmonic); sign(0) = 0",
     assumptions="a variation of Coulomb friction, which must be at least as large",
     source="Armstrong-Helouvry, Control of Machines with Friction, 1991",
     rank=76,

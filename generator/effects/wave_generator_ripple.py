@@ -28,7 +28,7 @@ EFFECT = Effect(
     ),
     kinds=(REVOLUTE,),
     needs=("motor",),
-    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) and so on, q_r = N q its position",
+    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) + the second harmonic; q_r = N q",
     assumptions="the wave generator sits on the motor; no dependence on the load",
     source=(
         "Tuttle and Seering, A nonlinear model of a harmonic drive gear transmission, IEEE Transactions on Robotics "

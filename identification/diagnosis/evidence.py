@@ -43,7 +43,7 @@ _VISIBLE = 1e-4
 #: Part of an effect by which runs may differ beyond chance: laws wander.
 _UNLIKE = 0.25
 #: What shows an effect that makes no torque along the runs.
-_ELSEWHERE = "other motion or another place of the base, if any: along these runs it makes no torque"
+_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
