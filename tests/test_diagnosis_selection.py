@@ -180,6 +180,18 @@ def test_effects_that_overlap_are_refined_beside_each_other() -> None:
     assert found["right"].shape["place"] == pytest.approx(2.9, abs=0.1)
 
 
+@pytest.mark.parametrize(("order", "named"), [(60.0, {"ripple"}), (60.15, set())])
+def test_an_order_that_is_no_whole_number_is_another_effect(order: float, named: set[str]) -> None:
+    data = Data(23)
+    q = data.draw.uniform(-0.7, 0.7, size=(RUNS, COUNT))
+    shape = ShapeRange("order", "1", 59.0, 61.0, points=(59.0, 60.0, 61.0), whole=True, exact=True)
+    ripple = hypothesis("ripple", lambda r, given: np.cos(given["order"] * q[r] + 0.3), [shape])
+    one = data.bank(2.0 * np.cos(order * q + 0.3), [ripple])
+    found = search(one)
+    assert names(found) == named
+    assert all(choice.evidence.variant.shape["order"] == order for choice in found)
+
+
 def test_a_place_has_no_zero() -> None:
     """Where the log begins to count positions does not matter to what is found."""
     for zero in (0.0, 3.0):

@@ -44,7 +44,7 @@ class Shape:
     another moving joint. ``tried`` are the values at which a search for an unknown one begins, in units of the joint's
     top speed where ``relative`` says "speed", of half the range it moves through, from its middle, where it says
     "position"; where ``whole`` nothing between whole numbers is a value, and where ``several`` every whole number up to
-    that one can be.
+    that one can be. Where ``exact`` what fits better between two whole numbers is another effect.
     """
 
     name: str
@@ -59,6 +59,7 @@ class Shape:
     relative: str = ""
     whole: bool = False
     several: int = 0
+    exact: bool = False
 
     def unit_on(self, joint: Joint) -> str:
         return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit

@@ -19,7 +19,14 @@ EFFECT = Effect(
     potential_energy=ripple_energy,
     shapes=(
         Shape(
-            "order", "1", "periods per turn of the motor", lower=0.0, default=sympy.Integer(1), tried=_TRIED, whole=True
+            "order",
+            "1",
+            "periods per turn of the motor",
+            lower=0.0,
+            default=sympy.Integer(1),
+            tried=_TRIED,
+            whole=True,
+            exact=True,
         ),
     ),
     kinds=(REVOLUTE,),

@@ -24,6 +24,7 @@ EFFECT = Effect(
             default=sympy.Integer(2),
             tried=(2.0, 4.0),
             whole=True,
+            exact=True,
         ),
     ),
     kinds=(REVOLUTE,),

@@ -116,8 +116,10 @@ class Bank:
         """How many rows each joint of a run has (n)."""
         return np.array([int(one.kept.sum()) for one in self._joints[run]])
 
-    def add(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Variant | None:
-        """Columns of a hypothesis with a shape; None where that is impossible along a run or acts nowhere."""
+    def add(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool = True) -> Variant | None:
+        """Columns of a hypothesis with a shape, which is one of the ``variants`` if ``offered``; None where that is
+        impossible along a run or acts nowhere.
+        """
         per_run = []
         for scene in self.scenes:
             # A shape that the motion makes impossible shows in numbers that are not finite.
@@ -141,7 +143,8 @@ class Bank:
             for j in acts:
                 self._extend(r, j, numbers, run.decimated(columns[:, j]))
         variant = Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
-        self.variants.append(variant)
+        if offered:
+            self.variants.append(variant)
         return variant
 
     def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:

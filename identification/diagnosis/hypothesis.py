@@ -38,7 +38,7 @@ class ShapeRange:
     """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``).
 
     ``points`` are tried instead where they are given, even over the logarithm if ``log``. ``whole`` tells that nothing
-    lies between them.
+    lies between them, ``exact`` that what fits better there is another effect.
     """
 
     name: str
@@ -49,6 +49,7 @@ class ShapeRange:
     log: bool = True
     points: tuple[float, ...] = ()
     whole: bool = False
+    exact: bool = False
 
     def grid(self) -> list[float]:
         """The points that are tried first."""

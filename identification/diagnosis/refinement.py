@@ -24,6 +24,8 @@ _STEPS, _PARTS, _GAIN = 6, (1.0, 0.3, 0.1), 0.5
 _DIFFERENCE, _LONGEST = 0.05, 1.0
 #: What a step of the grid must lower the sum of squares by.
 _DAMPING = 1.0
+#: Difference from a value that must be exact, and the drop of the sum of squares that chance does not reach.
+_BESIDE, _EXACT = 0.02, 12.0
 
 
 def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> Variant:
@@ -45,27 +47,52 @@ def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> 
     return best.variant
 
 
+def between(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether a value beside one that must be exact explains more than chance can."""
+    for shape in variant.hypothesis.shapes:
+        if shape.exact:
+            here = variant.shape[shape.name]
+            moved = weighing.bank.add(variant.hypothesis, {**variant.shape, shape.name: here + _BESIDE}, offered=False)
+            if moved is None:
+                continue
+            weighing.refresh()
+            A, b = _tangent(weighing, variant, [(moved.only(variant.used), _BESIDE)], others)
+            k = len(b) - 1
+            with_step, without = (float(y @ inverse(G, 1e-9) @ y) for G, y in ((A, b), (A[:k, :k], b[:k])))
+            if with_step - without > _EXACT:
+                return True
+    return False
+
+
 def _step(
     weighing: Weighing, variant: Variant, free: Sequence[ShapeRange], others: Sequence[Variant]
 ) -> dict[str, float]:
     """Of each shape value, in steps of its grid."""
-    x, _ = weighing.beside(variant, others)
     beside = [(shape, _beside(weighing, variant, shape)) for shape in free]
-    moved = [
-        (shape, one, shape.steps(variant.shape[shape.name], one.shape[shape.name])) for shape, one in beside if one
-    ]
-    numbers = [*variant.columns, *(number for _, one, _ in moved for number in one.columns)]
+    here = variant.shape
+    moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in beside if one]
+    A, b = _tangent(weighing, variant, [(one, steps) for _, one, steps in moved], others)
+    k = len(b) - len(moved)
+    solution = inverse(A + np.diag([0.0] * k + [_DAMPING] * len(moved)), 1e-9) @ b
+    return {shape.name: float(np.clip(solution[k + i], -_LONGEST, _LONGEST)) for i, (shape, _, _) in enumerate(moved)}
+
+
+def _tangent(
+    weighing: Weighing, variant: Variant, moved: Sequence[tuple[Variant, float]], others: Sequence[Variant]
+) -> tuple[Array, Array]:
+    """Products A of the unknowns' columns, b with the torque: coefficients, then steps of the shape by which the
+    variant was ``moved``.
+    """
+    x, _ = weighing.beside(variant, others)
+    numbers = [*variant.columns, *(number for one, _ in moved for number in one.columns)]
     part = weighing.normal.part(numbers, columns_of(others))
     k = len(x)
-    # From the columns to the unknowns: the coefficients, and the steps of the shape.
     T = np.zeros((len(numbers), k + len(moved)))
     T[:k, :k] = np.eye(k)
-    for i, (_, _, steps) in enumerate(moved):
+    for i, (_, steps) in enumerate(moved):
         T[:k, k + i] = -x / steps
         T[(1 + i) * k : (2 + i) * k, k + i] = x / steps
-    A = T.T @ part[:-1, :-1] @ T + np.diag([0.0] * k + [_DAMPING] * len(moved))
-    solution = inverse(A, 1e-9) @ (T.T @ part[:-1, -1])
-    return {shape.name: float(np.clip(solution[k + i], -_LONGEST, _LONGEST)) for i, (shape, _, _) in enumerate(moved)}
+    return T.T @ part[:-1, :-1] @ T, T.T @ part[:-1, -1]
 
 
 def _beside(weighing: Weighing, variant: Variant, shape: ShapeRange) -> Variant | None:

@@ -20,7 +20,7 @@ from identification.diagnosis.evidence import (
     likely,
 )
 from identification.diagnosis.normal import bounded
-from identification.diagnosis.refinement import refined
+from identification.diagnosis.refinement import between, refined
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -52,6 +52,7 @@ class Selection:
 
     def __init__(self, weighing: Weighing) -> None:
         self.weighing = weighing
+        self._between: dict[tuple[tuple[int, ...], tuple[int, ...]], bool] = {}
         #: Rivals whose shapes have been refined, each with what it stood beside.
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
@@ -63,7 +64,7 @@ class Selection:
         refused: set[Key] = set()
         while len(chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
             offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
-            passing = [one for one in offered if one.passes]
+            passing = [one for one in offered if self._sound(one, chosen)]
             first = next(iter([*(one for one in passing if likely(one.variant, chosen)), *passing]), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
@@ -137,7 +138,7 @@ class Selection:
         """
         usual = likely(mine.variant, others)
         for one in self._rivals(mine, others):
-            if not one.passes:
+            if not self._sound(one, others):
                 continue
             margin, rare = _BETTER, not likely(one.variant, others)
             if usual and rare:
@@ -148,6 +149,15 @@ class Selection:
             if not mine.passes or (fits and one.score > mine.score + margin):
                 return one
         return None
+
+    def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
+        """Whether it passes, and no order that is no whole number would do better."""
+        if not one.passes or not any(shape.exact for shape in one.variant.hypothesis.shapes):
+            return one.passes
+        key = (one.variant.columns, tuple(columns_of(others)))
+        if key not in self._between:
+            self._between[key] = between(self.weighing, one.variant, others)
+        return not self._between[key]
 
     def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:
         """Other hypotheses in the place of ``mine``, the best first.

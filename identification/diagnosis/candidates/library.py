@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -89,8 +90,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         tries *= shape.several or len(points)
         unit = shape.unit_on(joint)
         even = shape.relative == "position" or min(points) <= 0
-        one = ShapeRange(shape.name, unit, min(points), max(points), log=not even, points=points, whole=shape.whole)
-        shapes.append(one)
+        found = ShapeRange(shape.name, unit, min(points), max(points), log=not even, points=points)
+        shapes.append(replace(found, whole=shape.whole, exact=shape.exact))
     coefficients = tuple(
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
         for one in effect.parameters
