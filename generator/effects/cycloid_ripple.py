@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, Shape, Site
+from generator.effects.effect import Column, Effect, Site
 from generator.effects.laws import ripple
 from generator.robot.description import REVOLUTE
 
@@ -23,18 +23,7 @@ EFFECT = Effect(
     parameters=ripple.parameters("Ry", ("N m", "N"), "the cycloid's ripple, on the joint side"),
     columns=_columns,
     potential_energy=lambda at: ripple.energy_columns(_phase(at), at.values["order"]),
-    shapes=(
-        Shape(
-            "order",
-            "1",
-            "periods per turn of the joint",
-            lower=0.0,
-            tried=(1.0,),
-            whole=True,
-            several=300,
-            exact=True,
-        ),
-    ),
+    shapes=(ripple.order("joint", (1.0,), several=300),),
     kinds=(REVOLUTE,),
     needs=("q",),
     sign_convention="the motor supplies Ryc cos(order q) + Rys sin(order q) + the second harmonic",

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sympy
-
-from generator.effects.effect import Effect, Shape
+from generator.effects.effect import Effect
 from generator.effects.laws import ripple
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
@@ -17,18 +15,7 @@ EFFECT = Effect(
     parameters=ripple.parameters("Rm", ("N m", "N"), "the motor's ripple, on the joint side"),
     columns=ripple_columns,
     potential_energy=ripple_energy,
-    shapes=(
-        Shape(
-            "order",
-            "1",
-            "periods per turn of the motor",
-            lower=0.0,
-            default=sympy.Integer(1),
-            tried=_TRIED,
-            whole=True,
-            exact=True,
-        ),
-    ),
+    shapes=(ripple.order("motor", _TRIED, default=1),),
     kinds=(REVOLUTE,),
     needs=("motor",),
     sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r) + the second harmonic; q_r = N q",

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sympy
-
-from generator.effects.effect import Effect, Shape
+from generator.effects.effect import Effect
 from generator.effects.laws import ripple
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
@@ -15,18 +13,7 @@ EFFECT = Effect(
     parameters=ripple.parameters("Rw", ("N m", "N"), "the wave generator's ripple, on the joint side"),
     columns=ripple_columns,
     potential_energy=ripple_energy,
-    shapes=(
-        Shape(
-            "order",
-            "1",
-            "periods per turn of the wave generator",
-            lower=0.0,
-            default=sympy.Integer(2),
-            tried=(2.0, 4.0),
-            whole=True,
-            exact=True,
-        ),
-    ),
+    shapes=(ripple.order("wave generator", (2.0, 4.0), default=2),),
     kinds=(REVOLUTE,),
     needs=("motor",),
     sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) + the second harmonic; q_r = N q",

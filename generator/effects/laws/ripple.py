@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import LinearParameter
+from generator.effects.effect import LinearParameter, Shape
 
 
 def parameters(stem: str, units: tuple[str, str], what: str) -> tuple[LinearParameter, ...]:
@@ -17,6 +17,13 @@ def parameters(stem: str, units: tuple[str, str], what: str) -> tuple[LinearPara
         LinearParameter(f"{stem}2c", units, "cosine part of its second harmonic", refines=True),
         LinearParameter(f"{stem}2s", units, "sine part of its second harmonic", refines=True),
     )
+
+
+def order(part: str, tried: tuple[float, ...], default: int | None = None, several: int = 0) -> Shape:
+    """Periods per turn of a ``part``: a whole number of lobes, poles or waves. ``tried``, ``several`` as in Shape."""
+    whole = None if default is None else sympy.Integer(default)
+    what = f"periods per turn of the {part}"
+    return Shape("order", "1", what, lower=0.0, default=whole, tried=tried, whole=True, several=several, exact=True)
 
 
 def torque_columns(phase: sympy.Expr) -> tuple[sympy.Expr, ...]:
