@@ -197,7 +197,7 @@ def test_stages_are_plain_lines_where_there_is_no_terminal(
     pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     done = command("generate", pendulum, "--out", tmp_path / "out", capsys=capsys)
-    assert done.err == f"reading {pendulum}\nderiving the model of pendulum\nemitting the files\n"
+    assert done.err == f"reading {pendulum.name}\nderiving the model of pendulum\nemitting the files\n"
 
 
 def test_stages_are_shown_on_a_terminal(pendulum: Path) -> None:
