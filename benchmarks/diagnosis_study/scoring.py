@@ -40,11 +40,6 @@ class Score:
         """For JSON."""
         return asdict(self)
 
-    @property
-    def exact(self) -> bool:
-        """All that can be seen is named, and nothing else."""
-        return self.found == self.visible and not self.extra
-
 
 def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
     """The score of a diagnosis."""

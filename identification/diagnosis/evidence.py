@@ -138,7 +138,7 @@ class Weighing:
 
     def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
         """Drop of the sum of squares of what was not fitted."""
-        return self._held_out.gain(variant, columns_of(others))
+        return self._held_out.gain(variant, self.beside(variant, others)[0], columns_of(others))[0]
 
     def unexplained(self, chosen: Sequence[Variant]) -> float:
         """What the sum of squares is above the noise."""
@@ -164,10 +164,10 @@ class Weighing:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
-        validation = self.gain(variant, others)
+        validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
-        promised = self._held_out.promise(variant, x, columns_of(others)) / (1 + unexplained / self.normal.rows)
+        promised /= 1 + unexplained / self.normal.rows
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         share = _SHARE if common(variant) else _RARE_SHARE

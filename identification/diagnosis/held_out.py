@@ -29,23 +29,17 @@ class HeldOut:
             self._turns = [(tuple(one for one in fitted if one != out), fitted) for out in fitted]
         self._inverses: dict[tuple[tuple[int, ...], tuple[int, ...]], Array] = {}
 
-    def gain(self, variant: Variant, chosen: Sequence[int]) -> float:
-        """Drop of the predicted runs' sum of squares with a variant beside the columns ``chosen``."""
-
-        def drop(runs: tuple[int, ...]) -> float:
-            part, size = self._part(runs, variant, chosen)
-            return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
-
-        return sum(drop(more) - drop(fewer) for fewer, more in self._turns)
-
-    def promise(self, variant: Variant, coefficients: Array, chosen: Sequence[int]) -> float:
-        """That drop, if the variant acts with these coefficients."""
-
-        def square(runs: tuple[int, ...]) -> float:
-            part, _ = self._part(runs, variant, chosen)
-            return float(coefficients @ part[:-1, :-1] @ coefficients)
-
-        return sum(square(more) - square(fewer) for fewer, more in self._turns)
+    def gain(self, variant: Variant, coefficients: Array, chosen: Sequence[int]) -> tuple[float, float]:
+        """Drop of the predicted runs' sum of squares with a variant beside the columns ``chosen``, and what it would be
+        if the variant acts with these coefficients.
+        """
+        gained = promised = 0.0
+        for fewer, more in self._turns:
+            for runs, sign in ((more, 1.0), (fewer, -1.0)):
+                part, size = self._part(runs, variant, chosen)
+                gained += sign * bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
+                promised += sign * float(coefficients @ part[:-1, :-1] @ coefficients)
+        return gained, promised
 
     def _part(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> tuple[Array, Array]:
         """What is left beside ``chosen`` of the products of the variant's columns and the torque over some runs, fitted

@@ -68,9 +68,9 @@ def _step(
     weighing: Weighing, variant: Variant, free: Sequence[ShapeRange], others: Sequence[Variant]
 ) -> dict[str, float]:
     """Of each shape value, in steps of its grid."""
-    beside = [(shape, _beside(weighing, variant, shape)) for shape in free]
+    neighbours = [(shape, neighbour(weighing, variant, shape)) for shape in free]
     here = variant.shape
-    moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in beside if one]
+    moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in neighbours if one]
     A, b = _tangent(weighing, variant, [(one, steps) for _, one, steps in moved], others)
     k = len(b) - len(moved)
     solution = inverse(A + np.diag([0.0] * k + [_DAMPING] * len(moved)), 1e-9) @ b
@@ -95,7 +95,7 @@ def _tangent(
     return T.T @ part[:-1, :-1] @ T, T.T @ part[:-1, -1]
 
 
-def _beside(weighing: Weighing, variant: Variant, shape: ShapeRange) -> Variant | None:
+def neighbour(weighing: Weighing, variant: Variant, shape: ShapeRange) -> Variant | None:
     """With a shape value a little larger, smaller at the upper end; None where neither is possible."""
     here = variant.shape[shape.name]
     for steps in (_DIFFERENCE, -_DIFFERENCE):

@@ -52,6 +52,7 @@ class Selection:
 
     def __init__(self, weighing: Weighing) -> None:
         self.weighing = weighing
+        #: Whether an order between whole numbers does better, by the columns and those beside them.
         self._between: dict[tuple[tuple[int, ...], tuple[int, ...]], bool] = {}
         #: Rivals whose shapes have been refined, each with what it stood beside.
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
@@ -64,8 +65,8 @@ class Selection:
         refused: set[Key] = set()
         while len(chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
             offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
-            passing = [one for one in offered if self._sound(one, chosen)]
-            first = next(iter([*(one for one in passing if likely(one.variant, chosen)), *passing]), None)
+            offered.sort(key=lambda one: not likely(one.variant, chosen))
+            first = next((one for one in offered if self._sound(one, chosen)), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
                 paired = True
@@ -89,7 +90,7 @@ class Selection:
         """
         if self.weighing.unexplained([]) < _GROSS * self.weighing.normal.rows:
             return []
-        offered: dict[tuple[str, int], list[Variant]] = {}
+        offered: dict[Key, list[Variant]] = {}
         for one in self.weighing.bank.variants:
             if common(one) or one.hypothesis.effect in BALANCERS:
                 offered.setdefault(key_of(one), []).append(one)

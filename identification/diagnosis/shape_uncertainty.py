@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import inverse
+from identification.diagnosis.refinement import neighbour
 
 Array = NDArray[np.float64]
 
-#: Difference by which a shape is differentiated, in steps of its grid.
-_STEP = 0.05
 #: Part of a parameter that the rows must show for it to be known at all.
 _SEEN = 0.99
 
@@ -26,29 +25,22 @@ def deviations(
     ``solution`` holds both. What the runs do not show is infinite. A searched shape counts as one more parameter,
     linear about its value.
     """
-    bank, base = found.bank, len(found.bank.base)
+    base = len(found.bank.base)
     value = dict(zip(columns, solution[base:].tolist(), strict=True))
     steps: list[tuple[int, str, dict[int, float]]] = []
     for choice in found.choices:
         variant = choice.evidence.variant
         for shape in variant.hypothesis.shapes:
-            here = variant.shape[shape.name]
-            if not shape.free:
-                continue
-            near = shape.moved(here, _STEP)
-            near = near if near > here else shape.moved(here, -_STEP)
-            step = near - here
-            moved = bank.add(variant.hypothesis, {**variant.shape, shape.name: near})
+            moved = neighbour(found.weighing, variant, shape) if shape.free else None
             if moved is None:
                 continue
-            moved = moved.only(variant.used)
+            step = moved.shape[shape.name] - variant.shape[shape.name]
             change: dict[int, float] = {
                 number: sign * value[own] / step
                 for own, other in zip(variant.columns, moved.columns, strict=True)
                 for number, sign in ((other, 1.0), (own, -1.0))
             }
             steps.append((id(choice), shape.name, change))
-    found.weighing.refresh()
     normal = found.weighing.normal
     chosen = [*range(base), *columns]
     T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
