@@ -86,6 +86,8 @@ class Bank:
         regressors = scenes[0].regressors
         self.base: tuple[str, ...] = regressors.names
         self.variants: list[Variant] = []
+        self._made: dict[tuple[object, ...], Variant | None] = {}
+        self._offered: set[tuple[object, ...]] = set()
         self.nowhere: dict[tuple[str, int], Hypothesis] = {}
         self.count = len(self.base)
         place = {name: k for k, name in enumerate(self.base)}
@@ -118,8 +120,18 @@ class Bank:
 
     def add(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool = True) -> Variant | None:
         """Columns of a hypothesis with a shape, which is one of the ``variants`` if ``offered``; None where that is
-        impossible along a run or acts nowhere.
+        impossible along a run or acts nowhere. What there is already is not made again.
         """
+        key = (hypothesis.effect, hypothesis.joint, *sorted(shape.items()))
+        if key not in self._made:
+            self._made[key] = self._columns(hypothesis, shape)
+        variant = self._made[key]
+        if offered and variant is not None and key not in self._offered:
+            self._offered.add(key)
+            self.variants.append(variant)
+        return variant
+
+    def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Variant | None:
         per_run = []
         for scene in self.scenes:
             # A shape that the motion makes impossible shows in numbers that are not finite.
@@ -142,10 +154,7 @@ class Bank:
                 self.grams[r] = _grown(self.grams[r], len(numbers))
             for j in acts:
                 self._extend(r, j, numbers, run.decimated(columns[:, j]))
-        variant = Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
-        if offered:
-            self.variants.append(variant)
-        return variant
+        return Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
 
     def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:
         one = self._joints[run][joint]

@@ -81,18 +81,29 @@ class Weighing:
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._known_drops: dict[tuple[int, ...], list[float]] = {}
+        self._seen = 0
         self.refresh()
 
     def refresh(self) -> None:
-        """After columns have been added."""
+        """After columns may have been added."""
+        if self._seen == self.bank.count:
+            return
+        self._seen = self.bank.count
         p = len(self.bank.base)
         self.normal = Normal(self._gram(self._train), p, self._count(self._train), self._prior)
-        both = (*self._train, *self._validate)
-        self.all = Normal(self._gram(both), p, self._count(both), self._prior) if self._validate else self.normal
         self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
 
+    @property
+    def all(self) -> Normal:
+        """Of the fitted and the validating runs."""
+        runs = (*self._train, *self._validate)
+        return Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
+
     def _gram(self, runs: Sequence[int]) -> Array:
-        return np.asarray(np.sum([self.bank.grams[r] for r in runs], axis=0))
+        total = self.bank.grams[runs[0]].copy()
+        for r in runs[1:]:
+            total += self.bank.grams[r]
+        return total
 
     def _count(self, runs: Sequence[int]) -> int:
         return sum(int(self.bank.rows(r).sum()) for r in runs)

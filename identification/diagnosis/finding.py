@@ -11,15 +11,18 @@ from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
 from identification.diagnosis.evidence import Evidence
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.shape_uncertainty import deviations
+from identification.diagnosis.whole_orders import UNSURE
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
+#: Stands for whatever makes a ripple that is none of the library's.
+BETWEEN = "other_ripple"
 #: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
 #: its zero means nothing.
 _VAGUE = 0.5
@@ -137,24 +140,35 @@ def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
         variant = one.evidence.variant
         at = [place[number] for number in variant.columns]
         hypothesis = variant.hypothesis
+        alternatives = _alternatives(hypothesis, one)
         values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         result.append(
             Finding(
                 hypothesis,
-                FIRM if firm and not one.alternatives else TENTATIVE,
+                FIRM if firm and not alternatives else TENTATIVE,
                 hypothesis.joints or (hypothesis.joint,),
                 variant.shape,
                 values,
                 one.evidence,
-                tuple(_alternative(hypothesis, other) for other in one.alternatives),
+                alternatives,
                 _amplitude(found, one, solution[at]),
                 shape_std.get(id(one), {}),
                 _homogeneous(found, one),
             )
         )
     return tuple(sorted(result, key=lambda one: -one.evidence.drop))
+
+
+def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
+    found = [_alternative(mine, other) for other in one.alternatives]
+    if one.odds < UNSURE:
+        title = "ripple whose order is no whole number"
+        turns = "more turns of the joint in one run: they tell the order more closely"
+        place = mine.joints or (mine.joint,)
+        found.append(Alternative(BETWEEN, title, place, f"{title} on {on_joints(place)}", one.evidence.score, turns))
+    return tuple(found)
 
 
 def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:

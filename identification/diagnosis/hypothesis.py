@@ -93,7 +93,8 @@ class Hypothesis:
     the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque: there
-    is nothing to search, and the columns are zero.
+    is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of a
+    drive's torque, for the part of it that the model has without what was found beside it.
     """
 
     effect: str
@@ -110,6 +111,7 @@ class Hypothesis:
     separating: Mapping[str, str] = field(default_factory=dict)
     tries: int = 0
     measured: Mapping[str, Value] = field(default_factory=dict)
+    of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
 
     @property
     def named(self) -> str:

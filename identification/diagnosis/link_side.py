@@ -7,11 +7,12 @@ friction turn with the motor and do not see e.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, TypeAlias
 
+import casadi
 import numpy as np
 from numpy.typing import NDArray
 
@@ -71,38 +72,61 @@ class LinkSide:
         result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
         return result
 
-    def steps(self, train: Train, end: int | None = None) -> Iterator[tuple[Value, Value, Value]]:
-        """Position, speed and acceleration of the joint's link against the motor, sample by sample up to ``end``:
-        M e'' + d e' + k z = -tau_link(q), z what e is beyond the gap, d nothing within it.
-
-        To the first order in 1/k and without a gap e is -tau_link/k, but that holds far below the resonance alone.
-        """
-        h, half, k = self.scene.period, train.gap / 2, train.stiffness
-        d = 2 * train.damping * np.sqrt(k * float(np.mean(self.inertia)))
-        # The log does not tell how the link swings when it begins: it hangs still on its spring.
-        e: Value = -(half * np.sign(self.load[0]) + self.load[0] / k)
-        v: Value = (self.load[0] - self.load[1]) / (h * k)
-        # Speeds are those between samples, damping is centred: the frequency of a swing is right to the second order.
+    def steps(self, train: Train, end: int) -> Iterator[Value]:
+        """Acceleration of the joint's link against the motor, sample by sample up to ``end``."""
+        own = self._own(train)
+        e, v = self._start(train)
         for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
-            beyond = e - (abs(e + half) - abs(e - half)) / 2
-            c = (abs(e) > half) * d * (h / (2 * M))
-            after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
-            yield e, (v + after) / 2, (after - v) / h
-            v = after
-            e = e + h * v
+            e, v, (_, _, acceleration) = _step(e, v, load, M, own)
+            yield acceleration
 
     def deflection(self, train: Train) -> Motion:
         """The link's motion against the motor's on a drive train of plain numbers."""
-        plain = Train(float(train.stiffness), float(train.damping), float(train.gap))
-        own = np.array(list(self.steps(plain))).T
-        moved = [np.zeros_like(self.scene.motion.q) for _ in own]
-        for signal, x in zip(moved, own, strict=True):
+        given = np.tile(np.array(self._own(train))[:, None], self.scene.motion.samples)
+        steps = _many_steps(self.scene.motion.samples)
+        _, played = steps(list(self._start(train)), self.load[None], self.inertia[None], given)
+        moved = [np.zeros_like(self.scene.motion.q) for _ in range(3)]
+        for signal, x in zip(moved, np.asarray(played), strict=True):
             signal[self.k] = x
         return Motion(*moved)
+
+    def _own(self, train: Train) -> tuple[Value, Value, Value, Value]:
+        """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
+        d = 2 * train.damping * np.sqrt(train.stiffness * float(np.mean(self.inertia)))
+        return train.stiffness, d, train.gap / 2, self.scene.period
+
+    def _start(self, train: Train) -> tuple[Value, Value]:
+        """The log does not tell how the link swings when it begins: it hangs still on its spring."""
+        k, half = train.stiffness, train.gap / 2
+        e = -(half * np.sign(self.load[0]) + self.load[0] / k)
+        return e, (self.load[0] - self.load[1]) / (self.scene.period * k)
 
     def torque_per(self, deflection: Motion) -> Array:
         """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
         return sensitivity(self.torque_on, self.scene.motion, deflection)
+
+
+def _step(e: Value, v: Value, load: Value, M: Value, own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
+    """Deflection e and its speed v a sample later; and position, speed and acceleration now:
+    M e'' + d e' + k z = -load, z what e is beyond the gap, d nothing within it.
+
+    To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
+    those between samples, damping is centred: the frequency of a swing is right to the second order.
+    """
+    k, d, half, h = own
+    beyond = e - (abs(e + half) - abs(e - half)) / 2
+    c = (abs(e) > half) * d * (h / (2 * M))
+    after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
+    return e + h * after, after, (e, (v + after) / 2, (after - v) / h)
+
+
+@cache
+def _many_steps(count: int) -> casadi.Function:
+    """``count`` steps one after the other: of the first (e, v), loads, inertias and what a train has of its own."""
+    state, load, M, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("load", 1), ("M", 1), ("own", 4)))
+    e, v, seen = _step(state[0], state[1], load, M, casadi.vertsplit(own))
+    step = casadi.Function("step", [state, load, M, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
+    return step.mapaccum("steps", count)
 
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:

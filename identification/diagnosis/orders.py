@@ -24,7 +24,11 @@ def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ..
         step = max(1, scene.motion.samples // _SAMPLES)
         q = scene.motion.q[k, ::step]
         e = (scene.tau[k] - scene.model_torque[k])[::step]
-        e = e - e.mean()
+        # Over the way and not over time: where the joint nearly stands friction leaves most.
+        way = np.abs(scene.motion.qd[k, ::step])
+        if not way.any():
+            continue
+        e = (e - np.average(e, weights=way)) * way
         turn = np.exp(1j * q)
         phase = turn**_LOWEST
         for i in range(len(orders)):

@@ -24,8 +24,6 @@ _STEPS, _PARTS, _GAIN = 6, (1.0, 0.3, 0.1), 0.5
 _DIFFERENCE, _LONGEST = 0.05, 1.0
 #: What a step of the grid must lower the sum of squares by.
 _DAMPING = 1.0
-#: Difference from a value that must be exact, and the drop of the sum of squares that chance does not reach.
-_BESIDE, _EXACT = 0.02, 12.0
 
 
 def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> Variant:
@@ -47,23 +45,6 @@ def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> 
     return best.variant
 
 
-def between(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether a value beside one that must be exact explains more than chance can."""
-    for shape in variant.hypothesis.shapes:
-        if shape.exact:
-            here = variant.shape[shape.name]
-            moved = weighing.bank.add(variant.hypothesis, {**variant.shape, shape.name: here + _BESIDE}, offered=False)
-            if moved is None:
-                continue
-            weighing.refresh()
-            A, b = _tangent(weighing, variant, [(moved.only(variant.used), _BESIDE)], others)
-            k = len(b) - 1
-            with_step, without = (float(y @ inverse(G, 1e-9) @ y) for G, y in ((A, b), (A[:k, :k], b[:k])))
-            if with_step - without > _EXACT:
-                return True
-    return False
-
-
 def _step(
     weighing: Weighing, variant: Variant, free: Sequence[ShapeRange], others: Sequence[Variant]
 ) -> dict[str, float]:
@@ -71,13 +52,13 @@ def _step(
     neighbours = [(shape, neighbour(weighing, variant, shape)) for shape in free]
     here = variant.shape
     moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in neighbours if one]
-    A, b = _tangent(weighing, variant, [(one, steps) for _, one, steps in moved], others)
+    A, b = tangent(weighing, variant, [(one, steps) for _, one, steps in moved], others)
     k = len(b) - len(moved)
     solution = inverse(A + np.diag([0.0] * k + [_DAMPING] * len(moved)), 1e-9) @ b
     return {shape.name: float(np.clip(solution[k + i], -_LONGEST, _LONGEST)) for i, (shape, _, _) in enumerate(moved)}
 
 
-def _tangent(
+def tangent(
     weighing: Weighing, variant: Variant, moved: Sequence[tuple[Variant, float]], others: Sequence[Variant]
 ) -> tuple[Array, Array]:
     """Products A of the unknowns' columns, b with the torque: coefficients, then steps of the shape by which the

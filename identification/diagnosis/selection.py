@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,9 @@ from identification.diagnosis.evidence import (
     likely,
 )
 from identification.diagnosis.normal import bounded
-from identification.diagnosis.refinement import between, refined
+from identification.diagnosis.refinement import refined
+from identification.diagnosis.scaling import scales_all
+from identification.diagnosis.whole_orders import nearest, odds
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -41,10 +44,14 @@ _PAIRED = 20
 
 @dataclass(frozen=True)
 class Choice:
-    """A variant that was taken, with its evidence beside the others and what may stand in its place."""
+    """A variant that was taken, with its evidence beside the others and what may stand in its place.
+
+    ``odds`` are those of its whole orders against what lies between, infinite where it has none.
+    """
 
     evidence: Evidence
     alternatives: tuple[Evidence, ...] = ()
+    odds: float = inf
 
 
 class Selection:
@@ -52,8 +59,8 @@ class Selection:
 
     def __init__(self, weighing: Weighing) -> None:
         self.weighing = weighing
-        #: Whether an order between whole numbers does better, by the columns and those beside them.
-        self._between: dict[tuple[tuple[int, ...], tuple[int, ...]], bool] = {}
+        #: Odds of whole orders, by the columns and those beside them.
+        self._odds: dict[tuple[tuple[int, ...], tuple[int, ...]], float] = {}
         #: Rivals whose shapes have been refined, each with what it stood beside.
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
@@ -66,7 +73,8 @@ class Selection:
         while len(chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
             offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
             offered.sort(key=lambda one: not likely(one.variant, chosen))
-            first = next((one for one in offered if self._sound(one, chosen)), None)
+            whole = (self._whole(one, chosen) for one in offered if one.passes)
+            first = next((one for one in whole if self._sound(one, chosen)), None)
             if first is None:
                 pair = None if paired else self._pair(chosen)
                 paired = True
@@ -74,7 +82,7 @@ class Selection:
                     break
                 chosen += pair
             else:
-                chosen.append(refined(self.weighing, first.variant, chosen))
+                chosen.append(self._shaped(first.variant, chosen))
             chosen = self._exchanged(chosen, chosen[-1], 1)
             if first is not None and frozenset(map(key_of, chosen)) == known:
                 refused.add(key_of(first.variant))
@@ -99,14 +107,15 @@ class Selection:
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
         chosen = self._standing(chosen)
-        return [refined(self.weighing, one, [other for other in chosen if other is not one]) for one in chosen]
+        return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other."""
         chosen = list(chosen)
         while chosen:
-            found = [self.weighing.of(one, [other for other in chosen if other is not one]) for one in chosen]
-            failing = [k for k, one in enumerate(found) if not one.passes]
+            rest = [[other for other in chosen if other is not one] for one in chosen]
+            found = [self.weighing.of(one, others) for one, others in zip(chosen, rest, strict=True)]
+            failing = [k for k, others in enumerate(rest) if not self._sound(found[k], others)]
             if not failing:
                 return [one.variant for one in found]
             del chosen[min(failing, key=lambda k: found[k].drop)]
@@ -122,12 +131,12 @@ class Selection:
                 if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
-                mine = self.weighing.of(refined(self.weighing, one, others), others)
+                mine = self.weighing.of(self._shaped(one, others), others)
                 best = self._challenger(mine, others)
                 if best is not None:
-                    mine = self.weighing.of(refined(self.weighing, best.variant, others), others)
+                    mine = self.weighing.of(self._shaped(best.variant, others), others)
                 place = chosen.index(one)
-                chosen[place : place + 1] = [mine.variant] if mine.passes else []
+                chosen[place : place + 1] = [mine.variant] if self._sound(mine, others) else []
             if chosen == before:
                 break
         return chosen
@@ -139,6 +148,7 @@ class Selection:
         """
         usual = likely(mine.variant, others)
         for one in self._rivals(mine, others):
+            one = self._whole(one, others)
             if not self._sound(one, others):
                 continue
             margin, rare = _BETTER, not likely(one.variant, others)
@@ -152,13 +162,25 @@ class Selection:
         return None
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
-        """Whether it passes, and no order that is no whole number would do better."""
-        if not one.passes or not any(shape.exact for shape in one.variant.hypothesis.shapes):
-            return one.passes
-        key = (one.variant.columns, tuple(columns_of(others)))
-        if key not in self._between:
-            self._between[key] = between(self.weighing, one.variant, others)
-        return not self._between[key]
+        """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
+        it.
+        """
+        return one.passes and self._odds_of(one.variant, others) > 1 and scales_all(self.weighing, one.variant, others)
+
+    def _odds_of(self, one: Variant, others: Sequence[Variant]) -> float:
+        key = (one.columns, tuple(columns_of(others)))
+        if key not in self._odds:
+            self._odds[key] = odds(self.weighing, one, others)
+        return self._odds[key]
+
+    def _whole(self, one: Evidence, others: Sequence[Variant]) -> Evidence:
+        """With the whole order that explains most, near its own, where it has one."""
+        moved = nearest(self.weighing, one.variant, others)
+        return one if moved is one.variant else self.weighing.of(moved, others)
+
+    def _shaped(self, one: Variant, others: Sequence[Variant]) -> Variant:
+        """With the shape that explains most beside ``others``."""
+        return nearest(self.weighing, refined(self.weighing, one, others), others)
 
     def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:
         """Other hypotheses in the place of ``mine``, the best first.
@@ -199,11 +221,11 @@ class Selection:
         usual = likely(one, others)
         near = []
         for other in self.weighing.evidence(others):
-            if not other.passes or key_of(other.variant) == key_of(one):
+            if key_of(other.variant) == key_of(one) or not self._sound(other, others):
                 continue
             margin = -max(_EQUAL * mine.drop, _BETTER)
             if usual and not likely(other.variant, others):
                 margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
                 near.append(other)
-        return Choice(mine, tuple(near))
+        return Choice(mine, tuple(near), self._odds_of(one, others))

@@ -72,7 +72,7 @@ def _most_alike(side: LinkSide, grids: Sequence[Array]) -> tuple[float, ...]:
     played = side.steps(Train(stiffness, damping, gap), _SAMPLES)
     # A drive train too stiff for the samples runs away; it is like nothing.
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for y, M, (_, _, a) in zip(left.tolist(), side.inertia.tolist(), played, strict=False):
+        for y, M, a in zip(left.tolist(), side.inertia.tolist(), played, strict=False):
             torque = M * a
             product += y * torque
             size += torque * torque

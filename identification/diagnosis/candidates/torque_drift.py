@@ -44,18 +44,18 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         if stated and stated[k]:
             continue
         if told:
-            found.append(_hypothesis(joint, partial(_columns, k), "drive's warmth"))
+            found.append(_hypothesis(k, joint, "drive's warmth"))
             continue
-        found.append(_hypothesis(joint, partial(_columns, k), "time since the start", (time,)))
+        found.append(_hypothesis(k, joint, "time since the start", (time,)))
         rises = [rise for scene in scenes if (rise := scene.rise(k)) is not None]
         highest = max((float(rise.max()) for rise in rises), default=0.0)
         if len(rises) == len(scenes) and highest > _RISE:
             whole = ShapeRange("warm_rise", "K", highest, highest, points=(highest,))
-            found.append(_hypothesis(joint, partial(_columns, k), "drive's temperature", (whole,)))
+            found.append(_hypothesis(k, joint, "drive's temperature", (whole,)))
     return found
 
 
-def _hypothesis(joint: Joint, columns: partial[Array], along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
+def _hypothesis(k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
     return Hypothesis(
         "torque_drift",
         f"drift of the torque constant with the {along}",
@@ -64,7 +64,7 @@ def _hypothesis(joint: Joint, columns: partial[Array], along: str, shapes: tuple
             Coefficient(f"torque_drift{joint.number}", "1", -_LARGEST, _LARGEST, essential=True),
             Coefficient(f"start{joint.number}", "1", -_LARGEST, _LARGEST),
         ),
-        columns,
+        partial(_columns, k),
         shapes=shapes,
         kind=DRIVE,
         joints=(joint.number,),
@@ -75,11 +75,20 @@ def _hypothesis(joint: Joint, columns: partial[Array], along: str, shapes: tuple
             "torque that holds a weight",
             "torque_gain": "one long run: a gain does not change with time",
         },
+        of_model=partial(_of_model, k),
     )
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    own = supplied(scene.robot, k, scene.torque)
+    return _scaled(k, scene, shape, scene.torque)
+
+
+def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    return _scaled(k, scene, shape, scene.model_torque)
+
+
+def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> Array:
+    own = supplied(scene.robot, k, torque)
     return -np.stack([own * _warmth(k, scene, shape), own])
 
 

@@ -44,6 +44,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
                 "gear_ratio": "a known angle at the joint: a wrong gain does not turn it",
                 "torque_drift": "one long run: a gain does not change with time",
             },
+            of_model=partial(_of_model, k),
         )
         for k, joint in enumerate(robot.moving)
         if not (stated and stated[k] != 1)
@@ -52,3 +53,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     return supplied(scene.robot, k, scene.torque)[None]
+
+
+def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    return supplied(scene.robot, k, scene.model_torque)[None]

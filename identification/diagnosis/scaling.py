@@ -1,0 +1,41 @@
+"""Effects that scale a drive's torque scale all of it: what the model has, and what was found beside it.
+
+Where only what was found grows or fades, its own law is another one, and no drive has changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from identification.diagnosis.bank import Variant
+from identification.diagnosis.evidence import Weighing, columns_of
+from identification.diagnosis.normal import inverse
+
+#: Least part of an effect's coefficients that the model's own torque must show, and the deviation, in parts of them,
+#: from which the runs do not tell.
+_SHOWN, _VAGUE = 0.5, 0.25
+
+
+def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether the model's own torque is scaled like the rest, as far as the runs tell; also of what scales nothing."""
+    hypothesis = variant.hypothesis
+    if hypothesis.of_model is None or all(scene.beside is None for scene in weighing.bank.scenes):
+        return True
+    alone = replace(hypothesis, effect=f"{hypothesis.effect} of the model", columns=hypothesis.of_model)
+    part = weighing.bank.add(alone, variant.shape, offered=False)
+    if part is None:
+        return True
+    weighing.refresh()
+    own = part.only(variant.used)
+    products = weighing.normal.part([*variant.columns, *own.columns], columns_of(others))
+    C = inverse(products[:-1, :-1], 1e-8)
+    k = len(variant.columns)
+    values = C @ products[:-1, -1]
+    # The first coefficient of the whole torque, and of the model's where both may differ.
+    whole = float(weighing.beside(variant, others)[0][0])
+    pick = np.eye(2 * k)[0] + np.eye(2 * k)[k]
+    std = float(np.sqrt(pick @ C @ pick))
+    return std > _VAGUE * abs(whole) or float(pick @ values) * np.sign(whole) > _SHOWN * abs(whole)

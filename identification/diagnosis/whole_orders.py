@@ -1,0 +1,86 @@
+"""Whole orders of a ripple: whether the runs say that the order is the whole number, or may lie beside it.
+
+A gear's waves, poles and pins are counted. Before the runs are seen a whole number is more likely than all that lies
+between two of them together; what they say of the order then decides by Bayes' rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp, inf, pi, sqrt
+
+import numpy as np
+
+from identification.diagnosis.bank import Variant
+from identification.diagnosis.evidence import Weighing
+from identification.diagnosis.hypothesis import ShapeRange
+from identification.diagnosis.normal import inverse
+from identification.diagnosis.refinement import tangent
+
+#: How much more likely a whole number is than all between two of them, before the runs are seen.
+_ODDS = 10.0
+#: Odds below which the runs leave it open whether the order is the whole number.
+UNSURE = 50.0
+#: Difference from a whole number by which columns are differentiated.
+_BESIDE = 0.02
+#: What of the rank another whole number must gain.
+_GAIN = 0.5
+
+
+@dataclass(frozen=True)
+class _Order:
+    """Where the best order lies beside a whole one, its standard deviation, and what it explains more."""
+
+    step: float
+    std: float
+    drop: float
+
+    @property
+    def odds(self) -> float:
+        """Of the whole number against all between two of them."""
+        return _ODDS * exp(-self.drop / 2) / (self.std * sqrt(2 * pi)) if self.std else inf
+
+
+def odds(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> float:
+    """Of the whole orders of a variant beside ``others``; infinite where it has none."""
+    found = [_beside(weighing, variant, one, others) for one in _exact(variant)]
+    return min((one.odds for one in found if one is not None), default=inf)
+
+
+def nearest(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> Variant:
+    """The variant with the whole orders that explain most beside ``others``, near its own."""
+    exact = _exact(variant)
+    if not exact:
+        return variant
+    best = weighing.of(variant, others)
+    for shape in exact:
+        while (found := _beside(weighing, best.variant, shape, others)) is not None and round(found.step):
+            order = max(best.variant.shape[shape.name] + round(found.step), 1.0)
+            moved = weighing.bank.add(variant.hypothesis, {**best.variant.shape, shape.name: order})
+            if moved is None:
+                break
+            weighing.refresh()
+            again = weighing.of(moved.only(best.variant.used), others)
+            if again.score <= best.score + _GAIN:
+                break
+            best = again
+    return best.variant
+
+
+def _exact(variant: Variant) -> list[ShapeRange]:
+    return [one for one in variant.hypothesis.shapes if one.exact]
+
+
+def _beside(weighing: Weighing, variant: Variant, shape: ShapeRange, others: Sequence[Variant]) -> _Order | None:
+    """None where the order cannot be moved."""
+    here = variant.shape[shape.name]
+    moved = weighing.bank.add(variant.hypothesis, {**variant.shape, shape.name: here + _BESIDE}, offered=False)
+    if moved is None:
+        return None
+    weighing.refresh()
+    A, b = tangent(weighing, variant, [(moved.only(variant.used), _BESIDE)], others)
+    k = len(b) - 1
+    C = inverse(A, 1e-9)
+    with_step, without = (float(y @ G @ y) for G, y in ((C, b), (inverse(A[:k, :k], 1e-9), b[:k])))
+    return _Order(float((C @ b)[k]), float(np.sqrt(C[k, k])), with_step - without)
