@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +14,9 @@ from numpy.typing import NDArray
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.orders import likely_orders
 from identification.diagnosis.selection import Choice, Selection
+from identification.diagnosis.whole_orders import UNSURE
 from tests.matrices import bank, hypothesis, run, several, whitened
 
 Array = NDArray[np.float64]
@@ -190,6 +195,68 @@ def test_an_order_that_is_no_whole_number_is_another_effect(order: float, named:
     found = search(one)
     assert names(found) == named
     assert all(choice.evidence.variant.shape["order"] == order for choice in found)
+
+
+def test_the_whole_order_beside_a_tried_one_is_found() -> None:
+    """On a short way the peak is broad, and noise may put it beside the order."""
+    data = Data(24)
+    q = data.draw.uniform(-0.2, 0.2, size=(RUNS, COUNT))
+    shape = ShapeRange("order", "1", 41.0, 90.0, points=(41.0, 90.0), whole=True, exact=True)
+    one = Coefficient("c", "1"), Coefficient("s", "1")
+
+    def columns(scene: Any, given: Mapping[str, float]) -> Array:
+        phase = given["order"] * q[scene.number]
+        return np.stack([np.cos(phase), np.sin(phase)])[:, None]
+
+    ripple = Hypothesis("ripple", "ripple", 1, one, columns, shapes=(shape,))
+    (found,) = search(data.bank(2.0 * np.cos(40 * q + 0.3), [ripple]))
+    assert found.evidence.variant.shape["order"] == 40.0
+
+
+@pytest.mark.parametrize(("way", "sure"), [(1.0, True), (0.05, False)])
+def test_a_short_way_leaves_the_order_open(way: float, sure: bool) -> None:
+    """Cosine and sine take up any order nearby where the joint hardly turns."""
+    data = Data(25)
+    q = data.draw.uniform(-way, way, size=(RUNS, COUNT))
+    shape = ShapeRange("order", "1", 60.0, 60.0, points=(60.0,), whole=True, exact=True)
+    both = Coefficient("c", "1"), Coefficient("s", "1")
+
+    def columns(scene: Any, given: Mapping[str, float]) -> Array:
+        phase = given["order"] * q[scene.number]
+        return np.stack([np.cos(phase), np.sin(phase)])[:, None]
+
+    ripple = Hypothesis("ripple", "ripple", 1, both, columns, shapes=(shape,))
+    (found,) = search(data.bank(3.0 * np.cos(60 * q + 0.3), [ripple]))
+    assert (found.odds > UNSURE) == sure
+
+
+@pytest.mark.parametrize(("share", "named"), [(1.0, {"drift"}), (0.0, set())])
+def test_what_scales_a_torque_scales_all_of_it(share: float, named: set[str]) -> None:
+    """What was found fades in both cases, the model's own torque in one of them."""
+    data = Data(26)
+    warmth = np.linspace(0.0, 1.0, COUNT)
+    own, beside = data.column(), data.column()
+    whole = fixed("drift", warmth * (own + beside))
+    drift = replace(whole, of_model=lambda scene, shape: (warmth * own[scene.number])[None, None])
+    one = data.bank(warmth * (share * own + beside), [drift])
+    for scene in one.scenes:
+        scene.beside = "what was found"  # type: ignore[misc, assignment]
+    assert names(search(one)) == named
+
+
+def test_peaks_over_the_way_are_not_hidden_by_standstill() -> None:
+    """From place to place, with stops: where the joint stands friction leaves more than the ripple is."""
+    draw = np.random.default_rng(27)
+    places = draw.uniform(-0.9, 0.9, size=31)
+    rise = (1 - np.cos(np.linspace(0.0, np.pi, 60))) / 2
+    q = np.concatenate(
+        [np.append(a + (b - a) * rise, np.full(90, b)) for a, b in zip(places, places[1:], strict=False)]
+    )
+    qd = np.gradient(q)
+    left = 0.2 * np.cos(40 * q) + np.where(qd == 0, np.repeat(draw.normal(size=30), 150), 0.0)
+    motion = SimpleNamespace(q=q[None], qd=qd[None], samples=q.size)
+    scene: Any = SimpleNamespace(motion=motion, tau=left[None], model_torque=np.zeros((1, q.size)))
+    assert 40.0 in likely_orders([scene], 0, 300)
 
 
 def test_a_place_has_no_zero() -> None:

@@ -16,7 +16,8 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 class Score:
     """``found`` of the ``visible`` hidden effects are named, ``first`` says that the first finding is one of
     them, ``listed`` counts those that are an alternative of a finding only, ``invisible_told`` those of
-    ``invisible`` that are said to be so, or named all the same. ``extra`` are named effects that are not hidden.
+    ``invisible`` that are said to be so, or named all the same. ``extra`` are named effects that are not hidden,
+    ``firm`` all that are named without an alternative.
     ``within`` is whether the named parameter is within two standard deviations of the truth, ``closed`` the share of
     the explainable gap that closed on the untouched run; None where there is nothing to say.
     """
@@ -28,6 +29,7 @@ class Score:
     first: bool
     listed: int
     extra: int
+    firm: int
     tentative: int
     invisible: int
     invisible_told: int
@@ -70,6 +72,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
         first=bool(findings) and 0 in matched,
         listed=listed,
         extra=extra,
+        firm=sum(one["status"] == "firm" for one in findings),
         tentative=tentative,
         invisible=len(hidden),
         invisible_told=sum(

@@ -187,7 +187,7 @@ _QUESTIONS: Mapping[str, Mapping[str, Question]] = {
     "pair": _ALL,
     "three": _ALL,
     "outside": {
-        "nothing firmly named": lambda s: not s["named"],
+        "nothing firmly named": lambda s: not s["firm"],
         "called unexplained": lambda s: s["verdict"] == UNEXPLAINED,
         "the right joint in `where`": lambda s: s["joint_right"],
     },

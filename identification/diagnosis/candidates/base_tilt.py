@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -74,10 +75,15 @@ class Weight:
     """Torques of the bodies' weight under another ``gravity`` [m/s2] in the world, per standard parameter."""
 
     def __init__(self, robot: Robot, gravity: sympy.Matrix) -> None:
-        bare = replace(robot, gravity=tuple(gravity), effects=(), flexible=(), parameter_sets={})
-        model = derive(bare, names=("regressor_standard", "payload_regressor"), check=False)
+        self._bare = replace(robot, gravity=tuple(gravity), effects=(), flexible=(), parameter_sets={})
+        model = derive(self._bare, names=("regressor_standard",), check=False)
         self._bodies = {one.name: p for p, one in enumerate(model.standard_parameters)}
-        self._regressor, self._payload = _at_rest(model, "regressor_standard"), _at_rest(model, "payload_regressor")
+        self._regressor = _at_rest(model, "regressor_standard")
+
+    @cached_property
+    def _payload(self) -> Callable[[Array], Array]:
+        # Most runs carry none that is known, and deriving takes its time.
+        return _at_rest(derive(self._bare, names=("payload_regressor",), check=False), "payload_regressor")
 
     def __call__(self, q: Array, standard: Mapping[str, float]) -> Array:
         """Torques (n x N) at rest in q (n x N), of values of the bodies' standard parameters; absent ones are zero."""
