@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -249,9 +250,7 @@ def test_peaks_over_the_way_are_not_hidden_by_standstill() -> None:
     draw = np.random.default_rng(27)
     places = draw.uniform(-0.9, 0.9, size=31)
     rise = (1 - np.cos(np.linspace(0.0, np.pi, 60))) / 2
-    q = np.concatenate(
-        [np.append(a + (b - a) * rise, np.full(90, b)) for a, b in zip(places, places[1:], strict=False)]
-    )
+    q = np.concatenate([np.append(a + (b - a) * rise, np.full(90, b)) for a, b in pairwise(places)])
     qd = np.gradient(q)
     left = 0.2 * np.cos(40 * q) + np.where(qd == 0, np.repeat(draw.normal(size=30), 150), 0.0)
     motion = SimpleNamespace(q=q[None], qd=qd[None], samples=q.size)
