@@ -78,12 +78,16 @@ def made(case: Case) -> Made:
     typical = [Effect(one.law, one.joint) for one in case.beside]
     more = [one.sized(_BESIDE * one.amount(robot)) for one in typical]
     own = [effect for effect in (*own_effects(robot), *more) if _place(effect, robot) not in stand_ins]
+    runs: list[Run] = []
     for one in case.hidden:
         wanted = Effect(one.law, one.joint, other=one.other)
-        effect, size = sized(robot, trajectories[:FITTED], own, wanted, one.size, case.mode == KNOWN, noise)
+        effect, size, runs = sized(robot, trajectories[:FITTED], own, wanted, one.size, case.mode == KNOWN, noise)
         effects.append(effect)
         sizes.append(size)
-    runs = [make_run(robot, one, effects, seed=noise + k, own=own) for k, one in enumerate(trajectories)]
+    if len(effects) != 1:
+        runs = []
+    for k, each in enumerate(trajectories[len(runs) :], len(runs)):
+        runs.append(make_run(robot, each, effects, seed=noise + k, own=own))
     plain = runs if not effects else [make_run(robot, one, seed=noise, own=own) for one in trajectories[:FITTED]]
     left = mismatch(plain[:FITTED], case.mode == KNOWN)
     return Made(case, file_of(robot, own, case.seed), runs, effects, sizes, left)

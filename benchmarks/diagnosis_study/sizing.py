@@ -156,9 +156,9 @@ def sized(
     target: float | None,
     known: bool,
     seed: int,
-) -> tuple[Effect, Size]:
+) -> tuple[Effect, Size, list[Run]]:
     """The effect as large as wanted on the runs together, to a twentieth; at its typical size where ``target`` is None
-    or where the mode cannot see it.
+    or where the mode cannot see it. With the runs that show it.
 
     Raises OutOfReach where no size below the law's largest, and below ten times its typical one, will do.
     """
@@ -172,7 +172,7 @@ def sized(
         fit = fit or Fit(runs, tried, known)
         size = fit.size(runs, [effect_torque(run, tried) for run in runs])
         if target is None or size.part < INVISIBLE or size.raw < NOTHING or abs(size.left / target - 1) <= _TOLERANCE:
-            return tried, size
+            return tried, size, runs
         if size.left == 0:
             break
         amount *= min(max(target / size.left, 0.02), 50.0)
