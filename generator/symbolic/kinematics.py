@@ -57,20 +57,3 @@ class Screw:
 
     w: Array
     v: Array
-
-
-def screws(chain: Chain) -> dict[int, dict[int, Screw]]:
-    """For each frame, by coordinate, the screws of the joints that carry it."""
-    program = chain.program
-    result: dict[int, dict[int, Screw]] = {}
-    for frame in chain.frames:
-        mine: dict[int, Screw] = {}
-        if frame.parent is not None:
-            for coordinate, screw in result[frame.parent.number].items():
-                v = screw.v + cross(screw.w, frame.position)
-                mine[coordinate] = Screw(frame.rotation.T @ screw.w, frame.rotation.T @ v)
-        if frame.coordinate is not None:
-            z, nothing = axis(frame, program), zeros(program, 3)
-            mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
-        result[frame.number] = mine
-    return result

@@ -26,7 +26,7 @@ from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.lowering import lower
 from generator.symbolic.sparse import Columns, sampled
 from generator.symbolic.statements import Node, Program
-from generator.symbolic.strategy import TEXTBOOK, Strategies, choose
+from generator.symbolic.strategy import PROJECTED, TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
 
 Vector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.float64]]
@@ -267,7 +267,8 @@ class Model:
     @cached_property
     def standard(self) -> Dynamics:
         """The dynamic model in standard parameters."""
-        return Dynamics(self.chain, self.effects, self.standard_nodes, self.qd, self.qdd)
+        ways = TEXTBOOK if self.plain else PROJECTED
+        return Dynamics(self.chain, self.effects, self.standard_nodes, self.qd, self.qdd, strategies=ways)
 
     @cached_property
     def loaded(self) -> Dynamics:

@@ -85,16 +85,20 @@ def inertial_wrench(j: int, motion: Motion, matter: Body) -> Wrench:
     return Wrench(named("F", j, force), named("N", j, moment))
 
 
-def joint_torques(chain: Chain, wrenches: Mapping[int, Wrench]) -> Array:
-    """Backward recursion: torque [N m] (force [N]) at each moving joint that supplies ``wrenches`` on the frames."""
+def joint_torques(chain: Chain, wrenches: Mapping[int, Wrench], per: str | None = "") -> Array:
+    """Backward recursion: torque [N m] (force [N]) at each moving joint that supplies ``wrenches`` on the frames, named
+    f2_1, n2_1; fXX3_2_1, nXX3_2_1 where they are ``per`` unit of XX3; not at all if that is None.
+    """
+    f, n = (f"{stem}{per}_" if per else stem for stem in "fn")
     total = dict(wrenches)
     torques = zeros(chain.program, chain.dof)
     for frame in reversed(chain.frames):
         wrench = total.get(frame.number)
         if wrench is None:
             continue
-        named("f", frame.number, wrench.f)
-        named("n", frame.number, wrench.n)
+        if per is not None:
+            named(f, frame.number, wrench.f)
+            named(n, frame.number, wrench.n)
         if frame.coordinate is not None:
             torques[frame.coordinate] = wrench.n[2] if frame.revolute else wrench.f[2]
         if frame.parent is not None:

@@ -1,4 +1,4 @@
-"""Regressor columns of the inertial parameters: each joint's screw projected on the wrench of one unit parameter."""
+"""Regressor columns of the inertial parameters: the joints' torques for the wrench of one unit parameter."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from generator.symbolic import lean_motion, newton_euler
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import slid_origins
-from generator.symbolic.kinematics import Screw, screws
+from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Beside, screws_beside
-from generator.symbolic.newton_euler import Motion
+from generator.symbolic.newton_euler import Motion, Wrench
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 
@@ -112,25 +112,52 @@ class RegressorStrategy:
 
 
 def columns(
-    chain: Chain, names: Collection[str], qd: Nodes, qdd: Nodes, way: RegressorStrategy | None
+    chain: Chain,
+    names: Collection[str],
+    qd: Nodes,
+    qdd: Nodes,
+    way: RegressorStrategy | None,
+    readable: bool = True,
 ) -> dict[str, dict[int, Node]]:
-    """Columns of the inertial parameters ``names``, each {coordinate: entry}.
-
-    They are written in the given way; None is the textbook recursion, projected on the screws.
+    """Columns of the inertial parameters ``names``, each {coordinate: entry}, written in the given way; None is the
+    textbook recursion, whose wrenches have names if ``readable``.
     """
-    motion: Mapping[int, Motion]
-    carried_by: Mapping[int, Mapping[int, Screw | Beside]]
     if way is None:
-        offsets: Mapping[int, Node] = {frame.number: chain.program.zero for frame in chain.frames}
-        motion, carried_by = newton_euler.motions(chain, qd, qdd), screws(chain)
-    else:
-        origins = slid_origins(chain, way.slide)
-        motion, offsets = lean_motion.own_motions(chain, origins, qd, qdd), origins.offsets
-        carried_by = screws_beside(chain, origins.positions)
+        return _recursive_columns(chain, names, newton_euler.motions(chain, qd, qdd), readable)
+    origins = slid_origins(chain, way.slide)
+    motion = lean_motion.own_motions(chain, origins, qd, qdd)
+    carried_by = screws_beside(chain, origins.positions)
     result: dict[str, dict[int, Node]] = {}
     for frame in chain.frames:
         j = frame.number
-        stems = [stem for stem in INERTIAL if f"{stem}{j}" in names]
-        found = columns_about(chain, frame, stems, motion[j], carried_by[j], offsets[j])
+        found = columns_about(chain, frame, _stems(j, names), motion[j], carried_by[j], origins.offsets[j])
         result |= {f"{stem}{j}": entries for stem, entries in found.items()}
     return result
+
+
+def _recursive_columns(
+    chain: Chain, names: Collection[str], motion: Mapping[int, Motion], readable: bool
+) -> dict[str, dict[int, Node]]:
+    """Each unit wrench through the backward recursion (W. Khalil, E. Dombre, Modeling, Identification and Control of
+    Robots, 2002, ch. 12).
+    """
+    result: dict[str, dict[int, Node]] = {}
+    for frame in chain.frames:
+        j = frame.number
+        coordinates = sorted(one.coordinate for one in frame.path() if one.coordinate is not None)
+        for stem in _stems(j, names):
+            unit = {j: _unit_wrench(chain.program, stem, motion[j])}
+            torques = newton_euler.joint_torques(chain, unit, f"{stem}{j}" if readable else None)
+            result[f"{stem}{j}"] = {coordinate: torques[coordinate] for coordinate in coordinates}
+    return result
+
+
+def _unit_wrench(program: Program, parameter: str, motion: Motion) -> Wrench:
+    force, moment = unit_wrench(program, parameter, motion)
+    nothing = zeros(program, 3)
+    return Wrench(nothing if force is None else force, nothing if moment is None else moment)
+
+
+def _stems(j: int, names: Collection[str]) -> list[str]:
+    """Of the parameters of body j among ``names``."""
+    return [stem for stem in INERTIAL if f"{stem}{j}" in names]

@@ -64,6 +64,8 @@ class Strategies:
 
 
 TEXTBOOK = Strategies()
+#: Whatever the parameters: the textbook recursion, but regressors by projection on screws.
+PROJECTED = Strategies(regressor=RegressorStrategy())
 
 
 def torques(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, way: Strategy | None) -> Array:
@@ -105,8 +107,9 @@ def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, name
         torque.among([replace(torque.best, gauge=gauge) for gauge in gauges])
     weight: _Search[GravityStrategy] = _Search(chain, lambda way: gravity(chain, matter, way))
     weight.among(GravityStrategy(Gauge(slide)) for slide in slides(chain))
+    # Only counted here: what both ways share is to bear the names of the short one.
     columns: _Search[RegressorStrategy] = _Search(
-        chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way))
+        chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way, readable=False))
     )
     columns.among(RegressorStrategy(slide) for slide in slides(chain))
     choices = {

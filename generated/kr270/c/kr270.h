@@ -61,8 +61,8 @@
  *   potential_energy                       20       22        0       11        1
  *   regressor                             384      289        1       12        7
  *   regressor_packed                      384      289        1       12        7
- *   regressor_standard                    504      393        1       12        7
- *   regressor_standard_packed             504      393        1       12        7
+ *   regressor_standard                    483      377        1       12        7
+ *   regressor_standard_packed             483      377        1       12        7
  *   tool_jacobian                          66       42        0       10        0
  *   tool_transform                         64       34        0       12        0
  *   transforms                             64       34        0       12        0

@@ -61,8 +61,8 @@
  *   potential_energy                       20       20        0       11        2
  *   regressor                             385      290        1       12        7
  *   regressor_packed                      385      290        1       12        7
- *   regressor_standard                    505      394        1       12        7
- *   regressor_standard_packed             505      394        1       12        7
+ *   regressor_standard                    484      378        1       12        7
+ *   regressor_standard_packed             484      378        1       12        7
  *   tool_jacobian                          66       42        0       10        0
  *   tool_transform                         64       34        0       12        0
  *   transforms                             64       34        0       12        0
