@@ -77,6 +77,18 @@ def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str)
     assert one.unlike == note
 
 
+@pytest.mark.parametrize(("swing", "kept"), [(1e-4, False), (0.05, True)])
+def test_nothing_is_told_of_a_joint_that_is_held(swing: float, kept: bool) -> None:
+    """What seems to be its speed is noise: its friction may have any sign."""
+    regressors = Regressors(read(find_robot("scara")))
+    q = np.zeros((regressors.model.dof, 6000))
+    q[0], q[1] = series(6000, 1500)
+    q[2] = 0.1 + swing * series(6000, 1500, seed=2)[0] / 4
+    one = prepared(Run("A", Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
+    assert one.kept[:2].any(axis=1).all()
+    assert one.kept[2].any() == kept
+
+
 def test_what_does_not_repeat_has_no_period() -> None:
     # Two frequencies without a common period in the run; less than two periods; one joint that drifts away.
     t = np.arange(3000) * 0.002

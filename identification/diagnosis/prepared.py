@@ -29,6 +29,8 @@ _CRAWLING = 0.12
 _MEMORY = 1.0
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
+#: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
+_STILL = 2e-3
 #: Shortest run, or part of one, that anything can be told from [s].
 SHORTEST = 1.0
 #: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.
@@ -106,7 +108,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual
-    standing = np.abs(speed) < slow[:, None]
+    standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     for joint, weights in regressors.signs:
         along = sum(weight * speed[k] for k, weight in weights)
         standing[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
