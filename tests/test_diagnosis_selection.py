@@ -198,19 +198,23 @@ def test_an_order_that_is_no_whole_number_is_another_effect(order: float, named:
     assert all(choice.evidence.variant.shape["order"] == order for choice in found)
 
 
-def test_the_whole_order_beside_a_tried_one_is_found() -> None:
-    """On a short way the peak is broad, and noise may put it beside the order."""
-    data = Data(24)
-    q = data.draw.uniform(-0.2, 0.2, size=(RUNS, COUNT))
-    shape = ShapeRange("order", "1", 41.0, 90.0, points=(41.0, 90.0), whole=True, exact=True)
-    one = Coefficient("c", "1"), Coefficient("s", "1")
+def rippling(q: Array, points: tuple[float, ...]) -> Hypothesis:
+    """Cosine and sine of a whole order of positions q (RUNS x COUNT)."""
+    shape = ShapeRange("order", "1", min(points), max(points), points=points, whole=True, exact=True)
 
     def columns(scene: Any, given: Mapping[str, float]) -> Array:
         phase = given["order"] * q[scene.number]
         return np.stack([np.cos(phase), np.sin(phase)])[:, None]
 
-    ripple = Hypothesis("ripple", "ripple", 1, one, columns, shapes=(shape,))
-    (found,) = search(data.bank(2.0 * np.cos(40 * q + 0.3), [ripple]))
+    both = (Coefficient("c", "1"), Coefficient("s", "1"))
+    return Hypothesis("ripple", "ripple", 1, both, columns, shapes=(shape,))
+
+
+def test_the_whole_order_beside_a_tried_one_is_found() -> None:
+    """On a short way the peak is broad, and noise may put it beside the order."""
+    data = Data(24)
+    q = data.draw.uniform(-0.2, 0.2, size=(RUNS, COUNT))
+    (found,) = search(data.bank(2.0 * np.cos(40 * q + 0.3), [rippling(q, (41.0, 90.0))]))
     assert found.evidence.variant.shape["order"] == 40.0
 
 
@@ -219,15 +223,7 @@ def test_a_short_way_leaves_the_order_open(way: float, sure: bool) -> None:
     """Cosine and sine take up any order nearby where the joint hardly turns."""
     data = Data(25)
     q = data.draw.uniform(-way, way, size=(RUNS, COUNT))
-    shape = ShapeRange("order", "1", 60.0, 60.0, points=(60.0,), whole=True, exact=True)
-    both = Coefficient("c", "1"), Coefficient("s", "1")
-
-    def columns(scene: Any, given: Mapping[str, float]) -> Array:
-        phase = given["order"] * q[scene.number]
-        return np.stack([np.cos(phase), np.sin(phase)])[:, None]
-
-    ripple = Hypothesis("ripple", "ripple", 1, both, columns, shapes=(shape,))
-    (found,) = search(data.bank(3.0 * np.cos(60 * q + 0.3), [ripple]))
+    (found,) = search(data.bank(3.0 * np.cos(60 * q + 0.3), [rippling(q, (60.0,))]))
     assert (found.odds > UNSURE) == sure
 
 
