@@ -1,10 +1,10 @@
 """Find where a robot's model and recorded runs disagree, name the missing effect, and add it to the robot's file.
 
 Runs are as in `counterpoise identify`; FILE@FROM:TO takes a part of one, with times in s. Periodic motion with several
-periods a run is best. RUN are fitted, --validate holds the fit to account, --test is touched by nothing before the
-report. Without --validate each run is held against what the others predict; without --test the last of three runs or
-more tests, else the end of each. DIR receives diagnosis.json, report.html, the new robot file and the code generated
-from it.
+periods a run is best. RUN are fitted, --validate holds the fit to account, --test chooses nothing: it tells what the
+new model is worth, and what it contradicts is taken back. Without --validate each run is held against what the others
+predict; without --test the last of three runs or more tests, else the end of each. DIR receives diagnosis.json,
+report.html, the new robot file and the code generated from it.
 """
 
 from __future__ import annotations

@@ -66,15 +66,14 @@ def diagnosed(
         whole = {run.name: run for run in (*fit, *held, *last)}
         runs = [ready(source) for source in (*chosen.train, *chosen.validate)]
         # What cannot be played at the end is refused now.
-        for source in chosen.test:
-            ready(source)
+        tests = [ready(source) for source in chosen.test]
 
     def told(text: str) -> None:
         with stage(text):
             pass
 
     with replacing(folder, GENERATED) as fresh:
-        found = diagnose(regressors, runs, chosen, known, told, wanted.dry)
+        found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

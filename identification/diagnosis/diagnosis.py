@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed
 from generator.robot.description import Robot
+from identification.diagnosis.confirmation import confirmed
 from identification.diagnosis.evidence import key_of
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.hypothesis import Hypothesis
@@ -18,6 +19,7 @@ from identification.diagnosis.loop import Search, search
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
+from identification.diagnosis.selection import Choice
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -66,14 +68,16 @@ def diagnose(
     prior: Prior | None = None,
     told: Callable[[str], None] = lambda _: None,
     dry: bool = False,
+    test: Sequence[Prepared] = (),
 ) -> Diagnosis:
     """What the model of ``regressors`` lacks, from ``runs`` that fit and validate in the order of ``roles``.
 
-    A ``dry`` one only says where model and measurement disagree, and names nothing.
+    What the runs ``test`` contradict is taken back; nothing else is decided by them. A ``dry`` diagnosis only says
+    where model and measurement disagree, and names nothing.
     """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found = search(runs, train, validate, regressors, prior, told, dry)
+    found, gone = confirmed(search(runs, train, validate, regressors, prior, told, dry), test)
     told("looking where the residual is")
     first, last = (seen(found, weights) for weights in (found.start, found.weights))
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
@@ -83,7 +87,7 @@ def diagnose(
     named = findings(found, firm=not open_)
     if named:
         before = led(before, named[0])
-    notes = [*roles.notes, *_notes(named, runs)]
+    notes = [*roles.notes, *_notes(named, runs), *_taken_back(gone)]
     return Diagnosis(
         regressors.model.robot,
         FREE if prior is None else KNOWN,
@@ -122,6 +126,10 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
     return [
         np.stack([bank.residual(r, k, weights, white=False) for k in range(bank.dof)]) for r in range(len(bank.runs))
     ]
+
+
+def _taken_back(gone: Sequence[Choice]) -> list[str]:
+    return [f"{one.evidence.variant.hypothesis.named} is taken back: the runs that test contradict it" for one in gone]
 
 
 def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:

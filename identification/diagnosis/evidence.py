@@ -28,7 +28,7 @@ _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
-_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.01, 0.1
+_FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
 #: What nearly every robot has; what many wrists have; what holds an arm up.
 _COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
 _WRIST = ("coupled_rotor",)
@@ -181,8 +181,8 @@ class Weighing:
         promised /= 1 + unexplained / self.normal.rows
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
-        share = _SHARE if common(variant) else _RARE_SHARE
-        if size < _FLOOR or drop < share * unexplained:
+        floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
+        if size < floor or drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         if drop < self._imperfect(variant, others):
             return replace(one, why_not="may be what another effect's law lacks")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +51,13 @@ class Search:
         not look like something that the model lacks.
         """
         return self._fitted([number for one in self.choices for number in one.evidence.variant.columns])
+
+    def keeping(self, choices: Sequence[Choice]) -> Search:
+        """The same with fewer choices."""
+        columns = [number for one in choices for number in one.evidence.variant.columns]
+        solution, covariance = self.weighing.normal.solution(columns)
+        values = dict(zip(self.bank.base, solution.tolist(), strict=False))
+        return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
     def _fitted(self, columns: Sequence[int]) -> dict[int, float]:
         solution, _ = self.weighing.all.solution(columns)

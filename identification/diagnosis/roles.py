@@ -56,7 +56,7 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     ends: dict[str, float] = {}
     if tested and not test and len(fit) >= _APART:
         last = (fit[-1],)
-        notes.append(f"{data[-1].file}, the last run, tests: it is touched by nothing before the report")
+        notes.append(f"{data[-1].file}, the last run, tests: nothing is fitted to it or chosen by it")
         del fitted[-1]
     elif tested and not test:
         last = tuple(_tail(run) for run in data)

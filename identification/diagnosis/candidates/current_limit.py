@@ -1,7 +1,8 @@
 """A drive that clips its current while the log holds what was asked for.
 
 What the log holds too much is what the recorded current is beyond the limit, to either side. By the model the
-coefficient is 1; less is a limit that gives way.
+coefficient is 1; less is a limit that gives way. Noise of the recorded current exceeds a limit as well, and is missing
+in the model: what is not clearly more than noise does not count.
 """
 
 from __future__ import annotations
@@ -21,9 +22,11 @@ Array = NDArray[np.float64]
 
 #: Parts of a run's samples that stay below the lowest and the highest limit that is tried.
 _LOWEST, _HIGHEST = 0.8, 0.999
-#: Of what exceeds the limit, the least part that must be missing. Noise in the recorded current exceeds a limit as
-#: well, and is missing in the model: alone it would give a small coefficient.
+#: Of what exceeds the limit, the least part that must be missing.
 _LEAST = 0.5
+#: How many times the noise what exceeds the limit must be, in its rms; time [s] within which noise changes, the torque
+#: little; rms of normal noise over its median size.
+_CLEAR, _QUICK, _NORMAL = 3.0, 0.025, 1.4826
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -34,7 +37,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     stated = robot.signals.current_limit
     found = []
     for k, joint in enumerate(robot.moving):
-        low, high = np.quantile(np.concatenate([np.abs(_current(scene, k)) for scene in scenes]), [_LOWEST, _HIGHEST])
+        low, high = np.quantile(
+            np.concatenate([np.abs(_current(scene, k, scene.tau)) for scene in scenes]), [_LOWEST, _HIGHEST]
+        )
         if (stated and stated[k] < NEVER) or not 0 < low < high:
             continue
         found.append(
@@ -58,15 +63,25 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    current = _current(scene, k)
+    current = _current(scene, k, scene.tau)
     limit = shape["current_limit"]
     excess = current - np.clip(current, -limit, limit)
+    over = excess[excess != 0]
+    if not over.size or np.sqrt(np.mean(over**2)) < _CLEAR * _noise(scene, k):
+        excess = np.zeros_like(excess)
     return np.outer(coupling(scene.robot)[k] * _constant(scene, k), excess)[None]
 
 
-def _current(scene: Scene, k: int) -> Array:
-    """The recorded current of a motor [A] (N)."""
-    return np.asarray(np.linalg.solve(coupling(scene.robot).T, scene.tau)[k] / _constant(scene, k))
+def _noise(scene: Scene, k: int) -> float:
+    """Of the recorded current [A], rms: by how what the model leaves changes quickly."""
+    left = _current(scene, k, scene.tau - scene.model_torque)
+    lag = max(1, round(_QUICK / scene.period))
+    return float(_NORMAL * np.median(np.abs(left[lag:] - left[:-lag])) / np.sqrt(2))
+
+
+def _current(scene: Scene, k: int, torque: Array) -> Array:
+    """The current of a motor [A] (N) for torques of the joints (n x N)."""
+    return np.asarray(np.linalg.solve(coupling(scene.robot).T, torque)[k] / _constant(scene, k))
 
 
 def _constant(scene: Scene, k: int) -> float:
