@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from generator.symbolic.bodies import INERTIAL
 from identification.corrections import warming_up
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
@@ -127,6 +128,17 @@ class Scene:
     def resting(self) -> Array:
         """Torques of the model alone at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
         return self.torque_of(self.values, self._at_rest)
+
+    @cached_property
+    def weight(self) -> Array:
+        """Torques at rest of the bodies alone, and of a known payload (n x N)."""
+        grouped = self.regressors.model.grouping.numeric()
+        bodies = {
+            name: value
+            for name, value in self.values.items()
+            if any(part.rstrip("0123456789") in INERTIAL for part in grouped.get(name, {}))
+        }
+        return self.torque_of(bodies, self._at_rest)
 
     @property
     def _at_rest(self) -> Motion:

@@ -17,6 +17,8 @@ from identification.diagnosis.scene import Scene
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
+#: Part of the swing of the joint's whole torque that it must be.
+_FELT = 0.01
 #: Part of a whole warming up that the runs must show.
 _WARMING = 0.2
 #: Time constant of the warmth [s] where the robot's file says nothing of it; a finding brings it into the file.
@@ -59,9 +61,10 @@ def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
 
 
 def _weighty(scenes: Sequence[Scene]) -> list[bool]:
-    """Whether a joint's torque at rest changes with the position: where a balancer makes sense."""
-    swing = np.max([np.ptp(scene.resting, axis=-1) for scene in scenes], axis=0)
-    return [bool(one > _WEIGHT * swing.max()) for one in swing]
+    """Whether the bodies' weight on a joint changes with the position: where a balancer makes sense."""
+    swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
+    torque = np.max([np.ptp(scene.tau, axis=-1) for scene in scenes], axis=0)
+    return [bool(one > _WEIGHT * swing.max() and one > _FELT * most) for one, most in zip(swing, torque, strict=True)]
 
 
 def _warming(k: int, scenes: Sequence[Scene]) -> bool:
