@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import unescape
 from pathlib import Path
@@ -15,7 +16,7 @@ from identification import recipe as recipes
 from identification.dataset import load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import Mended, mended
-from identification.diagnosis.prepared import prepared
+from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.roles import Roles
 from identification.observation import Regressors
 from identification.report.diagnose.report import report
@@ -55,20 +56,32 @@ class Case:
 
 def case(folder: Path, hidden: str) -> Case:
     """Three runs, the last one untouched, with a torque in them that the file does not know."""
+    regressors, sources = recorded(folder, [hidden] * 3)
+    runs = [ready(one, regressors) for one in sources[:2]]
+    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2])))
+    after = mended(folder / "arm.yaml", found, None, folder / "out") if hidden == "stribeck" else None
+    return Case(found, after, report(found, after))
+
+
+def recorded(folder: Path, hidden: Sequence[str]) -> tuple[Regressors, list[str]]:
+    """The arm, and a run file for each torque that its file does not know."""
     (folder / "arm.yaml").write_text(ARM)
     robot = read(folder / "arm.yaml")
     regressors, draw = Regressors(robot), np.random.default_rng(1)
     sources = []
-    for seed in (1, 2, 3):
+    for seed, one in enumerate(hidden, 1):
         t, motion = fourier(robot, 40.0, 100.0, seed)
-        tau = regressors.torques(TRUTH, motion)[0] + torque(hidden, motion.qd[0])
+        tau = regressors.torques(TRUTH, motion)[0] + torque(one, motion.qd[0])
         tau += lfilter([1], [1, -STAYS], NOISE * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
+    return regressors, sources
+
+
+def ready(source: str, regressors: Regressors) -> Prepared:
+    """A run as a diagnosis looks at it."""
+    robot = regressors.model.robot
     recipe = recipes.recipe_of(robot.name)
-    runs = [prepared(load(one, robot, recipe.columns), recipe, regressors) for one in sources[:2]]
-    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2])))
-    after = mended(folder / "arm.yaml", found, None, folder / "out") if hidden == "stribeck" else None
-    return Case(found, after, report(found, after))
+    return prepared(load(source, robot, recipe.columns), recipe, regressors)
 
 
 def torque(hidden: str, qd: Array) -> Array:

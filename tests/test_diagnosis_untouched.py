@@ -1,9 +1,16 @@
-"""What untouched runs say against a new model is told."""
+"""What untouched runs say against a new model is told, and what they contradict is taken back."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
+
+from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
+from identification.diagnosis.roles import Roles
 from identification.diagnosis.untouched import Untouched, objections
 from identification.residuals import Residual
+from tests.diagnosed_arm import ready, recorded
 
 
 def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
@@ -26,3 +33,16 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
     (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)})
     where = "on joint 1 (40 %, noise 2 %), joint 2 (53.5 %, noise 2 %)"
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_what_a_testing_run_contradicts_is_taken_back(there: bool, tmp_path: Path) -> None:
+    """The fitted runs have Stribeck friction; the one that tests has it as well, or not."""
+    regressors, sources = recorded(tmp_path, ["stribeck", "stribeck", "stribeck" if there else ""])
+    first, second, last = (ready(one, regressors) for one in sources)
+    who = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
+    found = diagnose(regressors, [first, second], who, test=[last])
+    named = [one.hypothesis.effect for one in found.findings]
+    assert (found.verdict, named) == ((NAMED, ["stribeck_friction"]) if there else (UNEXPLAINED, []))
+    told = "Stribeck friction on joint 1 is taken back: the runs that test contradict it"
+    assert (told in found.notes) != there
