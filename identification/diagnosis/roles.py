@@ -1,4 +1,4 @@
-"""Which runs are fitted, which hold the fit to account, and which nobody touches before the report."""
+"""Which runs are fitted, which hold the fit to account, and which only test."""
 
 from __future__ import annotations
 
