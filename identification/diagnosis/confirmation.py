@@ -16,7 +16,7 @@ from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.loop import Search
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.selection import Choice
+from identification.diagnosis.selection import Choice, Selection
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,10 @@ _TOLD = 9.0
 
 
 def confirmed(found: Search, test: Sequence[Prepared]) -> tuple[Search, tuple[Choice, ...]]:
-    """The search without the choices that ``test`` contradicts, and those; the most contradicted goes first."""
+    """The search without the choices that ``test`` contradicts, and those; the most contradicted goes first.
+
+    What passed only beside one that is taken back goes too.
+    """
     if not found.choices or not test:
         return found, ()
     bank = _along(found, test)
@@ -37,7 +40,10 @@ def confirmed(found: Search, test: Sequence[Prepared]) -> tuple[Search, tuple[Ch
             break
         staying.remove(worst)
         gone.append(worst)
-    return (found.keeping(staying) if gone else found), tuple(gone)
+    if not gone:
+        return found, ()
+    again = Selection(found.weighing).choices([one.evidence.variant for one in staying])
+    return found.keeping(again), tuple(gone)
 
 
 def _along(found: Search, test: Sequence[Prepared]) -> Bank:

@@ -89,8 +89,12 @@ class Selection:
             else:
                 seen.add(known)
                 refused.clear()
-        chosen = self._standing(self._exchanged(chosen, None, _ROUNDS))
-        return [self._choice(one, [other for other in chosen if other is not one]) for one in chosen]
+        return self.choices(self._exchanged(chosen, None, _ROUNDS))
+
+    def choices(self, chosen: Sequence[Variant]) -> list[Choice]:
+        """Those that pass beside each other, with what may stand in their places."""
+        standing = self._standing(chosen)
+        return [self._choice(one, [other for other in standing if other is not one]) for one in standing]
 
     def _common_start(self) -> list[Variant]:
         """Where far more is missing than one effect: all common ones together and the best balancer, then without those
