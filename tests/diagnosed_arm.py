@@ -85,6 +85,10 @@ def ready(source: str, regressors: Regressors) -> Prepared:
 
 
 def torque(hidden: str, qd: Array) -> Array:
-    if hidden == "stribeck":
-        return np.asarray(6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2)))
-    return np.zeros_like(qd)
+    """What ``stribeck`` friction makes, and with ``asymmetry`` viscous friction that is larger one way."""
+    result = np.zeros_like(qd)
+    if "stribeck" in hidden:
+        result += 6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2))
+    if "asymmetry" in hidden:
+        result += 2.0 * np.maximum(qd, 0.0)
+    return np.asarray(result)

@@ -237,7 +237,8 @@ def test_what_scales_a_torque_scales_all_of_it(share: float, named: set[str]) ->
     drift = replace(whole, of_model=lambda scene, shape: (warmth * own[scene.number])[None, None])
     one = data.bank(warmth * (share * own + beside), [drift])
     for scene in one.scenes:
-        scene.beside = "what was found"  # type: ignore[misc, assignment]
+        object.__setattr__(scene, "model_torque", own[scene.number])  # type: ignore[attr-defined]
+        object.__setattr__(scene, "torque", own[scene.number] + beside[scene.number])  # type: ignore[attr-defined]
     assert names(search(one)) == named
 
 

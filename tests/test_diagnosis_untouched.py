@@ -35,14 +35,23 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
 
 
-@pytest.mark.parametrize("there", [True, False])
-def test_what_a_testing_run_contradicts_is_taken_back(there: bool, tmp_path: Path) -> None:
-    """The fitted runs have Stribeck friction; the one that tests has it as well, or not."""
-    regressors, sources = recorded(tmp_path, ["stribeck", "stribeck", "stribeck" if there else ""])
-    first, second, last = (ready(one, regressors) for one in sources)
+@pytest.mark.parametrize(
+    ("fitted", "last", "named", "back"),
+    [
+        ("stribeck", "stribeck", {"stribeck_friction"}, None),
+        ("stribeck", "", set(), "Stribeck friction"),
+        ("stribeck asymmetry", "stribeck", {"stribeck_friction"}, "viscous friction that depends on the direction"),
+    ],
+)
+def test_what_a_testing_run_contradicts_is_taken_back(
+    fitted: str, last: str, named: set[str], back: str | None, tmp_path: Path
+) -> None:
+    """The run that tests lacks what the fitted ones have; what it has too stays."""
+    regressors, sources = recorded(tmp_path, [fitted, fitted, last])
+    *runs, test = (ready(one, regressors) for one in sources)
     who = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
-    found = diagnose(regressors, [first, second], who, test=[last])
-    named = [one.hypothesis.effect for one in found.findings]
-    assert (found.verdict, named) == ((NAMED, ["stribeck_friction"]) if there else (UNEXPLAINED, []))
-    told = "Stribeck friction on joint 1 is taken back: the runs that test contradict it"
-    assert (told in found.notes) != there
+    found = diagnose(regressors, runs, who, test=[test])
+    assert {one.hypothesis.effect for one in found.findings} == named
+    assert found.verdict == (NAMED if named else UNEXPLAINED)
+    told = [note for note in found.notes if "is taken back" in note]
+    assert [note.startswith(f"{back} on joint 1 is taken back") for note in told] == [True] * bool(back)

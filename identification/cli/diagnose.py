@@ -30,7 +30,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("data", metavar="RUN", nargs="+", help="runs that are fitted")
     parser.add_argument("--validate", metavar="RUN", nargs="+", default=[], help="runs that hold the fit to account")
-    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs that stay untouched to the end")
+    parser.add_argument(
+        "--test", metavar="RUN", nargs="+", default=[], help="runs that choose nothing, but may contradict"
+    )
     parser.add_argument("--prior", metavar="SET", help="parameter set of the robot that is known beforehand")
     parser.add_argument("--dry-run", action="store_true", help="only where they disagree; nothing is named or written")
     parser.add_argument("--out", metavar="DIR", type=Path, help="default: diagnosed/ROBOT")

@@ -124,14 +124,14 @@ class Bank:
         """
         key = (hypothesis.effect, hypothesis.joint, *sorted(shape.items()))
         if key not in self._made:
-            self._made[key] = self._columns(hypothesis, shape)
+            self._made[key] = self._columns(hypothesis, shape, offered)
         variant = self._made[key]
         if offered and variant is not None and key not in self._offered:
             self._offered.add(key)
             self.variants.append(variant)
         return variant
 
-    def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Variant | None:
+    def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool) -> Variant | None:
         per_run = []
         for scene in self.scenes:
             # A shape that the motion makes impossible shows in numbers that are not finite.
@@ -142,7 +142,8 @@ class Bank:
             per_run.append(columns)
         largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
         if largest <= _ROUNDING * max(float(np.abs(run.tau).max(initial=0.0)) for run in self.runs):
-            self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
+            if offered:
+                self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
             return None
         acts = [
             j for j in range(self.dof) if max(np.abs(columns[:, j]).max() for columns in per_run) > _NOTHING * largest
@@ -174,6 +175,11 @@ class Bank:
         """Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint, as recorded."""
         one = self._joints[run][joint]
         return one.numbers, np.asarray(one.rows), one.tau, one.kept
+
+    def white(self, run: int, joint: int) -> tuple[list[int], Array]:
+        """Column numbers and white kept rows (k + 1 x N) of a joint, the torque the last."""
+        one = self._joints[run][joint]
+        return one.numbers, one.white
 
     def whiten(self, colours: Sequence[Sequence[Colour]]) -> None:
         """Make all rows white, by the colour of each run's joints."""

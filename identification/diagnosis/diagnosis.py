@@ -129,7 +129,8 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 
 
 def _taken_back(gone: Sequence[Choice]) -> list[str]:
-    return [f"{one.evidence.variant.hypothesis.named} is taken back: the runs that test contradict it" for one in gone]
+    why = "is taken back: the runs that test contradict it, or what it stood beside"
+    return [f"{one.evidence.variant.hypothesis.named} {why}" for one in gone]
 
 
 def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:

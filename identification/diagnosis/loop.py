@@ -53,7 +53,7 @@ class Search:
         return self._fitted([number for one in self.choices for number in one.evidence.variant.columns])
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
-        """The same with fewer choices."""
+        """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
         columns = [number for one in choices for number in one.evidence.variant.columns]
         solution, covariance = self.weighing.normal.solution(columns)
         values = dict(zip(self.bank.base, solution.tolist(), strict=False))

@@ -44,7 +44,7 @@ class Prepared:
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
     ``period`` is that of the motion in rows, 0 where it is no whole number of them; ``repeats`` is that in samples, 0
     where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of
-    ``sampled`` too.
+    ``sampled`` too; all rows of a joint that is held are.
     """
 
     sampled: Sampled

@@ -38,7 +38,7 @@ class Roles:
 
     @property
     def untouched(self) -> bool:
-        """Whether nothing but the test reads what tests."""
+        """Whether nothing is fitted to what tests."""
         return not set(self.test) & set(self.known)
 
 

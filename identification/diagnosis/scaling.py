@@ -22,7 +22,7 @@ _SHOWN, _VAGUE = 0.5, 0.25
 def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
     """Whether the model's own torque is scaled like the rest, as far as the runs tell; also of what scales nothing."""
     hypothesis = variant.hypothesis
-    if hypothesis.of_model is None or all(scene.beside is None for scene in weighing.bank.scenes):
+    if hypothesis.of_model is None or not _beside(weighing):
         return True
     alone = replace(hypothesis, effect=f"{hypothesis.effect} of the model", columns=hypothesis.of_model)
     part = weighing.bank.add(alone, variant.shape, offered=False)
@@ -39,3 +39,8 @@ def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) 
     pick = np.eye(2 * k)[0] + np.eye(2 * k)[k]
     std = float(np.sqrt(pick @ C @ pick))
     return std > _VAGUE * abs(whole) or float(pick @ values) * np.sign(whole) > _SHOWN * abs(whole)
+
+
+def _beside(weighing: Weighing) -> bool:
+    """Whether anything that was found makes torque beside the model's."""
+    return any(not np.array_equal(scene.torque, scene.model_torque) for scene in weighing.bank.scenes)

@@ -1,4 +1,4 @@
-"""What the runs that nobody touched say of the old and the new model, and how far both are from the noise."""
+"""What the runs that were not fitted say of the old and the new model, and how far both are from the noise."""
 
 from __future__ import annotations
 

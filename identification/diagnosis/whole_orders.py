@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import exp, inf, pi, sqrt
+from math import erf, exp, inf, pi, sqrt
 
 import numpy as np
 
@@ -22,8 +22,8 @@ from identification.diagnosis.refinement import tangent
 _ODDS = 10.0
 #: Odds below which the runs leave it open whether the order is the whole number.
 UNSURE = 50.0
-#: Difference from a whole number by which columns are differentiated.
-_BESIDE = 0.02
+#: Largest difference from a whole number by which columns are differentiated, and the part of them that it changes.
+_BESIDE, _CHANGED = 0.02, 0.1
 #: What of the rank another whole number must gain.
 _GAIN = 0.5
 
@@ -38,8 +38,12 @@ class _Order:
 
     @property
     def odds(self) -> float:
-        """Of the whole number against all between two of them."""
-        return _ODDS * exp(-self.drop / 2) / (self.std * sqrt(2 * pi)) if self.std else inf
+        """Of the whole number against all that lies within half of one from it."""
+        if not self.std:
+            return inf
+        lower, upper = ((side - self.step) / self.std for side in (-0.5, 0.5))
+        within = (erf(upper / sqrt(2)) - erf(lower / sqrt(2))) / 2
+        return _ODDS * exp(-self.drop / 2) / (self.std * sqrt(2 * pi) * within) if within else 0.0
 
 
 def odds(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> float:
@@ -74,13 +78,28 @@ def _exact(variant: Variant) -> list[ShapeRange]:
 
 def _beside(weighing: Weighing, variant: Variant, shape: ShapeRange, others: Sequence[Variant]) -> _Order | None:
     """None where the order cannot be moved."""
-    here = variant.shape[shape.name]
-    moved = weighing.bank.add(variant.hypothesis, {**variant.shape, shape.name: here + _BESIDE}, offered=False)
+    difference = _difference(weighing, variant, shape)
+    beside = {**variant.shape, shape.name: variant.shape[shape.name] + difference}
+    moved = weighing.bank.add(variant.hypothesis, beside, offered=False)
     if moved is None:
         return None
     weighing.refresh()
-    A, b = tangent(weighing, variant, [(moved.only(variant.used), _BESIDE)], others)
+    A, b = tangent(weighing, variant, [(moved.only(variant.used), difference)], others)
     k = len(b) - 1
     C = inverse(A, 1e-9)
     with_step, without = (float(y @ G @ y) for G, y in ((C, b), (inverse(A[:k, :k], 1e-9), b[:k])))
     return _Order(float((C @ b)[k]), float(np.sqrt(C[k, k])), with_step - without)
+
+
+def _difference(weighing: Weighing, variant: Variant, shape: ShapeRange) -> float:
+    """Small enough for a derivative: an order of the motor's turns counts many of them."""
+    columns, difference = variant.hypothesis.columns, _BESIDE
+    for scene in weighing.bank.scenes:
+        here = columns(scene, variant.shape)
+        size = float(np.linalg.norm(here))
+        while size:
+            moved = columns(scene, {**variant.shape, shape.name: variant.shape[shape.name] + difference})
+            if float(np.linalg.norm(moved - here)) <= _CHANGED * size:
+                break
+            difference /= 4
+    return difference

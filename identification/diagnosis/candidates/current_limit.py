@@ -42,6 +42,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         )
         if (stated and stated[k] < NEVER) or not 0 < low < high:
             continue
+        # Where all of the current hardly exceeds the noise nothing is told of a limit.
+        if not any(_columns(k, scene, {"current_limit": float(low)}).any() for scene in scenes):
+            continue
         found.append(
             Hypothesis(
                 "current_limit",

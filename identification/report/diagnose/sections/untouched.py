@@ -21,7 +21,7 @@ _KNOWN = "These runs were fitted too: how the models do on new motion is not sho
 def render(subject: Subject) -> Markup | None:
     if not subject.tested:
         return None
-    new = "Runs that nothing looked at before." if subject.found.roles.untouched else _KNOWN
+    new = "Runs that nothing was fitted to or chosen by." if subject.found.roles.untouched else _KNOWN
     text = (
         f"{new} The model after is the new robot file's, regenerated; its parameters come"
         " from the fitted runs alone. The noise is what was measured on the other runs, at these rows' rate."
