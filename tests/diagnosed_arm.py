@@ -90,5 +90,5 @@ def torque(hidden: str, qd: Array) -> Array:
     if "stribeck" in hidden:
         result += 6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2))
     if "asymmetry" in hidden:
-        result += 2.0 * np.maximum(qd, 0.0)
+        result += 8.0 * np.maximum(qd, 0.0)
     return np.asarray(result)
