@@ -16,25 +16,21 @@ import sympy
 
 from generator.discovery import modules
 from generator.robot.description import EffectUse, Robot, Signals
-from generator.robot.readers import read
 from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.addition import measured
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
-from identification.diagnosis.evidence import BALANCERS
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
-from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sampling import sampled
 from tests.diagnosed import CLEAN, Known, known, played, rows
 from tests.plant.effect import Effect
 from tests.plant.measurement import Sensors
 from tests.plant.robot import Array
-from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
 
@@ -405,19 +401,3 @@ def _with(scene: Scene, robot: Robot) -> Scene:
     regressors.model = copy(regressors.model)
     regressors.model.robot = robot
     return replace(scene, regressors=regressors)
-
-
-def test_a_balancer_is_looked_for_where_bodies_weigh(tmp_path: Path) -> None:
-    """A spring pulls on an upright axis of a SCARA, but there is nothing to balance."""
-    path = tmp_path / "scara_like.yaml"
-    path.write_text(robot_file(ROBOTS[SCARA]).replace("effects:\n", "effects:\n  - {effect: joint_spring, joint: 1}\n"))
-    regressors = Regressors(read(path))
-    own = known(ROBOTS[SCARA], tmp_path)
-    of_spring = replace(own, regressors=regressors, values={**own.values, "ks1": 40.0})
-    scene, _, _ = played(of_spring, Effect("offset", 1, 0.0), WAY)
-    assert np.ptp(scene.resting[0]) > 10
-    assert not {one.effect for one in library.hypotheses([scene])} & set(BALANCERS)
-    # Joint 2 has its balancer, and the wrist carries next to nothing.
-    heavy, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("offset", 1, 0.0), WAY)
-    found = {(one.effect, one.joint) for one in library.hypotheses([heavy])}
-    assert {joint for effect, joint in found if effect == "spring_balancer"} == {3}
