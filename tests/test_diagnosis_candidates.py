@@ -29,7 +29,6 @@ from identification.recipe import Recipe
 from identification.sampling import sampled
 from tests.diagnosed import CLEAN, Known, known, played, rows
 from tests.plant.effect import Effect
-from tests.plant.measurement import Sensors
 from tests.plant.robot import Array
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
@@ -257,17 +256,6 @@ def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, robots: Ca
     assert share == pytest.approx(1.0, abs=0.05)
     tried = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
     assert max(tried) > 0.97
-
-
-@pytest.mark.parametrize("clipped", [True, False])
-def test_what_noise_exceeds_a_limit_by_is_not_missing(clipped: bool, robots: Callable[[str], Known]) -> None:
-    """A column of the recorded current shares its noise with the torque that it is to explain."""
-    robot = robots(SMALL)
-    effect = Effect("current_saturation", 1, 0.7) if clipped else Effect("offset", 1, 0.0)
-    scene, _, _ = played(robot, effect, WAY, Sensors(noise=0.05))
-    (hypothesis,) = offered([scene], "current_limit", 1)
-    limit = robot.robot.chain[0].peak * 0.3 if clipped else hypothesis.shapes[0].high
-    assert bool(hypothesis.columns(scene, {"current_limit": limit}).any()) == clipped
 
 
 def drive_train(name: str, effect: Effect, scene: Scene, stiffness: float) -> dict[str, float]:
