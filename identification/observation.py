@@ -75,7 +75,7 @@ class Motion:
 class Regressors:
     """The regressors of one robot over many samples.
 
-    Where a column reads the static load it is that of the parameters ``values`` by name [SI], absent ones zero.
+    Where a column reads the load it is that of the parameters ``values`` by name [SI], absent ones zero.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -83,7 +83,7 @@ class Regressors:
         self.values: Mapping[str, float] = {}
 
     def loaded_by(self, values: Mapping[str, float]) -> Regressors:
-        """The same with the static load that ``values`` make."""
+        """The same with the load that ``values`` make."""
         result = copy(self)
         result.values = dict(values)
         return result

@@ -17,7 +17,7 @@ _REPEATS, _SETTLED = 20, 0.01
 def under_own_load(
     runs: Sequence[Sampled], regressors: Regressors, fit: Callable[[tuple[Factor, ...]], Solution]
 ) -> tuple[Regressors, list[str]]:
-    """The regressors with the static load of the parameters that ``fit`` finds with them, and what is to be told.
+    """The regressors with the load of the parameters that ``fit`` finds with them, and what is to be told.
 
     They are as they were where no column reads the load.
     """

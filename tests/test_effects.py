@@ -118,14 +118,14 @@ def test_gradual_friction_rises_from_rest(tmp_path: Path) -> None:
     )
 
 
-def test_load_friction_is_a_part_of_the_static_load(tmp_path: Path) -> None:
+def test_load_friction_is_a_part_of_the_load(tmp_path: Path) -> None:
     model = arm(tmp_path, "load_friction")
     weight = {"MX1": 3, "ZZ1": 2}
     q = np.array([0, 0, np.pi / 3, np.pi, 0])
-    load = 10 * 3 * np.cos(q)
+    load = 10 * 3 * np.cos(q) + 2 * 4
     without = torque(model, weight, q=q, qd=SPEEDS, qdd=4)
     rubbing = torque(model, {**weight, "Fl1": 0.1}, q=q, qd=SPEEDS, qdd=4) - without
-    assert without == pytest.approx(load + 2 * 4)
+    assert without == pytest.approx(load)
     assert rubbing == pytest.approx(0.1 * np.sign(SPEEDS) * np.abs(load))
     # A wrench and a payload of the tool load the transmission too; here they take the whole load away.
     nothing = {"wrench": [0, -60, 0, 0, 0, 0], "payload": np.zeros(10)}
@@ -136,22 +136,22 @@ def test_load_friction_is_a_part_of_the_static_load(tmp_path: Path) -> None:
     assert held == pytest.approx(1.1 * 10 * (3 + 2 * 0.5))
 
 
+@pytest.mark.parametrize(
+    ("speed", "tau", "load"), [(1, 55, 50), (1, -45, -50), (-1, 45, 50), (-1, -55, -50), (0, 7, 7)]
+)
+def test_a_drive_moves_what_load_friction_leaves(tmp_path: Path, speed: float, tau: float, load: float) -> None:
+    model = arm(tmp_path, "load_friction")
+    (qdd,) = call(model, "direct_dynamics", {"MX1": 3, "ZZ1": 2, "Fl1": 0.1}, qd=[speed], tau=[tau])
+    assert qdd == pytest.approx((load - 30) / 2)
+
+
 def one_slide(*effects: EffectUse) -> Robot:
     return robot("slide", (joint(1, PRISMATIC),), gravity=STANDARD_GRAVITY, effects=effects)
 
 
-def test_a_load_that_never_changes_is_no_effect_of_its_own() -> None:
-    alone = Model(one_slide(EffectUse("load_friction", (1,))))
-    assert [parameter.name for parameter in alone.base_parameters] == ["M1", "Fl1"]
-    both = one_slide(EffectUse("coulomb_friction", (1,)), EffectUse("load_friction", (1,)))
-    with pytest.raises(InputError, match="the load of Fl1 is constant"):
-        _ = Model(both).base_parameters
-
-
-def test_what_nothing_loads_rubs_not() -> None:
-    upright = robot("turntable", (joint(1, REVOLUTE),), effects=(EffectUse("load_friction", (1,)),))
-    (gone,) = (one for one in Model(upright).grouping.eliminated if one.name == "Fl1")
-    assert (gone.rule, gone.into) == ("nothing loads the joint", ())
+def test_a_slide_is_loaded_by_its_acceleration_too() -> None:
+    both = Model(one_slide(EffectUse("coulomb_friction", (1,)), EffectUse("load_friction", (1,))))
+    assert [parameter.name for parameter in both.base_parameters] == ["M1", "Fc1", "Fl1"]
 
 
 def test_position_friction(tmp_path: Path) -> None:

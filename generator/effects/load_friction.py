@@ -19,9 +19,9 @@ EFFECT = Effect(
     needs=("qd", "load"),
     sign_convention="the motor supplies Fl sign(qd) |load| against the friction; sign(0) = 0",
     assumptions=(
-        "the load is the static one: weight, balancers and springs on the joint, and the tool's wrench; a load that "
-        "counted the acceleration would make M(q) depend on the direction of motion. The same in both directions of "
-        "the power"
+        "the load is what the drive supplies beyond the joint's other friction and offset: the torque of bodies, "
+        "rotors, balancers and springs, and of the tool's wrench. Rotors count, since base parameters hold them "
+        "together with the bodies. The same in both directions of the power. Fl < 1"
     ),
     source=(
         "Hamon, Gautier and Garrec, Dynamic identification of robots with a dry friction model depending on load and "

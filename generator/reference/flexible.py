@@ -65,19 +65,21 @@ class Flexible:
         """[qdd_m; qdd_e] (eq. 11), solved as one system of all n + e coordinates; ``tau_ext`` (n) acts on the links."""
         n, size = self.dof, self.dof + len(self.elastic)
         M = self.link.inertia_matrix(self.at_links(q))
-        at_rest, of_links = self.inverse_dynamics(q, qd, zeros(size))
+        at_rest, _ = self.inverse_dynamics(q, qd, zeros(size))
+        drive = tau.copy()
+        for e, (i, number) in enumerate(self.elastic.items()):
+            drive[i] = -self.value("k", number) * self.wound(number, q[n + e])
+        of_links = self.link.moving(self.at_links(q), self.at_links(qd), drive)
+        if tau_ext is not None:
+            of_links = of_links + tau_ext
         left, right = zeros(size, size), zeros(size)
         left[:n, :n] = M
         left[:n, n:] = M[:, list(self.elastic)]
-        others = zeros(n) if tau_ext is None else tau_ext
-        right[:n] = tau - at_rest
+        right[:n] = of_links
         for e, (i, number) in enumerate(self.elastic.items()):
-            left[n + e] = left[i]
-            right[n + e] = -self.value("k", number) * self.wound(number, q[n + e]) - of_links[e] + others[i]
+            left[n + e], right[n + e] = left[i], of_links[i]
             left[i] = zeros(size)
-            left[i, i] = self.value("Iam", number)
-        rigid = [i for i in range(n) if i not in self.elastic]
-        right[rigid] += others[rigid]
+            left[i, i], right[i] = self.value("Iam", number), tau[i] - at_rest[i]
         return solve(left, right)
 
     def regressor(self, columns: Sequence[str], q: Array, qd: Array, qdd: Array) -> Array:

@@ -16,7 +16,7 @@ class At:
     """The motion that an effect acts along, and the fixed values ``shape``.
 
     ``direction`` stands for sign(qd). Along a motor, q, qd, qdd are its motion over its own gear ratio ``ratio``.
-    ``load`` is the static load of the joint's transmission, ``warmth`` that of its drive, ``states`` the effect's own.
+    ``load`` is that of the joint's transmission, ``warmth`` that of its drive, ``states`` the effect's own.
     """
 
     shape: Values
@@ -40,7 +40,7 @@ class Law:
 
     ``states`` are the stems of its states, ``rates`` their derivatives. ``along`` is "joint", "motor" or
     "pair" (of joints that turn a rotor together): motor and pair share the torque by equal power. ``on_link`` tells
-    that it is part of the transmission's load.
+    that it is part of the transmission's load, ``by_load`` that it is proportional to the load's size.
     """
 
     stems: tuple[str, ...]
@@ -52,3 +52,4 @@ class Law:
     rates: Callable[[At], Columns] = _none
     along: Literal["joint", "motor", "pair"] = "joint"
     on_link: bool = False
+    by_load: bool = False

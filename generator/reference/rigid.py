@@ -48,23 +48,23 @@ class Rigid:
 
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
-        tau, beside = lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held, self._beside(q)
+        tau, beside = self._of_bodies(q, qd, qdd), self._beside(q, qd, qdd)
         for effect in self.effects:
             tau = tau + self._torque(effect.torques(q, qd, qdd, beside))
         return tau
 
     def effect_rates(self, q: Array, qd: Array) -> Array:
         """Time derivatives of the effects' states."""
-        beside = self._beside(q)
+        beside = self._beside(q, qd, zeros(self.chain.dof))
         rates = {name: rate for effect in self.effects for name, rate in effect.rates(q, qd, beside).items()}
         return np.array([rates[name] for name in self._state_names], dtype=object)
 
-    def static_load(self, q: Array) -> Array:
-        """What the transmissions carry at rest (n): weight, balancers, springs on the joints, the tool's wrench."""
-        load, still = lagrange.gravity(self.chain, self.matter, q) + self.held, zeros(self.chain.dof)
+    def load(self, q: Array, qd: Array, qdd: Array) -> Array:
+        """What the transmissions carry (n): bodies, rotors, balancers, springs on the joints, the tool's wrench."""
+        load = self._of_bodies(q, qd, qdd) + self._rotors @ qdd
         for effect in self.effects:
             if effect.law.on_link:
-                load = load + self._torque(effect.torques(q, still, still))
+                load = load + self._torque(effect.torques(q, qd, qdd))
         return load
 
     def bias(self, q: Array, qd: Array) -> Array:
@@ -77,14 +77,26 @@ class Rigid:
 
     def inertia_matrix(self, q: Array) -> Array:
         """M(q) (n x n) with the rotors' inertias."""
-        M = lagrange.inertia_matrix(self.chain, self.matter, q)
-        for effect in self.effects:
-            M = M + self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares)
+        M: Array = lagrange.inertia_matrix(self.chain, self.matter, q) + self._rotors
         return M
 
     def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
         """Qdd (n) of M qdd = tau - H (report eq. 6)."""
-        return solve(self.inertia_matrix(q), tau - self.bias(q, qd))
+        return solve(self.inertia_matrix(q), self.moving(q, qd, tau))
+
+    def moving(self, q: Array, qd: Array, tau: Array) -> Array:
+        """M qdd (n): what torques tau leave to accelerate the robot.
+
+        Friction by load takes its part first: the load L that is left has the sign with which L (1 + s sign(L)) is what
+        the drive supplies beyond its other friction, s what it makes of a unit load.
+        """
+        still, unit = zeros(self.chain.dof), zeros(self.chain.dof) + Decimal(1)
+        held = self.load(q, qd, still)
+        friction = self.bias(q, qd) - held - self._rubbing(q, qd, held)
+        slopes = self._rubbing(q, qd, unit)
+        loads = [_load(one, slope) for one, slope in zip(tau - friction, slopes, strict=True)]
+        moving: Array = np.array(loads, dtype=object) - held
+        return moving
 
     def wrench_torque(self, q: Array, wrench: Array) -> Array:
         """J^T w (n): holds the wrench (force, moment) of the tool on its environment, in the tool frame (eq. 73)."""
@@ -125,7 +137,7 @@ class Rigid:
         known: dict[str, Array] = {}
         for j in self.matter:
             known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
-        beside = self._beside(q)
+        beside = self._beside(q, qd, qdd)
         for effect in self.effects:
             known |= effect.torques(q, qd, qdd, beside)
         return {name: known[name] for name in names}
@@ -134,9 +146,27 @@ class Rigid:
         """Torques (n) per unit of the inertial parameters of a body in frame ``number``, by their stems."""
         return lagrange.columns(self.chain, number, q, qd, qdd)
 
-    def _beside(self, q: Array) -> Beside:
+    @property
+    def _rotors(self) -> Array:
+        """What the effects add to the inertia matrix (n x n)."""
+        parts = (self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares) for effect in self.effects)
+        return sum(parts, zeros(self.chain.dof, self.chain.dof))
+
+    def _of_bodies(self, q: Array, qd: Array, qdd: Array) -> Array:
+        return lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held
+
+    def _rubbing(self, q: Array, qd: Array, load: Array) -> Array:
+        """Friction (n) that goes with a load."""
+        beside, still = self._under(load), zeros(self.chain.dof)
+        by_load = (effect for effect in self.effects if effect.law.by_load)
+        return sum((self._torque(effect.torques(q, qd, still, beside)) for effect in by_load), still)
+
+    def _beside(self, q: Array, qd: Array, qdd: Array) -> Beside:
+        return self._under(self.load(q, qd, qdd))
+
+    def _under(self, load: Array) -> Beside:
         states = self.states or (Decimal(0),) * len(self._state_names)
-        return Beside(self.static_load(q), self.warmth, dict(zip(self._state_names, states, strict=True)))
+        return Beside(load, self.warmth, dict(zip(self._state_names, states, strict=True)))
 
     @property
     def _state_names(self) -> list[str]:
@@ -162,3 +192,9 @@ def rigid(robot: Robot, values: Mapping[str, float]) -> Rigid:
     matter = {body.number: of_body(body.number, given) for body in robot.bodies}
     rest = zeros(len(robot.moving))
     return Rigid(build(robot, given), matter, tuple(acting(robot)), given, rest, rest)
+
+
+def _load(supplied: Decimal, slope: Decimal) -> Decimal:
+    """The load L with L + slope |L| = supplied."""
+    forward = supplied / (1 + slope)
+    return forward if forward >= 0 else supplied / (1 - slope)

@@ -13,7 +13,6 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from generator.errors import InputError, Place
 from generator.grouping.grouping import BaseParameter, Eliminated, Grouping
 
 #: What is left of a column of unit length, below which it is a sum of the others.
@@ -21,29 +20,17 @@ _TOLERANCE = 1e-9
 _DIGITS = 12
 
 
-def absorbed(
-    grouping: Grouping,
-    effects: Sequence[str],
-    w: Mapping[str, NDArray[np.float64]],
-    loaded: Mapping[str, Place],
-) -> Grouping:
+def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]]) -> Grouping:
     """The grouping with those of the parameters ``effects`` grouped that the others, and those before them, make too.
 
-    ``w`` holds the column of each standard parameter over random states. ``loaded`` are those among the parameters
-    whose columns depend on the load, with where the file asks for them: no constant coefficient groups them.
-
-    Raises InputError for one of them that other parameters imitate.
+    ``w`` holds the column of each standard parameter over random states.
     """
     heads = [base.head for base in grouping.base]
     kept = [head for head in heads if head not in effects]
     span = _orthonormal(w, kept)
-    nothing = _TOLERANCE * max(float(np.linalg.norm(w[head])) for head in heads)
     for name in effects:
         size = float(np.linalg.norm(w[name]))
         if name not in heads:
-            continue
-        if name in loaded and size <= nothing:
-            grouping = _grouped(grouping, name, {})
             continue
         rest = w[name] / size
         for _ in range(2):  # once more, for what rounding leaves of the first
@@ -51,9 +38,6 @@ def absorbed(
         if np.linalg.norm(rest) > _TOLERANCE:
             kept.append(name)
             span = np.column_stack([span, rest / np.linalg.norm(rest)])
-        elif name in loaded:
-            problem = f"the load of {name} is constant: other friction of the joint cannot be told from it"
-            raise InputError(loaded[name], problem, "a joint whose load changes, or Coulomb friction alone")
         else:
             grouping = _grouped(grouping, name, _coefficients(w, name, kept))
     return grouping
@@ -94,5 +78,5 @@ def _grouped(grouping: Grouping, name: str, coefficients: Mapping[str, sympy.Rat
         numbers[parameter.name] = terms
     gone = [replace(one, into=tuple(titles.get(title, title) for title in one.into)) for one in grouping.eliminated]
     into = tuple(titles.values())
-    rule = f"its torque is one that {' and '.join(into)} make too" if into else "nothing loads the joint"
+    rule = f"its torque is one that {' and '.join(into)} make too"
     return Grouping(tuple(base), (*gone, Eliminated(name, rule, into)), numbers)

@@ -52,24 +52,12 @@ class Dynamics:
     def still(self) -> list[Node]:
         return [self.chain.program.zero] * self.chain.dof
 
-    def joint_motion(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None = None) -> JointMotion:
-        """What the effects see, the load of each joint included where one of them depends on it."""
+    def joint_motion(self, qd: Nodes, qdd: Nodes, load: Array | None = None) -> JointMotion:
+        """What the effects see; the ``load`` (n) of the joints where it is given."""
         others = effect_torques.inputs(self.chain, self.effects)
-        if effect_torques.reads(self.effects, "load"):
-            load = self.static_load(wrench)
+        if load is not None:
             others |= {f"load{joint.number}": load[k] for k, joint in enumerate(self.chain.robot.moving)}
         return JointMotion(self._positions, qd, qdd, {}, others)
-
-    def static_load(self, wrench: Wrench | None = None) -> Array:
-        """Torque (n) that the transmissions carry at rest: weight, balancers, springs, and a wrench of the tool."""
-        if wrench is None:
-            of_bodies = self.gravity
-        else:
-            motion = newton_euler.motions(self.chain, self.still, self.still)
-            of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
-        on_links = [instance for instance in self.effects if instance.effect.on_link]
-        at_rest = JointMotion(self._positions, self.still, self.still, {})
-        return of_bodies + effect_torques.torques(self.chain, on_links, at_rest, self.parameters)
 
     @property
     def _positions(self) -> list[Node]:
@@ -101,10 +89,15 @@ class Dynamics:
         rotors = effect_torques.inertia(self.chain, self.effects, motion, self.parameters)
         return strategy.inertia_matrix(self.chain, self.matter, self.strategies.inertia) + rotors
 
-    def direct_dynamics(self, tau: Nodes, wrench: Wrench | None = None) -> Array:
-        """qdd from tau (report eq. 6)."""
-        held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
-        return solve(self.inertia_matrix, tau - held)
+    def direct_dynamics(self, tau: Nodes, wrench: Wrench | None = None, others: Nodes | None = None) -> Array:
+        """qdd from tau, and from torques of ``others`` on the links (report eq. 6)."""
+        drive = np.array(tau, dtype=object)
+        if self._reads_load:
+            drive = self._carried(drive)
+            held = self._loading(self._of_bodies(self.qd, self.still, wrench), self.qd, self.still)
+        else:
+            held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
+        return solve(self.inertia_matrix, (drive if others is None else drive + np.array(others, dtype=object)) - held)
 
     @cached_property
     def effect_rates(self) -> Array:
@@ -141,18 +134,53 @@ class Dynamics:
     def regressor_columns(self, names: Iterable[str]) -> dict[str, dict[int, Node]]:
         """Columns of the regressor (report eq. 3) by standard parameter, each {coordinate: entry}."""
         wanted = list(names)
-        found = dict(effect_torques.columns(self.chain, self.effects, self.joint_motion(self.qd, self.qdd)))
+        load = self._loading(self._of_bodies(self.qd, self.qdd), self.qd, self.qdd) if self._reads_load else None
+        seen = self.joint_motion(self.qd, self.qdd, load)
+        found = dict(effect_torques.columns(self.chain, self.effects, seen))
         found |= regressor.columns(self.chain, wanted, self.qd, self.qdd, self.strategies.regressor)
         return {name: found[name] for name in wanted}
 
     def _torques(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None) -> Array:
-        if wrench is None:
-            of_bodies = strategy.torques(self.chain, self.matter, qd, qdd, self.strategies.torque)
-        else:
-            motion = newton_euler.motions(self.chain, qd, qdd)
-            of_bodies = newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
-        seen = self.joint_motion(qd, qdd, wrench)
+        of_bodies = self._of_bodies(qd, qdd, wrench)
+        load = self._loading(of_bodies, qd, qdd) if self._reads_load else None
+        seen = self.joint_motion(qd, qdd, load)
         return of_bodies + effect_torques.torques(self.chain, self.effects, seen, self.parameters)
+
+    def _of_bodies(self, qd: Nodes, qdd: Nodes, wrench: Wrench | None = None) -> Array:
+        """Torque of the bodies, and what holds a wrench of the tool."""
+        if wrench is None:
+            return strategy.torques(self.chain, self.matter, qd, qdd, self.strategies.torque)
+        motion = newton_euler.motions(self.chain, qd, qdd)
+        return newton_euler.inverse_dynamics(self.chain, motion, self.matter, wrench)
+
+    @property
+    def _reads_load(self) -> bool:
+        return effect_torques.reads(self.effects, "load")
+
+    def _loading(self, of_bodies: Array, qd: Nodes, qdd: Nodes) -> Array:
+        """The load of each transmission (n): ``of_bodies``, what acts on links, and what accelerates with them."""
+        seen = self.joint_motion(qd, qdd)
+        on_links = [one for one in self.effects if one.effect.on_link]
+        of_effects = effect_torques.torques(self.chain, on_links, seen, self.parameters)
+        rotors = effect_torques.inertia(self.chain, self.effects, seen, self.parameters)
+        load: Array = of_bodies + of_effects + rotors @ np.array(qdd, dtype=object)
+        return load
+
+    def _carried(self, tau: Array) -> Array:
+        """The loads L (n) that torques tau of the drives leave for the transmissions: tau - F = L + s |L|.
+
+        F is other friction of the joint, s what the friction by load makes of a unit load. Where |s| < 1 both sides
+        have the same sign, so that L = (tau - F) / (1 + s sign(tau - F)).
+        """
+        program = self.chain.program
+        by_load = [one for one in self.effects if "load" in one.effect.needs]
+        others = [one for one in self.effects if not (one.effect.on_link or one in by_load)]
+        unit = np.array([program.constant(1)] * self.chain.dof, dtype=object)
+        seen = self.joint_motion(self.qd, self.still, unit)
+        left = tau - effect_torques.torques(self.chain, others, seen, self.parameters)
+        slope = effect_torques.torques(self.chain, by_load, seen, self.parameters)
+        load = [y / (1 + s * program.function("sign", y)) for y, s in zip(left, slope, strict=True)]
+        return np.array(load, dtype=object)
 
     def _moment_at_base(self) -> Array:
         """First moment of all matter about O_0, in frame 0 [kg m]."""

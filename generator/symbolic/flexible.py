@@ -69,7 +69,7 @@ class FlexibleDynamics:
         drive = np.array(tau, dtype=object)
         for joint in self.elastic:
             drive[joint] = self._spring(joint)
-        of_links = self.link.direct_dynamics(drive if tau_ext is None else drive + np.array(tau_ext, dtype=object))
+        of_links = self.link.direct_dynamics(drive, others=tau_ext)
         of_motors = np.array(of_links, dtype=object)
         inertia = effect_torques.inertia(chain, self.motor_effects, self.motor_motion, self.parameters)
         for joint in self.elastic:

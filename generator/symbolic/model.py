@@ -95,8 +95,7 @@ class Model:
         )
         numeric = Model(replace(self.robot, lengths=lengths))
         w = numeric.sampled_columns(numeric.standard.regressor_columns(names), {})
-        loaded = {name: self._places[name] for one in self.effects if "load" in one.effect.needs for name in one.names}
-        return absorbed(exact, others, w, loaded)
+        return absorbed(exact, others, w)
 
     @property
     def _places(self) -> dict[str, Place]:

@@ -52,11 +52,9 @@ class Acting:
         return self._sum(self._torques, scene)
 
     def load(self, scene: Scene) -> Array:
-        """Those among them that load the transmissions (n x N) [N m, N]: bodies, and effects on the links."""
-        on_links = [
-            one for one in self._torques if one.hypothesis.kind == BODY or library()[one.hypothesis.effect].on_link
-        ]
-        return self._sum(on_links, scene)
+        """Those among them that load the transmissions (n x N) [N m, N]: bodies, rotors, effects on the links."""
+        loading = [one for one in self._torques if one.hypothesis.kind == BODY or _loads(one.hypothesis.effect)]
+        return self._sum(loading, scene)
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
@@ -70,3 +68,8 @@ class Acting:
             for i, coefficient in zip(one.used, one.coefficients, strict=True):
                 result += values[coefficient.name] * columns[i]
         return result
+
+
+def _loads(effect: str) -> bool:
+    known = library()[effect]
+    return known.on_link or "qdd" in known.needs

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -125,20 +125,18 @@ class Scene:
         return self.torque_of(self.values, self.motion)
 
     @cached_property
-    def resting(self) -> Array:
-        """Torques of the model alone at rest in the run's positions (n x N): weight, springs, balancers, offsets."""
-        return self.torque_of(self.values, self._at_rest)
-
-    @cached_property
     def weight(self) -> Array:
         """Torques at rest of the bodies alone, and of a known payload (n x N)."""
+        return self.torque_of(self._with_parts_of(INERTIAL), self._at_rest)
+
+    def _with_parts_of(self, stems: Collection[str]) -> dict[str, float]:
+        """Values of the base parameters in which parameters of these stems are."""
         grouped = self.regressors.model.grouping.numeric()
-        bodies = {
+        return {
             name: value
             for name, value in self.values.items()
-            if any(part.rstrip("0123456789") in INERTIAL for part in grouped.get(name, {}))
+            if any(part.rstrip("0123456789") in stems for part in grouped.get(name, {}))
         }
-        return self.torque_of(bodies, self._at_rest)
 
     @property
     def _at_rest(self) -> Motion:
@@ -151,12 +149,17 @@ class Scene:
 
     @cached_property
     def load(self) -> Array:
-        """Static loads of the transmissions (n x N): weight, payload, springs and balancers, without the drives'
-        offsets.
+        """Loads of the transmissions (n x N): bodies, rotors, payload, springs and balancers, without the drives' own
+        friction and offsets.
         """
-        offsets = [self.values.get(f"Off{joint.number}", 0.0) for joint in self.robot.moving]
-        load = np.asarray(self.resting - np.array(offsets)[:, None])
-        return load if self.beside is None else load + self.beside.load(self._alone(self._at_rest))
+        loading = {
+            parameter.stem
+            for one in self.regressors.model.effects
+            for parameter, column in zip(one.effect.parameters, one.columns(), strict=True)
+            if one.effect.on_link or any(torque.has(one.site.qdd) for torque in column.values())
+        }
+        load = self.torque_of(self._with_parts_of({*INERTIAL, *loading}), self.motion)
+        return load if self.beside is None else load + self.beside.load(self._alone(self.motion))
 
     def found(self, name: str) -> float:
         """A coefficient that an earlier search has found, zero where it has not."""
