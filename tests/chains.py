@@ -309,8 +309,6 @@ def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, .
         if "qe" not in effect.needs
         and joint.sigma in effect.kinds
         and (robot.drives or "motor" not in effect.needs)
-        # An offset of a slide hides in weight, and then is a part of the load.
-        and (joint.sigma == REVOLUTE or "load" not in effect.needs)
         and (effect.id, joint.number) not in there
         and not effect.observables
         and (_may_turn_with_another(robot) or not any(shape.joint for shape in effect.shapes))

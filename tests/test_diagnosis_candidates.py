@@ -176,7 +176,7 @@ def test_what_sits_on_the_drive_loads_no_transmission(robots: Callable[[str], Kn
     scene, _, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
     drive, link = (
         Hypothesis(name, name, 2, (Coefficient("c", "N m"),), lambda scene, shape: np.ones((1, *scene.motion.q.shape)))
-        for name in ("offset", "cable_spring")
+        for name in ("viscous_friction", "cable_spring")
     )
     for hypothesis, load in ((drive, 0.0), (link, 5.0)):
         acting = Acting((Variant(hypothesis, {}, (0,), (1,), (0,)),), (5.0,))

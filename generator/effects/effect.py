@@ -110,7 +110,7 @@ class Site:
 
     @property
     def load(self) -> sympy.Symbol:
-        """Load of the transmission: torque of bodies, rotors, balancers and springs, and of the tool's wrench."""
+        """Load of the drive: torque of bodies, rotors, balancers, springs, offsets, and of the tool's wrench."""
         return sympy.Symbol(f"load{self.joint.number}", real=True)
 
     @property
@@ -149,9 +149,9 @@ class Effect:
     columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives), load, warmth, state.
     ``rates`` are the time derivatives of ``states``, in their order. ``drive_train`` effects sit on the motor side of
     an elastic joint. ``on_link`` effects act on the link past the transmission, whose load they are part of; they
-    depend on q alone. What reads the load is proportional to its size. ``dissipates`` tells that the effect never gives
-    power to the robot while its parameters are not below their bounds. ``kinds`` are the kinds of joint (sigma) it can
-    sit on. ``rank`` orders the parameters of one joint.
+    depend on q alone. What reads the load is proportional to |load - rotor qdd|, ``rotor`` a shape value.
+    ``dissipates`` tells that the effect never gives power to the robot while its parameters are not below their bounds.
+    ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of one joint.
     """
 
     id: str
@@ -174,3 +174,8 @@ class Effect:
     dissipates: bool = False
     kinds: tuple[int, ...] = (REVOLUTE, PRISMATIC)
     rank: int = 100
+
+    @property
+    def loads(self) -> bool:
+        """Whether its torque is a part of the load at rest: on links; and offsets, which no rest tells from weight."""
+        return self.on_link or not self.needs

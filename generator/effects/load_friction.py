@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
-    return (at.on_joint(sympy.sign(at.qd) * sympy.Abs(at.load)),)
+    return (at.on_joint(sympy.sign(at.qd) * sympy.Abs(at.load - at.values["rotor"] * at.qdd)),)
 
 
 EFFECT = Effect(
@@ -16,12 +16,21 @@ EFFECT = Effect(
     title="friction that grows with the load",
     parameters=(LinearParameter("Fl", ("1", "1"), "friction per torque that the transmission carries", 0.0),),
     columns=_columns,
-    needs=("qd", "load"),
-    sign_convention="the motor supplies Fl sign(qd) |load| against the friction; sign(0) = 0",
+    shapes=(
+        Shape(
+            "rotor",
+            "kg m2",
+            "inertia of the rotor, which the transmission does not carry",
+            0.0,
+            default=sympy.S.Zero,
+            prismatic="kg",
+        ),
+    ),
+    needs=("qd", "qdd", "load"),
+    sign_convention="the motor supplies Fl sign(qd) |load - rotor qdd| against the friction; sign(0) = 0",
     assumptions=(
-        "the load is what the drive supplies beyond the joint's other friction and offset: the torque of bodies, "
-        "rotors, balancers and springs, and of the tool's wrench. Rotors count, since base parameters hold them "
-        "together with the bodies. The same in both directions of the power. Fl < 1"
+        "the load is all that the drive supplies beyond the joint's other friction: the torque of bodies, rotors, "
+        "balancers, springs and offsets, and of the tool's wrench. The same in both directions of the power. Fl < 1"
     ),
     source=(
         "Hamon, Gautier and Garrec, Dynamic identification of robots with a dry friction model depending on load and "

@@ -74,7 +74,7 @@ def _law(
         arm = lever_arm(at.shape, at.q)
         return tuple(arm * force for force in forces(at.shape, at.q))
 
-    return Law(stems, torque, lambda at: forces(at.shape, at.q), lambda at: energies(at.shape, at.q), on_link=True)
+    return Law(stems, torque, lambda at: forces(at.shape, at.q), lambda at: energies(at.shape, at.q), loads=True)
 
 
 #: By the effects' ids.

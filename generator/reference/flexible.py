@@ -64,23 +64,25 @@ class Flexible:
     def direct_dynamics(self, q: Array, qd: Array, tau: Array, tau_ext: Array | None = None) -> Array:
         """[qdd_m; qdd_e] (eq. 11), solved as one system of all n + e coordinates; ``tau_ext`` (n) acts on the links."""
         n, size = self.dof, self.dof + len(self.elastic)
-        M = self.link.inertia_matrix(self.at_links(q))
         at_rest, _ = self.inverse_dynamics(q, qd, zeros(size))
         drive = tau.copy()
         for e, (i, number) in enumerate(self.elastic.items()):
             drive[i] = -self.value("k", number) * self.wound(number, q[n + e])
-        of_links = self.link.moving(self.at_links(q), self.at_links(qd), drive)
-        if tau_ext is not None:
-            of_links = of_links + tau_ext
-        left, right = zeros(size, size), zeros(size)
-        left[:n, :n] = M
-        left[:n, n:] = M[:, list(self.elastic)]
-        right[:n] = of_links
-        for e, (i, number) in enumerate(self.elastic.items()):
-            left[n + e], right[n + e] = left[i], of_links[i]
-            left[i] = zeros(size)
-            left[i, i], right[i] = self.value("Iam", number), tau[i] - at_rest[i]
-        return solve(left, right)
+        motors = {number: self.value("Iam", number) for number in self.elastic.values()}
+
+        def solved(M: Array, of_links: Array) -> Array:
+            moving = of_links if tau_ext is None else of_links + tau_ext
+            left, right = zeros(size, size), zeros(size)
+            left[:n, :n] = M
+            left[:n, n:] = M[:, list(self.elastic)]
+            right[:n] = moving
+            for e, (i, number) in enumerate(self.elastic.items()):
+                left[n + e], right[n + e] = left[i], moving[i]
+                left[i] = zeros(size)
+                left[i, i], right[i] = motors[number], tau[i] - at_rest[i]
+            return solve(left, right)
+
+        return self.link.accelerations(self.at_links(q), self.at_links(qd), drive, solved, self.at_links)
 
     def regressor(self, columns: Sequence[str], q: Array, qd: Array, qdd: Array) -> Array:
         """Rows [tau_mdi (n); tau_e + k q_e] per unit of the named parameters; the last rows vanish on a real motion.

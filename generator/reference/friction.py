@@ -49,7 +49,7 @@ LAWS: Mapping[str, Law] = {
     "power_friction": Law(("Fp",), _power),
     "stribeck_friction": Law(("Fst",), _stribeck),
     "gradual_friction": Law(("Fg",), _gradual),
-    "load_friction": Law(("Fl",), lambda at: (at.direction * abs(at.load),), by_load=True),
+    "load_friction": Law(("Fl",), lambda at: (at.direction * abs(at.load - at.shape["rotor"] * at.qdd),), by_load=True),
     "warm_friction": Law(("Fvw", "Fcw"), lambda at: (at.warmth * at.qd, at.warmth * at.direction)),
     "position_friction": Law(("Fqc", "Fqs", "Fq2c", "Fq2s"), _of_position),
 }

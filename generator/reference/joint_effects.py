@@ -24,13 +24,13 @@ LAWS: Mapping[str, Law] = {
     ),
     # Of the flexible robot alone, with its own parameters: see ``flexible``.
     "joint_elasticity": Law((), lambda at: ()),
-    "offset": Law(("Off",), lambda at: (Decimal(1),)),
-    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), on_link=True),
+    "offset": Law(("Off",), lambda at: (Decimal(1),), loads=True),
+    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), loads=True),
     "cable_spring": Law(
         ("kc",),
         lambda at: (at.q - at.shape["neutral"],),
         potential=lambda at: (((at.q - at.shape["neutral"]) ** 2 - at.shape["neutral"] ** 2) / 2,),
-        on_link=True,
+        loads=True,
     ),
     **friction.LAWS,
     **presliding.LAWS,
@@ -42,6 +42,7 @@ LAWS: Mapping[str, Law] = {
 _DEFAULTS: Mapping[str, Mapping[str, Decimal]] = {
     "gas_balancer": {"exponent": Decimal(1)},
     "power_friction": {"v": Decimal(1), "exponent": Decimal(2)},
+    "load_friction": {"rotor": Decimal(0)},
     "stribeck_friction": {"exponent": Decimal(2)},
     "position_friction": {"order": Decimal(1)},
     "hysteresis": {"exponent": Decimal(2)},

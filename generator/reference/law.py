@@ -16,7 +16,7 @@ class At:
     """The motion that an effect acts along, and the fixed values ``shape``.
 
     ``direction`` stands for sign(qd). Along a motor, q, qd, qdd are its motion over its own gear ratio ``ratio``.
-    ``load`` is that of the joint's transmission, ``warmth`` that of its drive, ``states`` the effect's own.
+    ``load`` and ``warmth`` are those of the joint's drive, ``states`` the effect's own.
     """
 
     shape: Values
@@ -39,8 +39,8 @@ class Law:
     """One effect: parameter ``stems``, and per unit of each its torque, pull F1 (balancers) and energies.
 
     ``states`` are the stems of its states, ``rates`` their derivatives. ``along`` is "joint", "motor" or
-    "pair" (of joints that turn a rotor together): motor and pair share the torque by equal power. ``on_link`` tells
-    that it is part of the transmission's load, ``by_load`` that it is proportional to the load's size.
+    "pair" (of joints that turn a rotor together): motor and pair share the torque by equal power. ``loads`` tells that
+    it is a part of the drive's load at rest, ``by_load`` that it is proportional to the size of what loads the gear.
     """
 
     stems: tuple[str, ...]
@@ -51,5 +51,5 @@ class Law:
     states: tuple[str, ...] = ()
     rates: Callable[[At], Columns] = _none
     along: Literal["joint", "motor", "pair"] = "joint"
-    on_link: bool = False
+    loads: bool = False
     by_load: bool = False

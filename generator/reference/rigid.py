@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from itertools import product
 
 import numpy as np
 
@@ -63,7 +64,7 @@ class Rigid:
         """What the transmissions carry (n): bodies, rotors, balancers, springs on the joints, the tool's wrench."""
         load = self._of_bodies(q, qd, qdd) + self._rotors @ qdd
         for effect in self.effects:
-            if effect.law.on_link:
+            if effect.law.loads:
                 load = load + self._torque(effect.torques(q, qd, qdd))
         return load
 
@@ -82,21 +83,30 @@ class Rigid:
 
     def direct_dynamics(self, q: Array, qd: Array, tau: Array) -> Array:
         """Qdd (n) of M qdd = tau - H (report eq. 6)."""
-        return solve(self.inertia_matrix(q), self.moving(q, qd, tau))
+        return self.accelerations(q, qd, tau, solve, lambda qdd: qdd)
 
-    def moving(self, q: Array, qd: Array, tau: Array) -> Array:
-        """M qdd (n): what torques tau leave to accelerate the robot.
+    def accelerations(
+        self, q: Array, qd: Array, tau: Array, solved: Callable[[Array, Array], Array], seen: Callable[[Array], Array]
+    ) -> Array:
+        """What ``solved`` makes of M (n x n) and of M qdd (n), which torques tau of the drives leave for the robot.
 
-        Friction by load takes its part first: the load L that is left has the sign with which L (1 + s sign(L)) is what
-        the drive supplies beyond its other friction, s what it makes of a unit load.
+        Friction by load goes with the size of L - r qdd, qdd (n) being what is ``seen`` in it. All signs are tried;
+        those are right that come out.
         """
-        still, unit = zeros(self.chain.dof), zeros(self.chain.dof) + Decimal(1)
-        held = self.load(q, qd, still)
-        friction = self.bias(q, qd) - held - self._rubbing(q, qd, held)
-        slopes = self._rubbing(q, qd, unit)
-        loads = [_load(one, slope) for one, slope in zip(tau - friction, slopes, strict=True)]
-        moving: Array = np.array(loads, dtype=object) - held
-        return moving
+        still = zeros(self.chain.dof)
+        held, M = self.load(q, qd, still), self.inertia_matrix(q)
+        supplied = tau - (self.bias(q, qd) - held - self._rubbing(q, qd, held))
+        slopes = self._rubbing(q, qd, still + Decimal(1))
+        rotors = self._unloaded
+        for signs in product((Decimal(1), Decimal(-1)), repeat=self.chain.dof):
+            if any(sign < 0 and not slope for sign, slope in zip(signs, slopes, strict=True)):
+                continue
+            share = 1 / (1 + slopes * np.array(signs, dtype=object))
+            qdd = solved(M - np.diag(rotors * (1 - share)), share * supplied - held)
+            carried = supplied - rotors * seen(qdd)
+            if all(not slope or sign * one >= 0 for sign, one, slope in zip(signs, carried, slopes, strict=True)):
+                return qdd
+        raise ArithmeticError("friction by load of a whole load or more")
 
     def wrench_torque(self, q: Array, wrench: Array) -> Array:
         """J^T w (n): holds the wrench (force, moment) of the tool on its environment, in the tool frame (eq. 73)."""
@@ -149,8 +159,19 @@ class Rigid:
     @property
     def _rotors(self) -> Array:
         """What the effects add to the inertia matrix (n x n)."""
-        parts = (self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares) for effect in self.effects)
-        return sum(parts, zeros(self.chain.dof, self.chain.dof))
+        total: Array = zeros(self.chain.dof, self.chain.dof)
+        for effect in self.effects:
+            total = total + self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares)
+        return total
+
+    @property
+    def _unloaded(self) -> Array:
+        """Inertias (n) of the rotors that do not load a gear whose friction goes with the load."""
+        result = zeros(self.chain.dof)
+        for effect in self.effects:
+            if effect.law.by_load:
+                result[effect.coordinate] = effect.shape["rotor"]
+        return result
 
     def _of_bodies(self, q: Array, qd: Array, qdd: Array) -> Array:
         return lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held
@@ -192,9 +213,3 @@ def rigid(robot: Robot, values: Mapping[str, float]) -> Rigid:
     matter = {body.number: of_body(body.number, given) for body in robot.bodies}
     rest = zeros(len(robot.moving))
     return Rigid(build(robot, given), matter, tuple(acting(robot)), given, rest, rest)
-
-
-def _load(supplied: Decimal, slope: Decimal) -> Decimal:
-    """The load L with L + slope |L| = supplied."""
-    forward = supplied / (1 + slope)
-    return forward if forward >= 0 else supplied / (1 - slope)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from random import Random
 
 import numpy as np
@@ -63,9 +63,22 @@ def physical_parameters(robot: Robot, seed: int) -> dict[str, float]:
     for use in robot.effects:
         for number in use.joints:
             values |= {f"{stem}{number}": _between(draw, stem) for stem in LAWS[use.effect].stems}
+    values |= _loading_nothing(robot, values)
     for number in robot.flexible:
         values |= {f"{stem}{number}": _between(draw, stem) for stem in ("Iam", "Fvm", "Fcm", "Offm", "k")}
     return values
+
+
+def _loading_nothing(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
+    """A rotor whose inertia the file tells has that, and more; where there is none, nothing rubs by the load."""
+    found = {}
+    for use in robot.effects:
+        if use.effect == "load_friction" and "rotor" in use.values:
+            for number in use.joints:
+                name = f"Ia{number}"
+                rotor = round(float(use.values["rotor"].value), 5)
+                found |= {name: values[name] + rotor} if name in values else {f"Fl{number}": 0.0}
+    return found
 
 
 def payload(seed: int) -> list[float]:

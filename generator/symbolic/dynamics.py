@@ -15,9 +15,11 @@ from generator.symbolic.direct import solve
 from generator.symbolic.effect_torques import JointMotion
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.kinematics import velocities
+from generator.symbolic.lowering import lower
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.statements import Node
 from generator.symbolic.strategy import TEXTBOOK, Strategies
+from generator.symbolic.under_load import accelerations
 from generator.symbolic.vectors import Array, Nodes, cross, dot, zeros
 
 
@@ -92,12 +94,13 @@ class Dynamics:
     def direct_dynamics(self, tau: Nodes, wrench: Wrench | None = None, others: Nodes | None = None) -> Array:
         """qdd from tau, and from torques of ``others`` on the links (report eq. 6)."""
         drive = np.array(tau, dtype=object)
+        rest = zeros(self.chain.program, self.chain.dof) if others is None else np.array(others, dtype=object)
         if self._reads_load:
-            drive = self._carried(drive)
             held = self._loading(self._of_bodies(self.qd, self.still, wrench), self.qd, self.still)
-        else:
-            held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
-        return solve(self.inertia_matrix, (drive if others is None else drive + np.array(others, dtype=object)) - held)
+            supplied = drive - self._own_friction
+            return accelerations(self.inertia_matrix, supplied, rest - held, *self._rubbing)
+        held = self.bias if wrench is None else self._torques(self.qd, self.still, wrench)
+        return solve(self.inertia_matrix, drive + rest - held)
 
     @cached_property
     def effect_rates(self) -> Array:
@@ -158,29 +161,31 @@ class Dynamics:
         return effect_torques.reads(self.effects, "load")
 
     def _loading(self, of_bodies: Array, qd: Nodes, qdd: Nodes) -> Array:
-        """The load of each transmission (n): ``of_bodies``, what acts on links, and what accelerates with them."""
+        """The load of each drive (n): ``of_bodies``, what acts on links, offsets, and rotors."""
         seen = self.joint_motion(qd, qdd)
-        on_links = [one for one in self.effects if one.effect.on_link]
-        of_effects = effect_torques.torques(self.chain, on_links, seen, self.parameters)
+        parts = [one for one in self.effects if one.effect.loads]
+        of_effects = effect_torques.torques(self.chain, parts, seen, self.parameters)
         rotors = effect_torques.inertia(self.chain, self.effects, seen, self.parameters)
         load: Array = of_bodies + of_effects + rotors @ np.array(qdd, dtype=object)
         return load
 
-    def _carried(self, tau: Array) -> Array:
-        """The loads L (n) that torques tau of the drives leave for the transmissions: tau - F = L + s |L|.
+    @property
+    def _own_friction(self) -> Array:
+        """Torque (n) of all that is neither load nor goes with it."""
+        own = [one for one in self.effects if not one.effect.loads and "load" not in one.effect.needs]
+        return effect_torques.torques(self.chain, own, self.joint_motion(self.qd, self.still), self.parameters)
 
-        F is other friction of the joint, s what the friction by load makes of a unit load. Where |s| < 1 both sides
-        have the same sign, so that L = (tau - F) / (1 + s sign(tau - F)).
-        """
-        program = self.chain.program
-        by_load = [one for one in self.effects if "load" in one.effect.needs]
-        others = [one for one in self.effects if not (one.effect.on_link or one in by_load)]
+    @property
+    def _rubbing(self) -> tuple[Array, Array]:
+        """Friction of each joint per unit of its load, and the inertia of the rotor that loads nothing (n each)."""
+        program, by_load = self.chain.program, [one for one in self.effects if "load" in one.effect.needs]
         unit = np.array([program.constant(1)] * self.chain.dof, dtype=object)
         seen = self.joint_motion(self.qd, self.still, unit)
-        left = tau - effect_torques.torques(self.chain, others, seen, self.parameters)
-        slope = effect_torques.torques(self.chain, by_load, seen, self.parameters)
-        load = [y / (1 + s * program.function("sign", y)) for y, s in zip(left, slope, strict=True)]
-        return np.array(load, dtype=object)
+        rotors = zeros(program, self.chain.dof)
+        for one in by_load:
+            coordinate = self.chain.robot.moving.index(one.joint)
+            rotors[coordinate] = lower(program, one.site.values["rotor"], {})
+        return effect_torques.torques(self.chain, by_load, seen, self.parameters), rotors
 
     def _moment_at_base(self) -> Array:
         """First moment of all matter about O_0, in frame 0 [kg m]."""

@@ -83,11 +83,16 @@ def torques(chain: Chain, instances: Iterable[Instance], motion: JointMotion, pa
 
 
 def inertia(chain: Chain, instances: Iterable[Instance], motion: JointMotion, parameters: Mapping[str, Node]) -> Array:
-    """What the effects add to the inertia matrix (n x n): their torque per unit joint acceleration."""
+    """What the effects add to the inertia matrix (n x n): their torque per unit joint acceleration.
+
+    Friction by load is left out: it is not affine in the acceleration.
+    """
     values = motion.symbols(chain)
     total = zeros(chain.program, chain.dof, chain.dof)
     accelerations = [sympy.Symbol(f"qdd{joint.number}", real=True) for joint in chain.robot.moving]
     for instance in instances:
+        if "load" in instance.effect.needs:
+            continue
         for name, column in zip(instance.names, instance.columns(), strict=True):
             if name not in parameters:
                 continue

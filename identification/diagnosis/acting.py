@@ -72,4 +72,4 @@ class Acting:
 
 def _loads(effect: str) -> bool:
     known = library()[effect]
-    return known.on_link or "qdd" in known.needs
+    return known.loads or known.kinetic_energy is not None

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.effect import Column
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from identification.corrections import warming_up
@@ -127,16 +128,16 @@ class Scene:
     @cached_property
     def weight(self) -> Array:
         """Torques at rest of the bodies alone, and of a known payload (n x N)."""
-        return self.torque_of(self._with_parts_of(INERTIAL), self._at_rest)
+        return self.torque_of(self._made_of(self._of_bodies), self._at_rest)
 
-    def _with_parts_of(self, stems: Collection[str]) -> dict[str, float]:
-        """Values of the base parameters in which parameters of these stems are."""
+    @property
+    def _of_bodies(self) -> set[str]:
+        return {f"{stem}{body.number}" for body in self.robot.bodies for stem in INERTIAL}
+
+    def _made_of(self, names: Collection[str]) -> dict[str, float]:
+        """Values of the base parameters in which standard parameters of these names are."""
         grouped = self.regressors.model.grouping.numeric()
-        return {
-            name: value
-            for name, value in self.values.items()
-            if any(part.rstrip("0123456789") in stems for part in grouped.get(name, {}))
-        }
+        return {name: x for name, x in self.values.items() if any(part in names for part in grouped.get(name, {}))}
 
     @property
     def _at_rest(self) -> Motion:
@@ -149,16 +150,14 @@ class Scene:
 
     @cached_property
     def load(self) -> Array:
-        """Loads of the transmissions (n x N): bodies, rotors, payload, springs and balancers, without the drives' own
-        friction and offsets.
-        """
+        """Loads of the drives (n x N): all of the model's torque but friction, and of a known payload."""
         loading = {
-            parameter.stem
+            name
             for one in self.regressors.model.effects
-            for parameter, column in zip(one.effect.parameters, one.columns(), strict=True)
-            if one.effect.on_link or any(torque.has(one.site.qdd) for torque in column.values())
+            for name, column in zip(one.names, one.columns(), strict=True)
+            if one.effect.loads or ("load" not in one.effect.needs and _accelerates(column))
         }
-        load = self.torque_of(self._with_parts_of({*INERTIAL, *loading}), self.motion)
+        load = self.torque_of(self._made_of(self._of_bodies | loading), self.motion)
         return load if self.beside is None else load + self.beside.load(self._alone(self.motion))
 
     def found(self, name: str) -> float:
@@ -168,3 +167,8 @@ class Scene:
     def rate(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, central differences."""
         return np.gradient(x, self.period, axis=-1)
+
+
+def _accelerates(column: Column) -> bool:
+    """Whether the torque of a parameter depends on accelerations."""
+    return any(symbol.name.startswith("qdd") for torque in column.values() for symbol in torque.free_symbols)

@@ -12,6 +12,7 @@ from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.link_side import rotor_inertia
 from identification.diagnosis.orders import likely_orders
 from identification.diagnosis.scene import Scene
 
@@ -100,6 +101,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         for one in effect.parameters
     )
     given = {one.name: float(one.default) for one in effect.shapes if not one.tried and one.default is not None}
+    if "rotor" in given:
+        given["rotor"] = rotor_inertia(scenes[0], k)
     return [
         Hypothesis(
             effect.id,
