@@ -66,7 +66,7 @@ class Rigid:
         for effect in self.effects:
             if effect.law.loads:
                 load = load + self._torque(effect.torques(q, qd, qdd))
-        return load
+        return np.asarray(load)
 
     def bias(self, q: Array, qd: Array) -> Array:
         """H(q, qd) (n): everything but the accelerations."""

@@ -71,7 +71,7 @@ def physical_parameters(robot: Robot, seed: int) -> dict[str, float]:
 
 def _loading_nothing(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
     """A rotor whose inertia the file tells has that, and more; where there is none, nothing rubs by the load."""
-    found = {}
+    found: dict[str, float] = {}
     for use in robot.effects:
         if use.effect == "load_friction" and "rotor" in use.values:
             for number in use.joints:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from math import expm1
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import casadi
 import numpy as np
 import sympy
 from numpy.typing import NDArray
@@ -20,6 +20,10 @@ Array = NDArray[np.float64]
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 #: Steps a second in which states are integrated.
 _STEPS = 250.0
+#: Slope times step below which (e^x - 1)/x is 1.
+_LINEAR = 1e-9
+#: What the rates of states are made of, by their names in sympy.
+_CASADI = {"Abs": casadi.fabs, "direction": casadi.sign, "exp": casadi.exp, "sqrt": casadi.sqrt, "tanh": casadi.tanh}
 
 
 class EffectColumns:
@@ -37,7 +41,7 @@ class EffectColumns:
         self._site = Site(joint, values, _ratios(robot, k) if "motor" in effect.needs else {})
         self._effect = effect
         self._function: Callable[..., Any] | None = None
-        self._rates: Callable[..., Any] | None = None
+        self._step: Any = None
 
     def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
         """Columns at the recorded rate; not a number where the shape is impossible along the run."""
@@ -45,7 +49,7 @@ class EffectColumns:
             self._prepare()
         assert self._function is not None
         values = [shape[name] for name in self._names]
-        states = [] if self._rates is None else self._states(scene, values)
+        states = [] if self._step is None else self._states(scene, values)
         signals = self._signals(scene, shape.get("warm_up_time"))
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
@@ -74,12 +78,7 @@ class EffectColumns:
         if effect.positive is not None:
             self._positive = sympy.lambdify(inputs, next(iter(effect.positive(at).values())), "numpy")
         if effect.rates is not None:
-            (rate,), (state,) = effect.rates(at), states
-            slope = sympy.diff(rate, state).subs(sympy.Derivative(sympy.sign(state), state), 0)
-            slope = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
-            self._rates = sympy.lambdify(
-                [*(at.values[name] for name in self._names), at.qd, state], [rate, slope], "math"
-            )
+            self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 
     def _signals(self, scene: Scene, warm_up_time: float | None) -> list[Array]:
         motion = scene.motion
@@ -88,24 +87,33 @@ class EffectColumns:
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state, at first that of a long motion the same way.
-
-        Exact where its rate is linear in it: z + h f phi(h f'), phi = (e^x - 1)/x.
-        """
-        assert self._rates is not None
+        """The effect's state, at first that of a long motion the same way."""
         stride = max(1, int(1 / (scene.period * _STEPS)))
         speed = scene.motion.qd[self._k, ::stride]
-        h = stride * scene.period
-        z = np.empty(len(speed))
+        count = len(speed)
         # What moved before the record began has come to its end.
-        now = float(np.sign(speed[0]))
-        for i, v in enumerate(speed.tolist()):
-            z[i] = now
-            f, slope = self._rates(*values, v, now)
-            x = h * slope
-            now += h * f * (expm1(x) / x if abs(x) > 1e-9 else 1.0)
-        grid = np.arange(len(speed)) * stride
-        return [np.interp(np.arange(scene.motion.samples), grid, z)]
+        start = float(np.sign(speed[0]))
+        given = np.array([*values, stride * scene.period])[:, None]
+        _, z = self._step.mapaccum("states", count)(start, speed[None], np.tile(given, count))
+        return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, np.ravel(z))]
+
+
+def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Any:
+    """A casadi function of (z, speed, [values; h]): z a step h later, and now.
+
+    Exact where the rate f is linear in z: z + h f phi(h f'), phi = (e^x - 1)/x.
+    """
+    slope = sympy.diff(rate, state).subs(sympy.Derivative(sympy.sign(state), state), 0)
+    slope = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
+    # Printed as Python sign is a choice, which symbols do not make.
+    both = [one.replace(sympy.sign, sympy.Function("direction")) for one in (rate, slope)]
+    z, v, given = casadi.SX.sym("z"), casadi.SX.sym("v"), casadi.SX.sym("given", len(values) + 1)
+    *own, h = casadi.vertsplit(given)
+    f, of_z = sympy.lambdify([*values, speed, state], both, [_CASADI], cse=True)(*own, v, z)
+    x = h * of_z
+    linear = casadi.fabs(x) <= _LINEAR
+    phi = casadi.if_else(linear, 1, casadi.expm1(x) / casadi.if_else(linear, 1, x))
+    return casadi.Function("step", [z, v, given], [z + h * f * phi, z])
 
 
 def _ratios(robot: Robot, k: int) -> dict[int, sympy.Rational]:
