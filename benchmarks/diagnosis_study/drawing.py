@@ -9,6 +9,10 @@ import numpy as np
 
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden
 from benchmarks.diagnosis_study.study import STUDY
+from generator.effects.library import library
+from generator.robot.description import PRISMATIC, REVOLUTE
+from tests.plant.effect import Effect
+from tests.plant.known_effects import entry
 from tests.plant.robots import ROBOTS
 
 MODES = (FREE, KNOWN)
@@ -68,8 +72,15 @@ def _hidden(
 def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) -> tuple[Hidden, ...]:
     """In a third of the cases one more effect that the robot file holds, on a joint without a hidden one."""
     law, joint = str(rng.choice(STUDY.beside)), int(rng.integers(1, ROBOTS[robot].joints + 1))
-    taken = {one.joint for one in hidden}
-    return (Hidden(law, joint),) if rng.random() < 1 / 3 and joint not in taken else ()
+    there = rng.random() < 1 / 3 and joint not in {one.joint for one in hidden}
+    return (Hidden(law, joint),) if there and _may_hold(robot, joint, law) else ()
+
+
+def _may_hold(robot: str, joint: int, law: str) -> bool:
+    """Whether the robot file may hold the law on a joint: not each has a place on a slide."""
+    known = entry(Effect(law, joint), ROBOTS[robot])
+    kind = PRISMATIC if ROBOTS[robot].chain[joint - 1].prismatic else REVOLUTE
+    return known is None or kind in library()[known.effect].kinds
 
 
 def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> Hidden | None:

@@ -95,7 +95,7 @@ class EffectColumns:
         start = float(np.sign(speed[0]))
         given = np.array([*values, stride * scene.period])[:, None]
         _, z = self._step.mapaccum("states", count)(start, speed[None], np.tile(given, count))
-        return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, np.ravel(z))]
+        return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, z.full()[0])]
 
 
 def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Any:
