@@ -29,7 +29,7 @@ def test_a_balancer_is_looked_for_where_bodies_weigh(tmp_path: Path) -> None:
     own = known(ROBOTS[SCARA], tmp_path)
     of_spring = replace(own, regressors=regressors, values={**own.values, "ks1": 40.0})
     scene, _, _ = played(of_spring, Effect("offset", 1, 0.0), WAY)
-    assert np.ptp(scene.resting[0]) > 10
+    assert np.ptp(scene.load[0]) > 10
     assert not {one.effect for one in library.hypotheses([scene])} & set(BALANCERS)
     # Joint 2 has its balancer, and the wrist carries next to nothing.
     heavy, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("offset", 1, 0.0), WAY)
