@@ -34,7 +34,12 @@ from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
 
 #: Where a candidate stands that is not called as its module.
-MODULES = {"coupled_rotor": "wrist", "joint_elasticity": "elasticity", "warm_friction": "library"}
+MODULES = {
+    "coupled_rotor": "wrist",
+    "joint_elasticity": "elasticity",
+    "warm_friction": "library",
+    "load_friction": "library",
+}
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
 
@@ -93,6 +98,7 @@ LINEAR: Mapping[str, tuple[str, Effect, str, int, Mapping[str, float]]] = {
         0,
         {"tilt_x": 0.02 * cos(0.6), "tilt_y": 0.02 * sin(0.6)},
     ),
+    "load": (HEAVY, Effect("load_friction", 2, 0.05), "load_friction", 2, {"Fl2": 0.05}),
     "payload": (HEAVY, Effect("payload", 1, 30.0), "payload", 0, {"M": 30.0, "MX": 1.2, "MY": -0.6, "MZ": 1.5}),
     "payload on a slide": (SCARA, Effect("payload", 1, 0.5), "payload", 0, {"M": 0.5}),
     "rotor of two joints": (SMALL, Effect("wrist_inertia", 6, 0.01), "coupled_rotor", 6, {"Iar6": 0.01}),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from generator.effects.effect import Effect
 from generator.effects.laws import ripple
 from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
-from generator.robot.description import REVOLUTE
 
 _TRIED = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)
 
@@ -16,7 +15,6 @@ EFFECT = Effect(
     columns=ripple_columns,
     potential_energy=ripple_energy,
     shapes=(ripple.order("motor", _TRIED, default=1),),
-    kinds=(REVOLUTE,),
     needs=("motor",),
     sign_convention="the motor supplies Rmc cos(order q_r) + Rms sin(order q_r) + the second harmonic; q_r = N q",
     assumptions="a torque of the position alone: its amplitude does not depend on the current",
