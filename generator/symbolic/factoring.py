@@ -23,7 +23,8 @@ def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
     """The same values as ``roots``, with common factors taken out for as long as that makes them shorter."""
     shortest = _factored_once(program, roots)
     while True:
-        ways = [_factored_once(program, start) for start in (shortest, _opened(program, shortest))]
+        opened = _opened(program, shortest)
+        ways = [_factored_once(program, start) for start in ([shortest] if opened == shortest else [shortest, opened])]
         shorter = min(ways, key=lambda way: _operations(program, way))
         if _operations(program, shorter) >= _operations(program, shortest):
             return shortest
@@ -41,7 +42,8 @@ def _factored_once(program: Program, roots: Sequence[Node]) -> list[Node]:
 def _opened(program: Program, roots: Sequence[Node]) -> list[Node]:
     """The same values with x (f a + g b) as f x a + g x b in sums that have other products with f and with g."""
     nodes = program.reachable(roots)
-    return replaced(program, roots, _Rewriter(program, _uses(nodes, roots)).openings(nodes))
+    openings = _Rewriter(program, _uses(nodes, roots)).openings(nodes)
+    return replaced(program, roots, openings) if openings else list(roots)
 
 
 def _uses(nodes: Sequence[Node], roots: Sequence[Node]) -> Counter[Node]:
