@@ -17,18 +17,24 @@ from generator.symbolic.statements import Node, Program
 
 #: A term of a sum: whether it is subtracted, and what.
 Term = tuple[bool, Node]
+#: Nodes beyond which one pass is all: a further one takes longer the longer a chain is and gains a thousandth there.
+_LONG = 3000
 
 
 def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
-    """The same values as ``roots``, with common factors taken out for as long as that makes them shorter."""
+    """The same values as ``roots``, with common factors taken out for as long as that makes them shorter.
+
+    Long chains' functions take one pass.
+    """
     shortest = _factored_once(program, roots)
-    while True:
+    while len(program.reachable(shortest)) <= _LONG:
         opened = _opened(program, shortest)
         ways = [_factored_once(program, start) for start in ([shortest] if opened == shortest else [shortest, opened])]
         shorter = min(ways, key=lambda way: _operations(program, way))
         if _operations(program, shorter) >= _operations(program, shortest):
-            return shortest
+            break
         shortest = shorter
+    return shortest
 
 
 def _factored_once(program: Program, roots: Sequence[Node]) -> list[Node]:
