@@ -1,8 +1,9 @@
 """Common factors taken out of sums: a b + a c becomes a (b + c) where neither product serves anything else.
 
 Terms that only parameters make are summed apart and parameters that weigh a sum go into its terms, since ``prepare``
-does such work once. Mechanics makes the equations short; this takes the few operations that it leaves. Nothing that is
-shared is taken apart, so that no function gets longer.
+does such work once. A product of a sum is multiplied out where each of its terms finds a common factor outside.
+Mechanics makes the equations short; this takes the few operations that it leaves. Nothing that is shared is taken
+apart, so that no function gets longer.
 """
 
 from __future__ import annotations
@@ -11,22 +12,55 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from generator.symbolic.sliding import replaced
 from generator.symbolic.statements import Node, Program
 
 #: A term of a sum: whether it is subtracted, and what.
 Term = tuple[bool, Node]
+#: Nodes beyond which one pass is all: a further one takes longer the longer a chain is and gains a thousandth there.
+_LONG = 3000
 
 
 def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
-    """The same values as ``roots``, with common factors taken out."""
+    """The same values as ``roots``, with common factors taken out for as long as that makes them shorter.
+
+    Long chains' functions take one pass.
+    """
+    shortest = _factored_once(program, roots)
+    while len(program.reachable(shortest)) <= _LONG:
+        opened = _opened(program, shortest)
+        ways = [_factored_once(program, start) for start in ([shortest] if opened == shortest else [shortest, opened])]
+        shorter = min(ways, key=lambda way: _operations(program, way))
+        if _operations(program, shorter) >= _operations(program, shortest):
+            break
+        shortest = shorter
+    return shortest
+
+
+def _factored_once(program: Program, roots: Sequence[Node]) -> list[Node]:
     nodes = program.reachable(roots)
-    uses: Counter[Node] = Counter(roots)
-    for node in nodes:
-        uses.update(node.arguments)
-    rewriter = _Rewriter(program, uses)
+    rewriter = _Rewriter(program, _uses(nodes, roots))
     for node in nodes:
         rewriter.rewrite(node)
     return [rewriter.done[root] for root in roots]
+
+
+def _opened(program: Program, roots: Sequence[Node]) -> list[Node]:
+    """The same values with x (f a + g b) as f x a + g x b in sums that have other products with f and with g."""
+    nodes = program.reachable(roots)
+    openings = _Rewriter(program, _uses(nodes, roots)).openings(nodes)
+    return replaced(program, roots, openings) if openings else list(roots)
+
+
+def _uses(nodes: Sequence[Node], roots: Sequence[Node]) -> Counter[Node]:
+    uses: Counter[Node] = Counter(roots)
+    for node in nodes:
+        uses.update(node.arguments)
+    return uses
+
+
+def _operations(program: Program, roots: Sequence[Node]) -> int:
+    return program.count(node for node in program.reachable(roots) if not node.parameter_only).total
 
 
 @dataclass
@@ -47,6 +81,36 @@ class _Rewriter:
             self.done[node] = self.program.apply(node.operation, [self.done[a] for a in node.arguments])
         if node.name and self.done[node].name is None and self.done[node].arguments:
             self.done[node].name = node.name
+
+    def openings(self, nodes: Sequence[Node]) -> dict[Node, Node]:
+        """Products of sums that are worth multiplying out, with what they then are."""
+        found: dict[Node, Node] = {}
+        for node in nodes:
+            if node.operation in ("add", "sub") and not node.parameter_only:
+                products = [term for _, term in self._terms(node) if self._is_private_product(term)]
+                factors = Counter(factor for product in products for factor in set(self._factors(product)))
+                for product in products:
+                    if (opened := self._multiplied_out(product, factors)) is not None:
+                        found[_size(product)] = opened
+        return found
+
+    def _multiplied_out(self, product: Node, factors: Counter[Node]) -> Node | None:
+        """x (f a + g b) as f x a + g x b if f and g are among ``factors``, else None."""
+        own = self._factors(product)
+        sums = [node for node in own if node.operation in ("add", "sub") and self._single(node)]
+        if len(sums) != 1 or sums[0].parameter_only:
+            return None
+        terms = self._terms(sums[0])
+        for _, term in terms:
+            if not self._is_private_product(term) or factors.keys().isdisjoint(self._factors(term)):
+                return None
+        weight = self.program.one
+        for factor in own:
+            weight = weight if factor is sums[0] else weight * factor
+        total = self.program.zero
+        for negative, term in terms:
+            total = total - weight * term if negative else total + weight * term
+        return total
 
     def _terms(self, node: Node, negative: bool = False) -> list[Term]:
         """The terms of a sum, those of sums within it that serve nothing else included."""
@@ -105,7 +169,7 @@ class _Rewriter:
 
     def _factors(self, product: Node) -> list[Node]:
         """The factors of a private product, those of private products within it included."""
-        inner = product.arguments[0] if product.operation == "neg" else product
+        inner = _size(product)
         result: list[Node] = []
         for argument in inner.arguments:
             nested = argument.operation == "mul" and self._is_private_product(argument)
@@ -120,7 +184,7 @@ class _Rewriter:
         return result
 
     def _is_private_product(self, node: Node) -> bool:
-        inner = node.arguments[0] if node.operation == "neg" else node
+        inner = _size(node)
         return inner.operation == "mul" and not inner.parameter_only and self._single(node) and self._single(inner)
 
     def _added(self, terms: Sequence[Term]) -> Node:
@@ -134,6 +198,10 @@ def _negative(product: Node) -> bool:
     return product.operation == "neg"
 
 
+def _size(node: Node) -> Node:
+    """A node without its sign."""
+    return node.arguments[0] if node.operation == "neg" else node
+
+
 def _has_parameter(product: Node) -> bool:
-    inner = product.arguments[0] if product.operation == "neg" else product
-    return any(argument.parameter_only for argument in inner.arguments)
+    return any(argument.parameter_only for argument in _size(product).arguments)

@@ -43,11 +43,11 @@ def motions(
     gravity: Array,
     qd: Nodes,
     qdd: Nodes,
-    without_rates: Collection[int] = (),
+    asked: Mapping[int, Collection[int]] | None = None,
 ) -> dict[int, LeanMotion]:
     """Motion of every frame, for origins at ``positions`` in their antecedents and free fall ``gravity`` in frame 0.
 
-    Nothing asks the frames ``without_rates`` for their angular acceleration.
+    ``asked`` are the components 0 and 1 of the angular acceleration that anything asks of each frame; default all.
     """
     program = chain.program
     result: dict[int, LeanMotion] = {}
@@ -66,7 +66,10 @@ def motions(
             else:
                 slide = array(program, [0, 0, rate])
                 a = a + 2 * cross(carried.w, slide) + array(program, [0, 0, acceleration])
-        own = in_own_axes(rotation, link, j not in without_rates) if frame.revolute else _turned_by(rotation, link)
+        if frame.revolute:
+            own = in_own_axes(rotation, link, (0, 1) if asked is None else asked[j])
+        else:
+            own = _turned_by(rotation, link)
         _named_motion(j, rotation, own)
         a, a_own = named("VPu", j, a), named("VP", j, link.to_own(a))
         result[j] = LeanMotion(carried, a_carried, rotation, own, a, a_own)

@@ -54,14 +54,22 @@ class _Recursion:
 
     @cached_property
     def motions(self) -> dict[int, LeanMotion]:
-        still = {frame.number for frame in self.chain.frames if not self._hands_rates_on(frame)}
+        asked = {frame.number: self._asked_rates(frame) for frame in self.chain.frames}
         chosen = self.chosen
-        return motions(self.chain, self.spun, chosen.positions, chosen.gravity, self.qd, self.qdd, still)
+        return motions(self.chain, self.spun, chosen.positions, chosen.gravity, self.qd, self.qdd, asked)
 
-    def _hands_rates_on(self, frame: Frame) -> bool:
-        """Whether a frame that this one carries asks for its angular acceleration."""
-        carried = [other for other in self.chain.frames if other.parent is frame and other.has_body()]
-        return not all(self._is_unspun_tip(other) for other in carried)
+    def _asked_rates(self, frame: Frame) -> set[int]:
+        """Components 0 and 1 of a frame's angular acceleration that the frames it carries ask for.
+
+        A frame whose axes are the same but for a quarter turn asks for that along its z axis alone.
+        """
+        asked: set[int] = set()
+        for other in self.chain.frames:
+            if other.parent is frame and other.has_body() and not self._is_unspun_tip(other):
+                link = self.spun[other.number]
+                alone = link.quarter and other.revolute
+                asked |= {k for k in (0, 1) if not alone or link.entry[k, 2].number != 0}
+        return asked
 
     def _is_unspun_tip(self, frame: Frame) -> bool:
         return frame.revolute and frame.number in self.strategy.unspun and is_last(self.chain, frame)

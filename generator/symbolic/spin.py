@@ -7,6 +7,7 @@ turning one, and its last entry gives the sum of two squares.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,10 +117,11 @@ def added_u(carried: Spin, rate: Node, acceleration: Node) -> Array:
     return np.array(rows, dtype=object)
 
 
-def in_own_axes(unspun: Spin, spun: Spun, carries_rates: bool = True) -> Spin:
+def in_own_axes(unspun: Spin, spun: Spun, asked: Collection[int] = (0, 1)) -> Spin:
     """The same rotation in the frame's own axes.
 
-    The last row of U takes fewer operations where no frame asks for the angular acceleration (``carries_rates``).
+    The last row of U follows from its last column without the components 0 and 1 of the angular acceleration that no
+    frame has ``asked`` for; what that takes is shared by both entries, and with the torque of an unspun body.
     """
     w, column = spun.to_own(unspun.w), spun.to_own(unspun.u[:, 2])
     first = w[0] * w[0]
@@ -132,9 +134,8 @@ def in_own_axes(unspun: Spin, spun: Spun, carries_rates: bool = True) -> Spin:
     own.u[0, 0], own.u[1, 1] = column[2] + difference, -(first + p33)
     other = column[2] - own.u[1, 1]
     own.differences[:] = [other, difference, -(other + difference)]
-    if not carries_rates:
-        twice = 2 * w[2]
-        own.u[2, :2] = [twice * w[0] - column[0], twice * w[1] - column[1]]
+    for k in {0, 1}.difference(asked):
+        own.u[2, 1 - k] = (2 * w[2]) * w[1 - k] - column[1 - k]
     return own
 
 

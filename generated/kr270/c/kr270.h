@@ -31,43 +31,43 @@
  *                                         mul      add      div  sin/cos    other
  *   balancer                                4        3        1        2        1
  *   base_parameters                        19       49        0        0        0
- *   bias                                  214      197        1       12        7
- *   direct_dynamics                       390      365        6       12        7
- *   direct_dynamics_loaded                588      506        7       12        7
- *   direct_dynamics_sliding               390      365        6       12        1
- *   direct_dynamics_smooth                400      371       12       12        7
- *   dynamics                              337      331        1       12        7
- *   flexible_direct_dynamics              407      407       12       12       13
- *   flexible_direct_dynamics_sliding      407      413       12       12        1
- *   flexible_direct_dynamics_smooth       429      425       24       12       13
- *   flexible_inverse_dynamics             262      268        1       12       13
+ *   bias                                  213      197        1       12        7
+ *   direct_dynamics                       389      365        6       12        7
+ *   direct_dynamics_loaded                578      498        7       12        7
+ *   direct_dynamics_sliding               389      365        6       12        1
+ *   direct_dynamics_smooth                399      371       12       12        7
+ *   dynamics                              339      327        1       12        7
+ *   flexible_direct_dynamics              407      406       12       12       13
+ *   flexible_direct_dynamics_sliding      407      412       12       12        1
+ *   flexible_direct_dynamics_smooth       429      424       24       12       13
+ *   flexible_inverse_dynamics             261      267        1       12       13
  *   flexible_regressor                    385      305        1       12       13
  *   gravity                                25       18        0       10        0
- *   inertia_matrix                        105      106        0       10        0
- *   inverse_dynamics                      236      229        1       12        7
- *   inverse_dynamics_loaded               343      305        1       12        7
+ *   inertia_matrix                        106      104        0       10        0
+ *   inverse_dynamics                      237      226        1       12        7
+ *   inverse_dynamics_loaded               335      297        1       12        7
  *   inverse_dynamics_standard             372      332        1       12        7
  *   jacobians                              78       54        0       10        0
  *   joint_position                          9        3        0        0        0
  *   joint_speed                             9        3        0        0        0
  *   joint_torque                            8        3        0        0        0
  *   joint_torque_from_current               9        3        0        0        0
- *   kinetic_energy                        131       87        0       10        0
+ *   kinetic_energy                        115       87        0       10        0
  *   motor_current                           9        3        6        0        0
  *   motor_position                          8        3        0        0        0
  *   motor_speed                             8        3        0        0        0
  *   motor_torque                            9        3        0        0        0
- *   payload_regressor                     273      200        0       10        0
- *   potential_energy                       20       22        0       11        1
- *   regressor                             384      289        1       12        7
- *   regressor_packed                      384      289        1       12        7
+ *   payload_regressor                     275      198        0       10        0
+ *   potential_energy                       20       21        0       11        1
+ *   regressor                             384      288        1       12        7
+ *   regressor_packed                      384      288        1       12        7
  *   regressor_standard                    483      377        1       12        7
  *   regressor_standard_packed             483      377        1       12        7
  *   tool_jacobian                          66       42        0       10        0
  *   tool_transform                         64       34        0       12        0
  *   transforms                             64       34        0       12        0
  *   wrench_torque                          41       25        0       10        0
- *   prepare (once)                         77       53        1        0        0
+ *   prepare (once)                         76       55        1        0        0
  */
 #ifndef KR270_H
 #define KR270_H
@@ -413,65 +413,62 @@ typedef struct {
     kr270_real p31; /**< 9.81*MY2 */
     kr270_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.00275*MY3R */
     kr270_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
-    kr270_real S2_11n; /**< from MY3R, ZZ2R, XX2R */
-    kr270_real p35; /**< from S2_11n, ZZ2R, XX2R */
-    kr270_real p36; /**< from S2_11n, ZZ2R, XX2R */
-    kr270_real p37; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr270_real p34; /**< from MY3R, ZZ2R, XX2R */
+    kr270_real p35; /**< from MY3R, ZZ2R, XX2R */
     kr270_real MS2_1_v2; /**< 1.1*(MX2R + 1.1363636363636365*MY3R) */
     kr270_real MS3_1_; /**< 1.1*(MX3R + 0.05*MY3R) */
     kr270_real MS2_1_v3; /**< 0.35*(MX2R + 1.1363636363636365*MY3R) */
-    kr270_real p41; /**< 9.81*MX2R */
-    kr270_real p42; /**< 9.81*MX3R */
-    kr270_real p43; /**< 9.81*MY3R */
-    kr270_real p44; /**< 9.81*MX4 */
-    kr270_real p45; /**< 9.81*MY4R */
-    kr270_real p46; /**< 9.81*MX5 */
-    kr270_real p47; /**< 9.81*MY5R */
-    kr270_real p48; /**< 9.81*MX6 */
-    kr270_real p49; /**< 9.81*MY6 */
-    kr270_real p50; /**< from MY3R, MX3R */
-    kr270_real p51; /**< 2.0*S3_22 */
-    kr270_real p52; /**< 2.0*S3_11n */
-    kr270_real p53; /**< 2.0*S3_12n */
-    kr270_real p54; /**< 0.12862508*Kr2 */
-    kr270_real p55; /**< 0.12862508*K02 */
-    kr270_real p56; /**< from MY3R, MX2R */
-    kr270_real p57; /**< S3_11n + S3_22 */
-    kr270_real p58; /**< Ia6 + p7 */
-    kr270_real p59; /**< 1.0/p58 */
-    kr270_real p60; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
-    kr270_real p61; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
-    kr270_real p62; /**< 2.0*MX2R */
-    kr270_real p63; /**< 2.0*MY2 */
-    kr270_real p64; /**< 2.5*MY3R */
-    kr270_real p65; /**< 2.5*MX3R */
-    kr270_real p66; /**< XZ5 + XY6 */
-    kr270_real p67; /**< S5_11n + S6_11n */
-    kr270_real p68; /**< S6_22 + S4_22 */
-    kr270_real p69; /**< 0.7*MY2 */
-    kr270_real p70; /**< 0.7*MX2R */
-    kr270_real p71; /**< 219.0*kt1 */
-    kr270_real p72; /**< 286.0*kt2 */
-    kr270_real p73; /**< 270.1764705882353*kt3 */
-    kr270_real p74; /**< 222.1578947368421*kt4 */
-    kr270_real p75; /**< 1.4324324324324325*kt6 */
-    kr270_real p76; /**< 221.76470588235293*kt5 */
-    kr270_real p77; /**< 1.7905405405405406*kt6 */
-    kr270_real p78; /**< 157.5515805984556*kt6 */
-    kr270_real p79; /**< 2.0*MY3R */
-    kr270_real p80; /**< 2.0*MX3R */
-    kr270_real p81; /**< 2.0*MY4R */
-    kr270_real p82; /**< 2.0*MX4 */
-    kr270_real p83; /**< 2.0*MY5R */
-    kr270_real p84; /**< 2.0*MX5 */
-    kr270_real p85; /**< 2.0*MY6 */
-    kr270_real p86; /**< 2.0*MX6 */
-    kr270_real p87; /**< 0.5*Ia3 */
-    kr270_real p88; /**< 0.5*Ia4 */
-    kr270_real p89; /**< 0.5*Ia5 */
-    kr270_real p90; /**< 0.5*Ia6 */
-    kr270_real p91; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
-    kr270_real p92; /**< 0.0056581495726142645*Kr2 */
+    kr270_real p39; /**< 9.81*MX2R */
+    kr270_real p40; /**< 9.81*MX3R */
+    kr270_real p41; /**< 9.81*MY3R */
+    kr270_real p42; /**< 9.81*MX4 */
+    kr270_real p43; /**< 9.81*MY4R */
+    kr270_real p44; /**< 9.81*MX5 */
+    kr270_real p45; /**< 9.81*MY5R */
+    kr270_real p46; /**< 9.81*MX6 */
+    kr270_real p47; /**< 9.81*MY6 */
+    kr270_real p48; /**< from MY3R, MX3R */
+    kr270_real p49; /**< 2.0*S3_11n */
+    kr270_real p50; /**< 2.0*S3_12n */
+    kr270_real p51; /**< 0.12862508*Kr2 */
+    kr270_real p52; /**< 0.12862508*K02 */
+    kr270_real p53; /**< from MY3R, MX2R */
+    kr270_real p54; /**< S3_11n + S3_22 */
+    kr270_real p55; /**< Ia6 + p7 */
+    kr270_real p56; /**< 1.0/p55 */
+    kr270_real p57; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
+    kr270_real p58; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
+    kr270_real p59; /**< 2.0*MX2R */
+    kr270_real p60; /**< 2.0*MY2 */
+    kr270_real p61; /**< 2.5*MY3R */
+    kr270_real p62; /**< 2.5*MX3R */
+    kr270_real p63; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr270_real p64; /**< XZ5 + XY6 */
+    kr270_real p65; /**< S5_11n + S6_11n */
+    kr270_real p66; /**< S6_22 + S4_22 */
+    kr270_real p67; /**< 0.7*MY2 */
+    kr270_real p68; /**< 0.7*MX2R */
+    kr270_real p69; /**< 219.0*kt1 */
+    kr270_real p70; /**< 286.0*kt2 */
+    kr270_real p71; /**< 270.1764705882353*kt3 */
+    kr270_real p72; /**< 222.1578947368421*kt4 */
+    kr270_real p73; /**< 1.4324324324324325*kt6 */
+    kr270_real p74; /**< 221.76470588235293*kt5 */
+    kr270_real p75; /**< 1.7905405405405406*kt6 */
+    kr270_real p76; /**< 157.5515805984556*kt6 */
+    kr270_real p77; /**< 2.0*MY3R */
+    kr270_real p78; /**< 2.0*MX3R */
+    kr270_real p79; /**< 2.0*MY4R */
+    kr270_real p80; /**< 2.0*MX4 */
+    kr270_real p81; /**< 2.0*MY5R */
+    kr270_real p82; /**< 2.0*MX5 */
+    kr270_real p83; /**< 2.0*MY6 */
+    kr270_real p84; /**< 2.0*MX6 */
+    kr270_real p85; /**< 0.5*Ia3 */
+    kr270_real p86; /**< 0.5*Ia4 */
+    kr270_real p87; /**< 0.5*Ia5 */
+    kr270_real p88; /**< 0.5*Ia6 */
+    kr270_real p89; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) + 0.0056581495726142645*Kr2 */
 } kr270_prepared;
 
 /* C99 has no static assertion: there an array of negative size stops the compiler. */
@@ -487,7 +484,7 @@ KR270_STATIC_ASSERT(kr270_has_96_parameters, KR270_NPARAMETERS == 96);
 KR270_STATIC_ASSERT(
     kr270_params_has_no_padding, sizeof(kr270_params) == sizeof(kr270_real[96]));
 KR270_STATIC_ASSERT(
-    kr270_prepared_has_no_padding, sizeof(kr270_prepared) == sizeof(kr270_real[188]));
+    kr270_prepared_has_no_padding, sizeof(kr270_prepared) == sizeof(kr270_real[185]));
 
 /** Computes *prepared from *params; again after a parameter has changed. */
 void kr270_prepare(const kr270_params *params, kr270_prepared *prepared);

@@ -174,7 +174,7 @@ _ffi = FFI()
 _ffi.cdef(
     """
 typedef struct { double value[96]; } params;
-typedef struct { double value[188]; } prepared;
+typedef struct { double value[185]; } prepared;
 typedef struct { const void *taps; size_t count, decimation; } filter;
 void kr270_prepare(const params *, prepared *);
 void kr270_balancer(const prepared *, const void *, void *, void *, void *);

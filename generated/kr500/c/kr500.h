@@ -31,43 +31,43 @@
  *                                         mul      add      div  sin/cos    other
  *   balancer                                3        3        2        2        1
  *   base_parameters                        19       49        0        0        0
- *   bias                                  214      197        1       12        7
- *   direct_dynamics                       390      365        6       12        7
- *   direct_dynamics_loaded                585      506        7       12        7
- *   direct_dynamics_sliding               390      365        6       12        1
- *   direct_dynamics_smooth                400      371       12       12        7
- *   dynamics                              337      331        1       12        7
- *   flexible_direct_dynamics              407      407       12       12       13
- *   flexible_direct_dynamics_sliding      407      413       12       12        1
- *   flexible_direct_dynamics_smooth       429      425       24       12       13
- *   flexible_inverse_dynamics             262      268        1       12       13
+ *   bias                                  213      197        1       12        7
+ *   direct_dynamics                       389      365        6       12        7
+ *   direct_dynamics_loaded                577      498        7       12        7
+ *   direct_dynamics_sliding               389      365        6       12        1
+ *   direct_dynamics_smooth                399      371       12       12        7
+ *   dynamics                              339      327        1       12        7
+ *   flexible_direct_dynamics              407      406       12       12       13
+ *   flexible_direct_dynamics_sliding      407      412       12       12        1
+ *   flexible_direct_dynamics_smooth       429      424       24       12       13
+ *   flexible_inverse_dynamics             261      267        1       12       13
  *   flexible_regressor                    386      306        1       12       13
  *   gravity                                25       18        0       10        0
- *   inertia_matrix                        105      106        0       10        0
- *   inverse_dynamics                      236      229        1       12        7
- *   inverse_dynamics_loaded               343      305        1       12        7
+ *   inertia_matrix                        106      104        0       10        0
+ *   inverse_dynamics                      237      226        1       12        7
+ *   inverse_dynamics_loaded               335      297        1       12        7
  *   inverse_dynamics_standard             372      332        1       12        7
  *   jacobians                              78       54        0       10        0
  *   joint_position                          9        3        0        0        0
  *   joint_speed                             9        3        0        0        0
  *   joint_torque                            7        3        0        0        0
  *   joint_torque_from_current               8        3        0        0        0
- *   kinetic_energy                        131       87        0       10        0
+ *   kinetic_energy                        115       87        0       10        0
  *   motor_current                           9        3        6        0        0
  *   motor_position                          7        3        0        0        0
  *   motor_speed                             7        3        0        0        0
  *   motor_torque                            9        3        0        0        0
- *   payload_regressor                     273      200        0       10        0
+ *   payload_regressor                     275      198        0       10        0
  *   potential_energy                       20       20        0       11        2
- *   regressor                             385      290        1       12        7
- *   regressor_packed                      385      290        1       12        7
+ *   regressor                             385      289        1       12        7
+ *   regressor_packed                      385      289        1       12        7
  *   regressor_standard                    484      378        1       12        7
  *   regressor_standard_packed             484      378        1       12        7
  *   tool_jacobian                          66       42        0       10        0
  *   tool_transform                         64       34        0       12        0
  *   transforms                             64       34        0       12        0
  *   wrench_torque                          41       25        0       10        0
- *   prepare (once)                         73       53        1        0        0
+ *   prepare (once)                         72       54        1        0        0
  */
 #ifndef KR500_H
 #define KR500_H
@@ -411,59 +411,57 @@ typedef struct {
     kr500_real p33; /**< 9.81*MY2 */
     kr500_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.002951219512195122*MY3R */
     kr500_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
-    kr500_real S2_11n; /**< from MY3R, ZZ2R, XX2R */
-    kr500_real p37; /**< from S2_11n, ZZ2R, XX2R */
-    kr500_real p38; /**< from S2_11n, ZZ2R, XX2R */
-    kr500_real p39; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr500_real p36; /**< from MY3R, ZZ2R, XX2R */
+    kr500_real p37; /**< from MY3R, ZZ2R, XX2R */
     kr500_real MS2_1_v2; /**< 1.025*(MX2R + 1.2682926829268293*MY3R) */
     kr500_real MS3_1_; /**< 1.025*(MX3R - 0.05365853658536585*MY3R) */
     kr500_real MS2_1_v3; /**< 0.5*(MX2R + 1.2682926829268293*MY3R) */
-    kr500_real p43; /**< 9.81*MX2R */
-    kr500_real p44; /**< 9.81*MX3R */
-    kr500_real p45; /**< 9.81*MY3R */
-    kr500_real p46; /**< 9.81*MX4 */
-    kr500_real p47; /**< 9.81*MY4R */
-    kr500_real p48; /**< 9.81*MX5 */
-    kr500_real p49; /**< 9.81*MY5R */
-    kr500_real p50; /**< 9.81*MX6 */
-    kr500_real p51; /**< 9.81*MY6 */
-    kr500_real p52; /**< from MY3R, MX3R */
-    kr500_real p53; /**< 2.0*S3_22 */
-    kr500_real p54; /**< 2.0*S3_11n */
-    kr500_real p55; /**< 2.0*S3_12n */
-    kr500_real p56; /**< from MY3R, MX2R */
-    kr500_real p57; /**< S3_11n + S3_22 */
-    kr500_real p58; /**< Ia6 + p9 */
-    kr500_real p59; /**< 1.0/p58 */
-    kr500_real p60; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
-    kr500_real p61; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
-    kr500_real p62; /**< 2.0*MX2R */
-    kr500_real p63; /**< 2.0*MY2 */
-    kr500_real p64; /**< 2.6*MY3R */
-    kr500_real p65; /**< 2.6*MX3R */
-    kr500_real p66; /**< XZ5 + XY6 */
-    kr500_real p67; /**< S5_11n + S6_11n */
-    kr500_real p68; /**< S6_22 + S4_22 */
-    kr500_real p69; /**< 469.375*kt1 */
-    kr500_real p70; /**< 469.375*kt2 */
-    kr500_real p71; /**< 504.76973684210526*kt3 */
-    kr500_real p72; /**< 260.6190476190476*kt4 */
-    kr500_real p73; /**< 1.06*kt5 */
-    kr500_real p74; /**< 251.97714285714287*kt5 */
-    kr500_real p75; /**< 164.5695652173913*kt6 */
-    kr500_real p76; /**< 2.0*MY3R */
-    kr500_real p77; /**< 2.0*MX3R */
-    kr500_real p78; /**< 2.0*MY4R */
-    kr500_real p79; /**< 2.0*MX4 */
-    kr500_real p80; /**< 2.0*MY5R */
-    kr500_real p81; /**< 2.0*MX5 */
-    kr500_real p82; /**< 2.0*MY6 */
-    kr500_real p83; /**< 2.0*MX6 */
-    kr500_real p84; /**< 0.5*Ia3 */
-    kr500_real p85; /**< 0.5*Ia4 */
-    kr500_real p86; /**< 0.5*Ia5 */
-    kr500_real p87; /**< 0.5*Ia6 */
-    kr500_real p88; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
+    kr500_real p41; /**< 9.81*MX2R */
+    kr500_real p42; /**< 9.81*MX3R */
+    kr500_real p43; /**< 9.81*MY3R */
+    kr500_real p44; /**< 9.81*MX4 */
+    kr500_real p45; /**< 9.81*MY4R */
+    kr500_real p46; /**< 9.81*MX5 */
+    kr500_real p47; /**< 9.81*MY5R */
+    kr500_real p48; /**< 9.81*MX6 */
+    kr500_real p49; /**< 9.81*MY6 */
+    kr500_real p50; /**< from MY3R, MX3R */
+    kr500_real p51; /**< 2.0*S3_11n */
+    kr500_real p52; /**< 2.0*S3_12n */
+    kr500_real p53; /**< from MY3R, MX2R */
+    kr500_real p54; /**< S3_11n + S3_22 */
+    kr500_real p55; /**< Ia6 + p9 */
+    kr500_real p56; /**< 1.0/p55 */
+    kr500_real p57; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
+    kr500_real p58; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R */
+    kr500_real p59; /**< 2.0*MX2R */
+    kr500_real p60; /**< 2.0*MY2 */
+    kr500_real p61; /**< 2.6*MY3R */
+    kr500_real p62; /**< 2.6*MX3R */
+    kr500_real p63; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
+    kr500_real p64; /**< XZ5 + XY6 */
+    kr500_real p65; /**< S5_11n + S6_11n */
+    kr500_real p66; /**< S6_22 + S4_22 */
+    kr500_real p67; /**< 469.375*kt1 */
+    kr500_real p68; /**< 469.375*kt2 */
+    kr500_real p69; /**< 504.76973684210526*kt3 */
+    kr500_real p70; /**< 260.6190476190476*kt4 */
+    kr500_real p71; /**< 1.06*kt5 */
+    kr500_real p72; /**< 251.97714285714287*kt5 */
+    kr500_real p73; /**< 164.5695652173913*kt6 */
+    kr500_real p74; /**< 2.0*MY3R */
+    kr500_real p75; /**< 2.0*MX3R */
+    kr500_real p76; /**< 2.0*MY4R */
+    kr500_real p77; /**< 2.0*MX4 */
+    kr500_real p78; /**< 2.0*MY5R */
+    kr500_real p79; /**< 2.0*MX5 */
+    kr500_real p80; /**< 2.0*MY6 */
+    kr500_real p81; /**< 2.0*MX6 */
+    kr500_real p82; /**< 0.5*Ia3 */
+    kr500_real p83; /**< 0.5*Ia4 */
+    kr500_real p84; /**< 0.5*Ia5 */
+    kr500_real p85; /**< 0.5*Ia6 */
+    kr500_real p86; /**< 9.81*(MY2 + (MX3R + (MX4 + (MX5 + MY6)))) */
 } kr500_prepared;
 
 /* C99 has no static assertion: there an array of negative size stops the compiler. */
@@ -479,7 +477,7 @@ KR500_STATIC_ASSERT(kr500_has_95_parameters, KR500_NPARAMETERS == 95);
 KR500_STATIC_ASSERT(
     kr500_params_has_no_padding, sizeof(kr500_params) == sizeof(kr500_real[95]));
 KR500_STATIC_ASSERT(
-    kr500_prepared_has_no_padding, sizeof(kr500_prepared) == sizeof(kr500_real[182]));
+    kr500_prepared_has_no_padding, sizeof(kr500_prepared) == sizeof(kr500_real[180]));
 
 /** Computes *prepared from *params; again after a parameter has changed. */
 void kr500_prepare(const kr500_params *params, kr500_prepared *prepared);

@@ -184,7 +184,7 @@ _ffi = FFI()
 _ffi.cdef(
     """
 typedef struct { double value[95]; } params;
-typedef struct { double value[182]; } prepared;
+typedef struct { double value[180]; } prepared;
 typedef struct { const void *taps; size_t count, decimation; } filter;
 void kr500_prepare(const params *, prepared *);
 void kr500_balancer(const prepared *, const void *, void *, void *, void *);
