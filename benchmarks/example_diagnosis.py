@@ -41,7 +41,7 @@ PAGE, PICTURES = Path("docs/diagnosis.md"), Path("docs/images")
 
 #: What the simulated robot has and its file lacks, with parameters [1, N m].
 HIDDEN = (
-    Addition(EFFECT, "load_friction", (2,)),
+    Addition(EFFECT, "load_friction", (2,), {"rotor": 6000.0}),
     Addition(EFFECT, "stribeck_friction", (3,), {"vs": 0.05, "exponent": 1.0}),
 )
 PARAMETERS = {"Fl2": ParameterValue(0.08, "1"), "Fst3": ParameterValue(900.0, "N m")}

@@ -24,6 +24,8 @@ EFFECT = Effect(
             0.0,
             default=sympy.S.Zero,
             prismatic="kg",
+            tried=(1 / 16, 1 / 4, 1.0),
+            relative="rotor",
         ),
     ),
     needs=("qd", "qdd", "load"),

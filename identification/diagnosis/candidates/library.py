@@ -89,6 +89,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         if not shape.tried:
             continue
         points = likely_orders(scenes, k, shape.several) if shape.several else _points(shape, k, scenes)
+        if not points and shape.default is not None:
+            continue
         if not points:
             return []
         tries *= shape.several or len(points)
@@ -100,9 +102,10 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
         for one in effect.parameters
     )
-    given = {one.name: float(one.default) for one in effect.shapes if not one.tried and one.default is not None}
-    if "rotor" in given:
-        given["rotor"] = rotor_inertia(scenes[0], k)
+    sought = {one.name for one in shapes}
+    given = {
+        one.name: float(one.default) for one in effect.shapes if one.name not in sought and one.default is not None
+    }
     return [
         Hypothesis(
             effect.id,
@@ -122,6 +125,10 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
 
 def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
     zero, unit = 0.0, 1.0
+    if shape.relative == "rotor":
+        unit = rotor_inertia(scenes[0], k)
+        if unit <= 0:
+            return ()
     if shape.relative == "speed":
         unit = float(max(np.abs(scene.motion.qd[k]).max() for scene in scenes))
     elif shape.relative == "position":
