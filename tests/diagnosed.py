@@ -85,3 +85,13 @@ def played(
 def rows(x: Array) -> Array:
     """Signals (... x N) as a diagnosis looks at them."""
     return decimated(x, FACTOR)
+
+
+def fitted(columns: Array, truth: Array, kept: Array, scene: Scene) -> tuple[Array, float]:
+    """Coefficients that make the truth, and the cosine between the two; joints by their torque."""
+    scale = np.sqrt(np.mean(scene.torque**2, axis=1, keepdims=True))
+    A = rows(columns / scale)[:, kept].T
+    y = rows(truth / scale)[kept]
+    x = np.linalg.lstsq(A, y, rcond=None)[0]
+    fit = A @ x
+    return x, float(fit @ y / (np.linalg.norm(fit) * np.linalg.norm(y)))

@@ -27,7 +27,7 @@ from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
-from tests.diagnosed import CLEAN, Known, known, played, rows
+from tests.diagnosed import CLEAN, Known, fitted, known, played, rows
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
 from tests.plant.robots import ROBOTS
@@ -55,16 +55,6 @@ def offered(scenes: Sequence[Scene], effect: str, joint: int) -> list[Hypothesis
     own = [module for module in modules(candidates) if module.__name__.endswith(f".{MODULES.get(effect, effect)}")]
     found = [one for module in own for one in module.hypotheses(scenes)]
     return [one for one in found if one.effect == effect and one.joint == joint]
-
-
-def fitted(columns: Array, truth: Array, kept: Array, scene: Scene) -> tuple[Array, float]:
-    """Coefficients that make the truth, and the cosine between the two; joints by their torque."""
-    scale = np.sqrt(np.mean(scene.torque**2, axis=1, keepdims=True))
-    A = rows(columns / scale)[:, kept].T
-    y = rows(truth / scale)[kept]
-    x = np.linalg.lstsq(A, y, rcond=None)[0]
-    fit = A @ x
-    return x, float(fit @ y / (np.linalg.norm(fit) * np.linalg.norm(y)))
 
 
 #: Robot, law, joint, size; the candidate, its joint, and the coefficients that the law's size is.
@@ -98,7 +88,6 @@ LINEAR: Mapping[str, tuple[str, Effect, str, int, Mapping[str, float]]] = {
         0,
         {"tilt_x": 0.02 * cos(0.6), "tilt_y": 0.02 * sin(0.6)},
     ),
-    "load": (HEAVY, Effect("load_friction", 2, 0.05), "load_friction", 2, {"Fl2": 0.05}),
     "payload": (HEAVY, Effect("payload", 1, 30.0), "payload", 0, {"M": 30.0, "MX": 1.2, "MY": -0.6, "MZ": 1.5}),
     "payload on a slide": (SCARA, Effect("payload", 1, 0.5), "payload", 0, {"M": 0.5}),
     "rotor of two joints": (SMALL, Effect("wrist_inertia", 6, 0.01), "coupled_rotor", 6, {"Iar6": 0.01}),
