@@ -114,7 +114,8 @@ def _view(found: Diagnosis, joint: int, variable: str) -> str:
 def numbers(found: Diagnosis) -> str:
     """What was found beside what was hidden."""
     rows: list[dict[str, object]] = []
-    truth = {name: one.value for name, one in PARAMETERS.items()} | {"vs": 0.05, "exponent": 1.0}
+    truth = {name: one.value for name, one in PARAMETERS.items()}
+    truth |= {name: value for one in HIDDEN for name, value in one.values.items()}
     for one in found.findings:
         rows += [
             {
