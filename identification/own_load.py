@@ -25,7 +25,7 @@ def under_own_load(
         return regressors, []
     notes = []
     if any(run.payload is not None for run in (one.run for one in runs)):
-        notes.append("friction by load counts the robot's own weight, not that of payloads")
+        notes.append("friction by load counts the load of the robot's own bodies, not that of payloads")
     before: Solution | None = None
     for _ in range(_REPEATS):
         after = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))

@@ -111,7 +111,7 @@ class Site:
 
     @property
     def load(self) -> sympy.Symbol:
-        """Load of the drive: torque of bodies, rotors, balancers, springs, offsets, and of the tool's wrench."""
+        """Load of the drive: torque of bodies, rotors, balancers, springs, ripple, offsets, and the tool's wrench."""
         return sympy.Symbol(f"load{self.joint.number}", real=True)
 
     @property
@@ -178,5 +178,5 @@ class Effect:
 
     @property
     def loads(self) -> bool:
-        """Whether its torque is a part of the load at rest: on links; and offsets, which no rest tells from weight."""
-        return self.on_link or not self.needs
+        """Whether its torque is a part of the load of the drive: what stores energy, as weight does, and offsets."""
+        return self.potential_energy is not None or not self.needs

@@ -32,7 +32,9 @@ EFFECT = Effect(
     sign_convention="the motor supplies Fl sign(qd) |load - rotor qdd| against the friction; sign(0) = 0",
     assumptions=(
         "the load is all that the drive supplies beyond the joint's other friction: the torque of bodies, rotors, "
-        "balancers, springs and offsets, and of the tool's wrench. The same in both directions of the power. Fl < 1"
+        "balancers, springs, ripple and offsets, and of the tool's wrench. The same in both directions of the power. "
+        "Fl < 1, and rotor no more than the inertia that the joint feels. Where the drive train is elastic the spring "
+        "is what carries: rotor counts in the rigid model alone"
     ),
     source=(
         "Hamon, Gautier and Garrec, Dynamic identification of robots with a dry friction model depending on load and "

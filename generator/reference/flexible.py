@@ -125,4 +125,11 @@ def flexible(robot: Robot, link: Rigid) -> Flexible:
     elastic = {i: joint.number for i, joint in enumerate(robot.moving) if joint.number in robot.flexible}
     uses = [use for use in robot.effects if use.effect == "joint_elasticity" and "gap" in use.values]
     gaps = {number: exact(use.values["gap"].value) for use in uses for number in use.joints}
-    return Flexible(link, elastic, gaps)
+    # Past the spring nothing turns with a rotor.
+    effects = tuple(
+        replace(effect, shape={**effect.shape, "rotor": Decimal(0)})
+        if effect.coordinate in elastic and "rotor" in effect.shape
+        else effect
+        for effect in link.effects
+    )
+    return Flexible(replace(link, effects=effects), elastic, gaps)

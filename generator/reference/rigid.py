@@ -61,7 +61,7 @@ class Rigid:
         return np.array([rates[name] for name in self._state_names], dtype=object)
 
     def load(self, q: Array, qd: Array, qdd: Array) -> Array:
-        """What the transmissions carry (n): bodies, rotors, balancers, springs on the joints, the tool's wrench."""
+        """What loads the drives (n): bodies, rotors, balancers, springs, ripple, offsets, the tool's wrench."""
         load = self._of_bodies(q, qd, qdd) + self._rotors @ qdd
         for effect in self.effects:
             if effect.law.loads:

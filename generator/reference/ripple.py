@@ -20,7 +20,7 @@ def _law(stem: str, along: Literal["joint", "motor"]) -> Law:
         first = sine(phase) / slope, (1 - cosine(phase)) / slope
         return *first, sine(2 * phase) / (2 * slope), (1 - cosine(2 * phase)) / (2 * slope)
 
-    return Law((f"{stem}c", f"{stem}s", f"{stem}2c", f"{stem}2s"), torque, potential=potential, along=along)
+    return Law((f"{stem}c", f"{stem}s", f"{stem}2c", f"{stem}2s"), torque, potential=potential, along=along, loads=True)
 
 
 #: By the effects' ids.

@@ -47,7 +47,8 @@ def _section(effect: Effect) -> Iterator[str]:
     for state in effect.states:
         yield f"| state `{state.stem}` | {_units(*state.units)} | {state.meaning} | |"
     yield ""
-    sides = ["link side, part of the load" if effect.on_link else "elastic drive trains" if motor_side else "link side"]
+    side = "elastic drive trains" if motor_side else "link side"
+    sides = [f"{side}, part of the load" if effect.loads else side]
     sides += ["motor side of elastic joints" if effect.drive_train and not motor_side else ""]
     notes = [f"Sign: {effect.sign_convention}.", f"Acts on the {' and the '.join(filter(None, sides))}."]
     notes += [f"Assumed: {effect.assumptions}."] if effect.assumptions else []

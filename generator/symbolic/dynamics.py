@@ -161,7 +161,7 @@ class Dynamics:
         return effect_torques.reads(self.effects, "load")
 
     def _loading(self, of_bodies: Array, qd: Nodes, qdd: Nodes) -> Array:
-        """The load of each drive (n): ``of_bodies``, what acts on links, offsets, and rotors."""
+        """The load of each drive (n): ``of_bodies``, effects that store energy, offsets, and rotors."""
         seen = self.joint_motion(qd, qdd)
         parts = [one for one in self.effects if one.effect.loads]
         of_effects = effect_torques.torques(self.chain, parts, seen, self.parameters)

@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 import sympy
 
-from generator.effects.library import effects_of, motor_side, states_of
+from generator.effects.library import Instance, effects_of, motor_side, states_of
 from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
@@ -286,8 +286,15 @@ class Model:
                 link[joint] = stacked[joint] + stacked[n + k]
             at_links.append(link)
         chain = self.chain_at(at_links[0])
-        side = Dynamics(chain, self.effects, self.kept, at_links[1], at_links[2], strategies=self.strategies)
+        effects = [self._past_the_spring(one) for one in self.effects]
+        side = Dynamics(chain, effects, self.kept, at_links[1], at_links[2], strategies=self.strategies)
         return FlexibleDynamics(side, self.motor_effects, self.parameter_nodes, self.elastic, q, qd, qdd)
+
+    def _past_the_spring(self, one: Instance) -> Instance:
+        """An effect as the flexible model has it: the load of an elastic joint's link holds no rotor."""
+        if "rotor" not in one.site.values or self.robot.moving.index(one.joint) not in self.elastic:
+            return one
+        return replace(one, site=replace(one.site, values={**one.site.values, "rotor": sympy.S.Zero}))
 
     def _payload(self) -> Body:
         nodes = self.signal("payload", len(INERTIAL))

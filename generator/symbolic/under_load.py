@@ -3,9 +3,10 @@
 With L the load and r the inertia of its rotor, which the transmission does not carry, a drive supplies
 y = L + s |L - r qdd|, s what the friction makes of a unit load; the load moves the robot, M qdd = L + b. With |s| < 1
 and the sign of L - r qdd known, the friction is no more than a share t = 1/(1 + s sign) of y, and less of M:
-(M - r (1 - t)) qdd = t y + b. That sign is the one of y - r qdd. Without r it is known beforehand; with one such drive
-it is as if nothing rubbed, since y - r qdd falls and rises with it. With several the accelerations of a first guess of
-the signs tell them: only loads next to nothing can then have the wrong one.
+(M - r (1 - t)) qdd = t y + b. That sign is the one of y - r qdd. Without r it is known beforehand. With one such drive
+it is that of the accelerations without friction by load, as r is at most the inertia that the joint feels. With several
+those accelerations tell a first guess of the signs, and its accelerations the signs: only loads next to nothing can
+then have the wrong one.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from generator.effects.library import library
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.hypothesis import BODY, EFFECT
+from identification.diagnosis.hypothesis import BODY, EFFECT, Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
@@ -52,24 +52,29 @@ class Acting:
         return self._sum(self._torques, scene)
 
     def load(self, scene: Scene) -> Array:
-        """Those among them that load the transmissions (n x N) [N m, N]: bodies, rotors, effects on the links."""
-        loading = [one for one in self._torques if one.hypothesis.kind == BODY or _loads(one.hypothesis.effect)]
-        return self._sum(loading, scene)
+        """What of them loads the drives (n x N) [N m, N]: bodies, inertias of rotors, effects on the links, offsets."""
+        return self._sum(self._torques, scene, _loads)
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
         return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY))
 
-    def _sum(self, variants: Sequence[Variant], scene: Scene) -> Array:
+    def _sum(
+        self,
+        variants: Sequence[Variant],
+        scene: Scene,
+        counts: Callable[[Hypothesis, Coefficient], bool] = lambda *_: True,
+    ) -> Array:
         result = np.zeros_like(scene.motion.q)
         values = self.coefficients
         for one in variants:
             columns = one.hypothesis.columns(scene, one.shape)
             for i, coefficient in zip(one.used, one.coefficients, strict=True):
-                result += values[coefficient.name] * columns[i]
+                if counts(one.hypothesis, coefficient):
+                    result += values[coefficient.name] * columns[i]
         return result
 
 
-def _loads(effect: str) -> bool:
-    known = library()[effect]
-    return known.loads or known.kinetic_energy is not None
+def _loads(one: Hypothesis, coefficient: Coefficient) -> bool:
+    """Whether a drive carries it: of a rotor its inertia alone."""
+    return one.kind == BODY or library()[one.effect].loads or coefficient.unit in ("kg m2", "kg")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from generator.effects.library import library
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
 
 #: What joints have in the file that no motion limits or warms [A, K].
@@ -50,7 +51,8 @@ def addition(
     parameters: dict[str, float] = {}
     joints = (one.joint,) if one.joint else one.joints
     if one.kind == EFFECT:
-        values = {**one.given, **shape}
+        usual = {each.name: each.default for each in library()[one.effect].shapes}
+        values = {name: x for name, x in {**one.given, **shape}.items() if x or usual.get(name) != 0}
     elif one.kind == SIGNAL:
         values = {one.effect: shape[one.effect] if one.effect in shape else found[0]}
         if one.effect == "torque_gain":

@@ -22,7 +22,7 @@ NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 _STEPS = 250.0
 #: Slope times step below which (e^x - 1)/x is 1.
 _LINEAR = 1e-9
-#: What the rates of states are made of, by their names in sympy.
+#: What the rates of states are made of, by the names that they are printed with.
 _CASADI = {"Abs": casadi.fabs, "direction": casadi.sign, "exp": casadi.exp, "sqrt": casadi.sqrt, "tanh": casadi.tanh}
 
 
@@ -110,7 +110,8 @@ def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Se
     z, v, given = casadi.SX.sym("z"), casadi.SX.sym("v"), casadi.SX.sym("given", len(values) + 1)
     *own, h = casadi.vertsplit(given)
     f, of_z = sympy.lambdify([*values, speed, state], both, [_CASADI], cse=True)(*own, v, z)
-    x = h * of_z
+    # At zero a power of |z| has no slope; a step there is Euler's.
+    x = casadi.if_else(z == 0, 0, h * of_z)
     linear = casadi.fabs(x) <= _LINEAR
     phi = casadi.if_else(linear, 1, casadi.expm1(x) / casadi.if_else(linear, 1, x))
     return casadi.Function("step", [z, v, given], [z + h * f * phi, z])

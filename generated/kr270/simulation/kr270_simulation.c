@@ -103,7 +103,8 @@ static void kr270_rigid_slide(
     kr270_direct_dynamics_sliding(load->prepared, q, qd, load->tau, direction, qdd);
 }
 
-/* Solves A x = b in place of b; A's columns are positive multiples of those of a definite matrix. */
+/* Solves A x = b in place of b; A's columns are positive multiples of those of a definite matrix, or its
+   rows those of the unit matrix. */
 static void kr270_rigid_solve(int size, kr270_real A[6][6], kr270_real b[6])
 {
     for (int k = 0; k < size; ++k) {
@@ -125,7 +126,8 @@ static void kr270_rigid_solve(int size, kr270_real A[6][6], kr270_real b[6])
 
 /* Accelerations with sign friction. That of a stuck surface is what keeps it at rest: a mean of those of
    the two ways to slide, weighted by w and 1 - w, in which qdd is affine. Its direction tells the
-   weights: 2 w - 1, beyond -1 and 1 where the friction is not enough. */
+   weights: 2 w - 1, beyond -1 and 1 where the friction is not enough. Friction by load may be none at
+   all for an instant: then the surface goes where it is pulled. */
 static void kr270_rigid_stick(
     const kr270_rigid_load *load, kr270_rigid_surfaces *surfaces,
     const kr270_real q[6], const kr270_real qd[6], kr270_real qdd[6])
@@ -161,6 +163,14 @@ static void kr270_rigid_stick(
             kr270_rigid_rates(column[j], rate);
             for (int i = 0; i < count; ++i) {
                 A[i][j] = rate[stuck[i]];
+            }
+        }
+        for (int j = 0; j < count; ++j) {
+            if (!(A[j][j] < R(0.0))) {
+                for (int i = 0; i < count; ++i) {
+                    A[j][i] = (i == j) ? R(1.0) : R(0.0);
+                }
+                b[j] = (b[j] < R(0.0)) ? R(2.0) : ((b[j] > R(0.0)) ? -R(1.0) : R(0.5));
             }
         }
         kr270_rigid_solve(count, A, b);
@@ -507,38 +517,54 @@ static void kr270_rigid_located(
     }
 }
 
+/* Whether accelerations depend on the direction in which a surface slides. */
+static int kr270_rigid_rubs(
+    const kr270_rigid_load *load, const kr270_real q[6], const kr270_real qd[6], int surface)
+{
+    kr270_real slipping[6];
+    kr270_real one_way[6];
+    kr270_real other_way[6];
+    int rubs = 0;
+
+    for (int i = 0; i < 6; ++i) {
+        slipping[i] = -R(1.0);
+    }
+    kr270_rigid_slide(load, slipping, q, qd, one_way);
+    slipping[surface] = R(1.0);
+    kr270_rigid_slide(load, slipping, q, qd, other_way);
+    for (int i = 0; i < 6; ++i) {
+        rubs = ((other_way[i] < one_way[i]) || (other_way[i] > one_way[i])) ? 1 : rubs;
+    }
+    return rubs;
+}
+
 void kr270_rigid_start(
     const kr270_prepared *prepared, const kr270_real q[6], const kr270_real qd[6],
     kr270_rigid_state *state)
 {
-    kr270_rigid_load load;
+    kr270_rigid_load rest;
+    kr270_rigid_load loaded;
     kr270_real rate[6];
-    kr270_real slipping[6];
-    kr270_real one_way[6];
-    kr270_real other_way[6];
+    kr270_real wound[6];
 
-    load.prepared = prepared;
-    load.width = NULL;
+    rest.prepared = prepared;
+    rest.width = NULL;
     for (int i = 0; i < 6; ++i) {
-        load.tau[i] = R(0.0);
+        rest.tau[i] = R(0.0);
+    }
+    /* Friction by load shows under a load alone: torques of the drives, springs that are wound. */
+    loaded = rest;
+    for (int i = 0; i < 6; ++i) {
+        loaded.tau[i] = R(1.0);
     }
     for (int i = 0; i < 6; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
-        slipping[i] = -R(1.0);
+        wound[i] = (i < 6) ? q[i] : (q[i] + R(1.0));
     }
     kr270_rigid_rates(qd, rate);
-    kr270_rigid_slide(&load, slipping, q, qd, one_way);
     for (int i = 0; i < 6; ++i) {
-        int has_friction = 0;
-        for (int j = 0; j < 6; ++j) {
-            slipping[j] = (j == i) ? R(1.0) : -R(1.0);
-        }
-        kr270_rigid_slide(&load, slipping, q, qd, other_way);
-        for (int j = 0; j < 6; ++j) {
-            has_friction = ((other_way[j] < one_way[j]) || (other_way[j] > one_way[j])) ? 1 : has_friction;
-        }
-        if (has_friction == 0) {
+        if ((kr270_rigid_rubs(&rest, q, qd, i) == 0) && (kr270_rigid_rubs(&loaded, wound, qd, i) == 0)) {
             state->contact[i] = KR270_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
@@ -691,7 +717,8 @@ static void kr270_flexible_slide(
     kr270_flexible_direct_dynamics_sliding(load->prepared, q, qd, load->tau, load->tau_ext, direction, qdd);
 }
 
-/* Solves A x = b in place of b; A's columns are positive multiples of those of a definite matrix. */
+/* Solves A x = b in place of b; A's columns are positive multiples of those of a definite matrix, or its
+   rows those of the unit matrix. */
 static void kr270_flexible_solve(int size, kr270_real A[12][12], kr270_real b[12])
 {
     for (int k = 0; k < size; ++k) {
@@ -713,7 +740,8 @@ static void kr270_flexible_solve(int size, kr270_real A[12][12], kr270_real b[12
 
 /* Accelerations with sign friction. That of a stuck surface is what keeps it at rest: a mean of those of
    the two ways to slide, weighted by w and 1 - w, in which qdd is affine. Its direction tells the
-   weights: 2 w - 1, beyond -1 and 1 where the friction is not enough. */
+   weights: 2 w - 1, beyond -1 and 1 where the friction is not enough. Friction by load may be none at
+   all for an instant: then the surface goes where it is pulled. */
 static void kr270_flexible_stick(
     const kr270_flexible_load *load, kr270_flexible_surfaces *surfaces,
     const kr270_real q[12], const kr270_real qd[12], kr270_real qdd[12])
@@ -749,6 +777,14 @@ static void kr270_flexible_stick(
             kr270_flexible_rates(column[j], rate);
             for (int i = 0; i < count; ++i) {
                 A[i][j] = rate[stuck[i]];
+            }
+        }
+        for (int j = 0; j < count; ++j) {
+            if (!(A[j][j] < R(0.0))) {
+                for (int i = 0; i < count; ++i) {
+                    A[j][i] = (i == j) ? R(1.0) : R(0.0);
+                }
+                b[j] = (b[j] < R(0.0)) ? R(2.0) : ((b[j] > R(0.0)) ? -R(1.0) : R(0.5));
             }
         }
         kr270_flexible_solve(count, A, b);
@@ -1095,39 +1131,55 @@ static void kr270_flexible_located(
     }
 }
 
+/* Whether accelerations depend on the direction in which a surface slides. */
+static int kr270_flexible_rubs(
+    const kr270_flexible_load *load, const kr270_real q[12], const kr270_real qd[12], int surface)
+{
+    kr270_real slipping[12];
+    kr270_real one_way[12];
+    kr270_real other_way[12];
+    int rubs = 0;
+
+    for (int i = 0; i < 12; ++i) {
+        slipping[i] = -R(1.0);
+    }
+    kr270_flexible_slide(load, slipping, q, qd, one_way);
+    slipping[surface] = R(1.0);
+    kr270_flexible_slide(load, slipping, q, qd, other_way);
+    for (int i = 0; i < 12; ++i) {
+        rubs = ((other_way[i] < one_way[i]) || (other_way[i] > one_way[i])) ? 1 : rubs;
+    }
+    return rubs;
+}
+
 void kr270_flexible_start(
     const kr270_prepared *prepared, const kr270_real q[12], const kr270_real qd[12],
     kr270_flexible_state *state)
 {
-    kr270_flexible_load load;
+    kr270_flexible_load rest;
+    kr270_flexible_load loaded;
     kr270_real rate[12];
-    kr270_real slipping[12];
-    kr270_real one_way[12];
-    kr270_real other_way[12];
+    kr270_real wound[12];
 
-    load.prepared = prepared;
-    load.width = NULL;
+    rest.prepared = prepared;
+    rest.width = NULL;
     for (int i = 0; i < 6; ++i) {
-        load.tau[i] = R(0.0);
-        load.tau_ext[i] = R(0.0);
+        rest.tau[i] = R(0.0);
+        rest.tau_ext[i] = R(0.0);
+    }
+    /* Friction by load shows under a load alone: torques of the drives, springs that are wound. */
+    loaded = rest;
+    for (int i = 0; i < 6; ++i) {
+        loaded.tau[i] = R(1.0);
     }
     for (int i = 0; i < 12; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
-        slipping[i] = -R(1.0);
+        wound[i] = (i < 6) ? q[i] : (q[i] + R(1.0));
     }
     kr270_flexible_rates(qd, rate);
-    kr270_flexible_slide(&load, slipping, q, qd, one_way);
     for (int i = 0; i < 12; ++i) {
-        int has_friction = 0;
-        for (int j = 0; j < 12; ++j) {
-            slipping[j] = (j == i) ? R(1.0) : -R(1.0);
-        }
-        kr270_flexible_slide(&load, slipping, q, qd, other_way);
-        for (int j = 0; j < 12; ++j) {
-            has_friction = ((other_way[j] < one_way[j]) || (other_way[j] > one_way[j])) ? 1 : has_friction;
-        }
-        if (has_friction == 0) {
+        if ((kr270_flexible_rubs(&rest, q, qd, i) == 0) && (kr270_flexible_rubs(&loaded, wound, qd, i) == 0)) {
             state->contact[i] = KR270_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
