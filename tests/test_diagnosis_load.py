@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from identification.diagnosis.candidates import library
+from identification.diagnosis.acting import Acting
+from identification.diagnosis.addition import addition
+from identification.diagnosis.bank import Variant
+from identification.diagnosis.candidates import library, wrist
 from tests.diagnosed import fitted, known, played
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
@@ -27,3 +32,35 @@ def test_a_rotor_loads_no_gear(tmp_path: Path) -> None:
     assert likeness > 0.99
     assert all(less < 0.98 for rotor, (_, less) in tried.items() if rotor < max(tried))
     assert slope == pytest.approx(0.05, rel=0.05)
+
+
+def test_of_a_rotor_that_two_joints_turn_its_inertia_loads_the_drives(tmp_path: Path) -> None:
+    scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("wrist_inertia", 6, 0.01), WAY)
+    rotor = next(one for one in wrist.hypotheses([scene]) if one.joint == 6)
+    columns = rotor.columns(scene, {})
+    names = [one.name for one in rotor.coefficients]
+    acting = Acting((Variant(rotor, {}, (0, 1, 2), (4, 5), (0, 1, 2)),), (0.01, 0.5, 0.7))
+    beside = replace(scene, beside=acting)
+    assert names[0].startswith("Iar")
+    assert beside.load - scene.load == pytest.approx(0.01 * columns[0])
+
+
+def test_what_loads_nothing_is_no_value_of_the_file(tmp_path: Path) -> None:
+    """Where no rotor is known none is written: a file may hold one that is more than nothing."""
+    scene, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("load_friction", 2, 0.05), WAY)
+    (hypothesis,) = (one for one in library.hypotheses([scene]) if (one.effect, one.joint) == ("load_friction", 2))
+    assert addition(hypothesis, {"rotor": 0.0}, {"Fl2": 0.05}).values == {}
+    assert addition(hypothesis, {"rotor": 6.0}, {"Fl2": 0.05}).values == {"rotor": 6.0}
+
+
+def test_a_hysteresis_begins_from_standing_still(tmp_path: Path) -> None:
+    scene, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("hysteresis", 2), WAY)
+    motion = scene.motion
+    speed = motion.qd.copy()
+    speed[:, :100] = 0.0
+    standing = replace(scene, sampled=replace(scene.sampled, motion=replace(motion, qd=speed)))
+    for one in library.hypotheses([scene]):
+        if one.effect == "hysteresis" and one.joint == 2:
+            columns = one.columns(standing, one.variants[0])
+            assert np.isfinite(columns).all()
+            assert np.abs(columns).max() > 0.1

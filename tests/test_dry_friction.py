@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from sympy import Integer
+from sympy import Integer, pi
 
 from generator.backends.printing.runge_kutta import METHODS
 from generator.robot.description import FIXED, REVOLUTE
@@ -164,3 +164,38 @@ def test_stuck_surfaces_hold_the_rest_of_the_robot_in_balance(make: Make) -> Non
     held = heavy.expected("bias", {"q": q, "qd": np.zeros(of.dof)})["H"]
     assert positions(state) == pytest.approx(q, abs=0)
     assert 1e5 * np.array(list(state.direction)) == pytest.approx(-held, abs=1e-6 * np.abs(held).max())
+
+
+# -- friction by load -------------------------------------------------------------------------------------------------
+
+
+def pendulum(*effects: str, **values: float) -> Subject:
+    """One horizontal axis whose friction goes with the load alone; it lies across gravity at q = 0."""
+    joints = [joint(1, REVOLUTE, pi / 2), joint(2, FIXED, tool=True)]
+    used = on_all_joints(joints, "rotor_inertia", "load_friction", *effects)
+    of = subject(
+        robot("pendulum", joints, gravity=(Integer(0), Integer(0), Integer(-10)), effects=used), names=QUANTITIES
+    )
+    return of.with_values({f"{stem}1": value for stem, value in values.items()})
+
+
+def test_friction_by_load_holds_what_lies_on_it(make: Make) -> None:
+    """A weight of 30 N m: torques from 27 to 33 N m hold it."""
+    simulated = make(pendulum(Ia=2.0, MX=3.0, Fl=0.1))
+    state, how = simulated.start([0.0], [0.0]), simulated.integration("RK4", 4)
+    assert state.contact[0] == simulated.constant("CONTACT_STUCK")
+    for tau in (32.0, 27.5, 30.0):
+        simulated.advance(state, how, 0.1, [tau])
+        assert (state.q[0], state.qd[0]) == (0.0, 0.0)
+    simulated.advance(state, how, 1e-3, [35.0])
+    assert state.qd[0] == pytest.approx(1e-3 * (35 / 1.1 - 30) / 2, rel=1e-4)
+
+
+def test_a_drive_that_supplies_nothing_lets_go(make: Make) -> None:
+    """At rest without torque the transmission carries nothing: there is no friction to hold the weight."""
+    simulated = make(pendulum(Ia=2.0, MX=3.0, Fl=0.1))
+    state, how = simulated.start([0.3], [0.0]), simulated.integration("RK4", 10)
+    for _ in range(30):
+        simulated.advance(state, how, 0.1, [0.0])
+        assert state.qd[0] ** 2 == pytest.approx(30 * (np.sin(0.3) - np.sin(state.q[0])), abs=1e-3)
+    assert state.contact[0] == simulated.constant("CONTACT_SLIDING")

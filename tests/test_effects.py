@@ -145,6 +145,21 @@ def test_a_drive_moves_what_load_friction_leaves(tmp_path: Path, speed: float, t
     assert qdd == pytest.approx((load - 30) / 2)
 
 
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+@pytest.mark.parametrize("qdd", [-9.0, -5.0, 1.0, 20.0])
+def test_a_rotor_does_not_load_its_transmission(tmp_path: Path, speed: float, qdd: float) -> None:
+    """Of 5 kg m2 the rotor is 3.5: what the gear carries is 30 + 1.5 qdd, and changes its sign at -20 rad/s2."""
+    model = arm(tmp_path, "load_friction", "rotor: 3.5 kg m2")
+    values = {"MX1": 3, "ZZ1": 5, "Fl1": 0.2}
+    tau = 30 + 5 * qdd + 0.2 * speed * abs(30 + 1.5 * qdd)
+    assert torque(model, values, qd=[speed], qdd=qdd) == pytest.approx(tau)
+    assert call(model, "direct_dynamics", values, qd=[speed], tau=[tau]) == pytest.approx(qdd)
+    # The arm hangs the other way: the gear carries -30 + 1.5 qdd.
+    tau = -30 + 5 * qdd + 0.2 * speed * abs(-30 + 1.5 * qdd)
+    assert torque(model, values, q=np.pi, qd=[speed], qdd=qdd) == pytest.approx(tau)
+    assert call(model, "direct_dynamics", values, q=np.pi, qd=[speed], tau=[tau]) == pytest.approx(qdd)
+
+
 def one_slide(*effects: EffectUse) -> Robot:
     return robot("slide", (joint(1, PRISMATIC),), gravity=STANDARD_GRAVITY, effects=effects)
 

@@ -14,13 +14,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sympy import Integer, pi
 
 from generator.reference.matter import INERTIAL
 from generator.reference.quantities import reference
 from generator.resources import find_robot, robots
-from generator.robot.description import EffectUse, Robot
+from generator.robot.description import FIXED, REVOLUTE, EffectUse, Robot
 from generator.robot.readers import read
-from tests.chains import ElasticChain, elastic_chain, random_robot
+from generator.units import Quantity
+from tests.chains import ElasticChain, elastic_chain, joint, random_robot, robot
 from tests.subject import Subject, Vector, close, slope, subject
 
 QUANTITIES = (
@@ -133,10 +135,10 @@ def test_any_chain_may_be_elastic(draw: Random) -> None:
 
 
 def test_a_prismatic_joint_may_be_elastic() -> None:
-    robot = read(find_robot("scara"))
-    sliding = next(joint.number for joint in robot.moving if joint.sigma == 1)
-    for flexible in ((sliding,), (1, sliding), tuple(joint.number for joint in robot.moving)):
-        check_against_chain(subject(replace(robot, flexible=flexible), names=QUANTITIES), 25)
+    scara = read(find_robot("scara"))
+    sliding = next(one.number for one in scara.moving if one.sigma == 1)
+    for flexible in ((sliding,), (1, sliding), tuple(one.number for one in scara.moving)):
+        check_against_chain(subject(replace(scara, flexible=flexible), names=QUANTITIES), 25)
 
 
 # -- the equations ----------------------------------------------------------------------------------------------------
@@ -219,3 +221,16 @@ def test_stiff_springs_leave_the_rigid_robot() -> None:
     seen = stiff.generated("flexible_inverse_dynamics", {"q": q, "qd": 0 * q, "qdd": 0 * q})
     assert close(seen["tau_mdi"], load, 1e-12)
     assert close(seen["tau_e"], load, 1e-6)
+
+
+def test_behind_a_spring_no_rotor_loads_the_transmission() -> None:
+    """The spring carries 2 kg m2 at 3 rad/s2, and half as much again against the friction, whatever the rotor is."""
+    joints = (joint(1, REVOLUTE, pi / 2), joint(2, FIXED, tool=True))
+    rubbing = EffectUse("load_friction", (1,), {"rotor": Quantity(Integer(8), "kg m2")})
+    made = robot("link", joints, gravity=(Integer(0),) * 3, effects=(rubbing,), flexible=(1,))
+    of = subject(made, names=QUANTITIES).with_values({"ZZ1": 2.0, "Fl1": 0.5, "Iam1": 8.0, "k1": 1e5})
+    state = {"q": np.array([0.0, -9e-5]), "qd": np.array([1.0, 0.0])}
+    found = of.generated("flexible_inverse_dynamics", {**state, "qdd": np.array([3.0, 0.0])})
+    assert found["tau_e"] == pytest.approx(9)
+    qdd = of.output("flexible_direct_dynamics", **state, tau=np.zeros(1))
+    assert qdd.sum() == pytest.approx(3)
