@@ -37,9 +37,10 @@ def test_a_rotor_loads_no_gear(tmp_path: Path) -> None:
 def test_of_a_rotor_that_two_joints_turn_its_inertia_loads_the_drives(tmp_path: Path) -> None:
     scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("wrist_inertia", 6, 0.01), WAY)
     rotor = next(one for one in wrist.hypotheses([scene]) if one.joint == 6)
-    columns = rotor.columns(scene, {})
+    shape = rotor.variants[0]
+    columns = rotor.columns(scene, shape)
     names = [one.name for one in rotor.coefficients]
-    acting = Acting((Variant(rotor, {}, (0, 1, 2), (4, 5), (0, 1, 2)),), (0.01, 0.5, 0.7))
+    acting = Acting((Variant(rotor, shape, (0, 1, 2), (4, 5), (0, 1, 2)),), (0.01, 0.5, 0.7))
     beside = replace(scene, beside=acting)
     assert names[0].startswith("Iar")
     assert beside.load - scene.load == pytest.approx(0.01 * columns[0])
