@@ -235,6 +235,20 @@ def test_the_constraint_holds_the_parameters_where_m_is_positive(search: tuple[S
     assert not evaluated(of, gauss_newton.minimise(of, begin)).limited
 
 
+class Unbounded(Positivity):
+    """Every step keeps M positive."""
+
+    def cut(self, chi: Array) -> None:
+        return None
+
+
+def test_what_the_runs_hardly_show_may_be_less_than_nothing_by_rounding() -> None:
+    anywhere = Unbounded(None, np.zeros((1, 1)), ("a", "b"), {}, 0.0)
+    H = np.array([[1.0, 1.0], [1.0, 1.0 - 1e-15]])
+    step = constrained(H, np.array([2.0, 2.0]), np.ones(2), anywhere, np.zeros(2))
+    assert step.sum() == pytest.approx(2.0)
+
+
 def test_a_constrained_step_is_that_of_a_semidefinite_program(machine: Machine) -> None:
     """All poses at once, by another solver; M(q) per unit of each parameter from the NumPy-free regressors."""
     rng = np.random.default_rng(4)

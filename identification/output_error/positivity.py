@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 #: Rounds of cutting planes of a step, and part of the margin by which they may fall short.
 _ROUNDS, _SHORT = 50, 1e-6
+#: Part of the strongest direction below which one is rounding.
+_ROUNDING = 1e-13
 #: Residual of the least distances' dual problem, below which there are no such parameters.
 _EMPTY = 1e-10
 
@@ -107,7 +109,10 @@ def constrained(H: Array, g: Array, size: Array, positivity: Positivity, chi: Ar
     ``H`` and ``g`` are in units of 1/``size``. Half-spaces are added until all eigenvalues hold; ``chi`` must fulfil
     the constraint.
     """
-    R: Array = np.asarray(np.linalg.cholesky(H).T, dtype=float)
+    # What the runs hardly show may be a little less than nothing by rounding, which has no Cholesky factor.
+    powers, directions = np.linalg.eigh(H)
+    kept = np.maximum(powers, _ROUNDING * powers[-1])
+    R = np.asarray(np.linalg.qr(np.sqrt(kept)[:, None] * directions.T, mode="r"))
     best = solve_triangular(R, solve_triangular(R, g, trans="T"))
     step: Array = best / size
     rows: list[Array] = []
