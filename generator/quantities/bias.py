@@ -1,4 +1,4 @@
-"""H(q, qd): all torque that does not depend on the accelerations (report eq. 2)."""
+"""H(q, qd): the torque without acceleration (report eq. 2)."""
 
 from generator.quantities import signals
 from generator.quantities.quantity import Quantity

@@ -69,7 +69,7 @@ class Rigid:
         return np.asarray(load)
 
     def bias(self, q: Array, qd: Array) -> Array:
-        """H(q, qd) (n): everything but the accelerations."""
+        """H(q, qd) (n): the torque without acceleration."""
         return self.inverse_dynamics(q, qd, zeros(self.chain.dof))
 
     def gravity(self, q: Array) -> Array:

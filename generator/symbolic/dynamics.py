@@ -71,7 +71,7 @@ class Dynamics:
 
     @cached_property
     def bias(self) -> Array:
-        """H(q, qd): everything but the accelerations."""
+        """H(q, qd): the torque without acceleration."""
         return self._torques(self.qd, self.still, None)
 
     @cached_property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,29 +49,26 @@ class Acting:
 
     def torque(self, scene: Scene) -> Array:
         """Torques (n x N) [N m, N] along a scene of what is a torque of its own, whatever the model's."""
-        return self._sum(self._torques, scene)
+        return self._sum(scene, lambda *_: True)
 
     def load(self, scene: Scene) -> Array:
         """What of them loads the drives (n x N) [N m, N]: bodies, inertias of rotors, effects on the links, offsets."""
-        return self._sum(self._torques, scene, _loads)
+        return self._sum(scene, _loads)
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
         return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY))
 
-    def _sum(
-        self,
-        variants: Sequence[Variant],
-        scene: Scene,
-        counts: Callable[[Hypothesis, Coefficient], bool] = lambda *_: True,
-    ) -> Array:
+    def _sum(self, scene: Scene, counts: Callable[[Hypothesis, Coefficient], bool]) -> Array:
         result = np.zeros_like(scene.motion.q)
         values = self.coefficients
-        for one in variants:
-            columns = one.hypothesis.columns(scene, one.shape)
-            for i, coefficient in zip(one.used, one.coefficients, strict=True):
-                if counts(one.hypothesis, coefficient):
-                    result += values[coefficient.name] * columns[i]
+        for one in self._torques:
+            pairs = zip(one.used, one.coefficients, strict=True)
+            counted = [(i, values[each.name]) for i, each in pairs if counts(one.hypothesis, each)]
+            # Columns cost time: those of which nothing counts are not made.
+            columns = one.hypothesis.columns(scene, one.shape) if counted else ()
+            for i, value in counted:
+                result += value * columns[i]
         return result
 
 
