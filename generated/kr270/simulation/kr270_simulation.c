@@ -545,14 +545,13 @@ void kr270_rigid_start(
     kr270_rigid_load rest;
     kr270_rigid_load loaded;
     kr270_real rate[6];
-    kr270_real wound[6];
 
     rest.prepared = prepared;
     rest.width = NULL;
     for (int i = 0; i < 6; ++i) {
         rest.tau[i] = R(0.0);
     }
-    /* Friction by load shows under a load alone: torques of the drives, springs that are wound. */
+    /* Friction by load shows under a load alone: torques of the drives. */
     loaded = rest;
     for (int i = 0; i < 6; ++i) {
         loaded.tau[i] = R(1.0);
@@ -560,11 +559,10 @@ void kr270_rigid_start(
     for (int i = 0; i < 6; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
-        wound[i] = (i < 6) ? q[i] : (q[i] + R(1.0));
     }
     kr270_rigid_rates(qd, rate);
     for (int i = 0; i < 6; ++i) {
-        if ((kr270_rigid_rubs(&rest, q, qd, i) == 0) && (kr270_rigid_rubs(&loaded, wound, qd, i) == 0)) {
+        if ((kr270_rigid_rubs(&rest, q, qd, i) == 0) && (kr270_rigid_rubs(&loaded, q, qd, i) == 0)) {
             state->contact[i] = KR270_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
@@ -1175,7 +1173,10 @@ void kr270_flexible_start(
     for (int i = 0; i < 12; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
-        wound[i] = (i < 6) ? q[i] : (q[i] + R(1.0));
+        wound[i] = q[i];
+    }
+    for (int i = 6; i < 12; ++i) {
+        wound[i] = q[i] + R(1.0);
     }
     kr270_flexible_rates(qd, rate);
     for (int i = 0; i < 12; ++i) {
