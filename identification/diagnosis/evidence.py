@@ -33,7 +33,10 @@ _FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
 _COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
 _WRIST = ("coupled_rotor",)
 BALANCERS = ("gas_balancer", "spring_balancer")
-#: Laws are never exact: least part of what others explain on the same joint, and where they are friction of the speed.
+#: What lets the link come after the motor, or the log after both.
+_BEHIND = ("joint_elasticity", "backlash", "torque_delay")
+#: Laws are never exact: least part of what others explain on the same joint, and where they are alike: friction of the
+#: speed, or behind the motor.
 _BESIDE, _ALIKE = 0.03, 0.15
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
@@ -219,6 +222,7 @@ class Weighing:
                 least = max(least, _SECOND * drop)
             elif set(other.joints) & set(variant.joints):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
+                alike |= {variant.hypothesis.effect, other.hypothesis.effect} <= set(_BEHIND)
                 least = max(least, (_ALIKE if alike else _BESIDE) * drop)
         return least
 

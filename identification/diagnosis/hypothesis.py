@@ -37,8 +37,9 @@ class Coefficient:
 class ShapeRange:
     """A shape value between ``low`` and ``high`` [``unit``], tried at ``count`` points (geometric steps if ``log``).
 
-    ``points`` are tried instead where they are given, even over the logarithm if ``log``. ``whole`` tells that nothing
-    lies between them, ``exact`` that what fits better there is another effect.
+    ``points`` are tried instead where they are given, even over the logarithm if ``log``; with a ``step`` (of the
+    logarithm if ``log``) the search goes on anywhere in the range. ``whole`` tells that nothing lies between
+    them, ``exact`` that what fits better there is another effect.
     """
 
     name: str
@@ -48,6 +49,7 @@ class ShapeRange:
     count: int = 5
     log: bool = True
     points: tuple[float, ...] = ()
+    step: float = 0.0
     whole: bool = False
     exact: bool = False
 
@@ -61,16 +63,17 @@ class ShapeRange:
     @property
     def free(self) -> bool:
         """Whether values between the tried ones are searched."""
-        return not self.whole and len(self.grid()) > 2
+        return not self.whole and (self.step > 0 or len(self.grid()) > 2)
 
     @property
     def spacing(self) -> float:
         """Usual step of the grid, of the logarithm if ``log``."""
-        return float(np.median(np.diff(np.sort(self._even(self.grid())))))
+        return self.step or float(np.median(np.diff(np.sort(self._even(self.grid())))))
 
     def moved(self, value: float, steps: float) -> float:
         """A value moved by steps of the grid, to one step beyond its ends at most."""
-        ends = np.sort(self._even(self.grid()))[[0, -1]] + self.spacing * np.array([-1.0, 1.0])
+        searched = [self.low, self.high] if self.step else self.grid()
+        ends = np.sort(self._even(searched))[[0, -1]] + self.spacing * np.array([-1.0, 1.0])
         even = float(np.clip(self._even(value) + steps * self.spacing, *ends))
         return float(np.exp(even)) if self.log else even
 
@@ -89,12 +92,13 @@ class Hypothesis:
 
     ``effect`` is an id of the generator's library, or of a correction of the robot file. ``columns(scene, shape)``
     returns k x n x N torques [N m, N] per unit of each coefficient at the recorded rate: what the *measured* torque
-    holds more than the model's says. ``shapes`` are searched, ``given`` are values that are known; both are values of
-    the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
-    the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
-    experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque: there
-    is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of a
-    drive's torque, for the part of it that the model has without what was found beside it.
+    holds more than the model's says. ``shapes`` are searched, from ``starts`` if there are any instead of all
+    combinations of their grids; ``given`` are values that are known; both are values of the effect in the robot
+    file. ``kind`` tells where a finding is written. ``would_show`` says what data would show the effect where these
+    cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the experiment that tells
+    them apart. ``measured`` are coefficients by name that the runs tell without any torque: there is nothing to
+    search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of a drive's
+    torque, for the part of it that the model has without what was found beside it.
     """
 
     effect: str
@@ -110,6 +114,7 @@ class Hypothesis:
     would_show: str = ""
     separating: Mapping[str, str] = field(default_factory=dict)
     tries: int = 0
+    starts: tuple[Mapping[str, float], ...] = ()
     measured: Mapping[str, Value] = field(default_factory=dict)
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
 
@@ -120,7 +125,9 @@ class Hypothesis:
 
     @property
     def variants(self) -> list[dict[str, float]]:
-        """All combinations of the shapes' first grids; one empty dictionary where there are none."""
+        """All combinations of the shapes' first grids, or ``starts``; one empty dictionary where there are none."""
+        if self.starts:
+            return [{**self.given, **one} for one in self.starts]
         result: list[dict[str, float]] = [dict(self.given)]
         for shape in self.shapes:
             result = [{**one, shape.name: x} for one in result for x in shape.grid()]

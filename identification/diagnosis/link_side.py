@@ -106,6 +106,19 @@ class LinkSide:
         return sensitivity(self.torque_on, self.scene.motion, deflection)
 
 
+class LinkSides:
+    """Those of coordinate ``k`` with the drive train's inertia ``rotor`` along several scenes."""
+
+    def __init__(self, k: int, rotor: float) -> None:
+        self._k, self._rotor = k, rotor
+        self._made: dict[int, LinkSide] = {}
+
+    def along(self, scene: Scene) -> LinkSide:
+        """That of a scene, whose load and inertia are found once."""
+        # A scene that is kept by its link side keeps its identity.
+        return self._made.setdefault(id(scene), LinkSide(scene, self._k, self._rotor))
+
+
 def _step(e: Value, v: Value, load: Value, M: Value, own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
     """Deflection e and its speed v a sample later; and position, speed and acceleration now:
     M e'' + d e' + k z = -load, z what e is beyond the gap, d nothing within it.

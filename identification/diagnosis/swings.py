@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.link_side import LinkSide, Train, rotor_inertia
+from identification.diagnosis.prepared import windowed
 from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
@@ -23,9 +24,11 @@ _SAMPLES = 6000
 #: integration can follow.
 _LOWEST, _HIGHEST, _PART = 3.0, 100.0, 0.125
 #: Damping ratios.
-DAMPING = (0.01, 0.15)
+DAMPING = (0.01, 0.4)
 #: Values about the best of a grid among which it is refined.
 _FINER = 7
+#: Rows over which the windows reach through which swings are compared.
+_WIDTHS = (1, 4)
 
 
 def watched(scenes: Sequence[Scene], k: int) -> bool:
@@ -48,12 +51,19 @@ def stiffnesses(side: LinkSide) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def best(side: LinkSide, grids: Sequence[Array]) -> tuple[float, ...]:
-    """Stiffness, damping and gap, each from its grid in geometric steps, that are most like the log; then between the
-    steps.
+def alike(side: LinkSide, grids: Sequence[Array]) -> list[tuple[float, ...]]:
+    """Stiffness, damping and gap, each from its grid in geometric steps, that are most like the log, then between the
+    steps: once by all that the rows show and once by what is slow in it.
+
+    Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
     """
-    found = _most_alike(side, grids)
-    return _most_alike(side, [_about(x, grid) for x, grid in zip(found, grids, strict=True)])
+    coarse = _Played(side, grids)
+    found = []
+    for width in _WIDTHS:
+        rows = _Rows(side, width)
+        near = [_about(x, grid) for x, grid in zip(coarse.most_alike(rows), grids, strict=True)]
+        found.append(_Played(side, near).most_alike(rows))
+    return list(dict.fromkeys(found))
 
 
 def _about(x: float, grid: Array) -> Array:
@@ -64,18 +74,46 @@ def _about(x: float, grid: Array) -> Array:
     return np.geomspace(max(x / step, grid[0]), min(x * step, grid[-1]), _FINER)
 
 
-def _most_alike(side: LinkSide, grids: Sequence[Array]) -> tuple[float, ...]:
-    """The combination whose swing has the largest cosine with the residual."""
-    stiffness, damping, gap = (x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij"))
-    left = (side.scene.tau - side.scene.model_torque)[side.k]
-    product, size = np.zeros((2, len(stiffness)))
-    played = side.steps(Train(stiffness, damping, gap), _SAMPLES)
-    # A drive train too stiff for the samples runs away; it is like nothing.
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for y, M, a in zip(left.tolist(), side.inertia.tolist(), played, strict=False):
-            torque = M * a
-            product += y * torque
-            size += torque * torque
-        alike = product / np.sqrt(size)
-    most = int(np.argmax(np.where(np.isfinite(alike), alike, -1.0)))
-    return float(stiffness[most]), float(damping[most]), float(gap[most])
+class _Rows:
+    """What the rows of a joint show through windows ``width`` rows wide, without those in which it stands and without
+    what other base parameters would explain.
+    """
+
+    def __init__(self, side: LinkSide, width: int) -> None:
+        scene, k = side.scene, side.k
+        self._width = width * scene.sampled.filters.factor
+        standing = scene.sampled.left_out
+        still = np.zeros(scene.motion.samples) if standing is None else standing[k].astype(float)
+        self._kept = self._windowed(still) == 0
+        self._base, _ = np.linalg.qr(self._windowed(scene.regressors.base(scene.motion)[k])[:, self._kept].T)
+        self._left = self._seen((scene.tau - scene.model_torque)[k])
+
+    def _windowed(self, x: Array) -> Array:
+        return windowed(x[..., :_SAMPLES], self._width)
+
+    def _seen(self, torque: Array) -> Array:
+        rows = self._windowed(torque)[..., self._kept]
+        return np.asarray(rows - (rows @ self._base) @ self._base.T)
+
+    def cosines(self, torques: Array) -> Array:
+        """Of torques (K x N) with the residual (K)."""
+        seen = self._seen(torques)
+        return np.asarray(seen @ self._left / np.linalg.norm(seen, axis=1))
+
+
+class _Played:
+    """The swings of every combination of stiffnesses, damping ratios and gaps."""
+
+    def __init__(self, side: LinkSide, grids: Sequence[Array]) -> None:
+        self._combinations = np.stack([x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij")])
+        # A drive train too stiff for the samples runs away; it is like nothing.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            played = np.array(list(side.steps(Train(*self._combinations), _SAMPLES)))
+            self._torques = side.inertia[:_SAMPLES] * played.T
+
+    def most_alike(self, rows: _Rows) -> tuple[float, ...]:
+        """The combination whose swing has the largest cosine with the residual."""
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            cosines = rows.cosines(self._torques)
+        most = int(np.argmax(np.where(np.isfinite(cosines), cosines, -np.inf)))
+        return tuple(self._combinations[:, most].tolist())

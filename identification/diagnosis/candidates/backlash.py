@@ -10,16 +10,18 @@ from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, Train
+from identification.diagnosis.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.swings import DAMPING, best, liveliest, stiffnesses, watched
+from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
 
 #: Times [s] in which a link falls through the gap that are looked for.
 _QUICKEST, _SLOWEST = 0.01, 0.2
 #: Stiffnesses, damping ratios and gaps that are looked at.
-_STEPS, _DAMPINGS, _GAPS = 10, 2, 24
+_STEPS, _DAMPINGS, _GAPS = 10, 3, 24
+#: Step of the logarithm by which a gap is searched between them.
+_FINE = 0.1
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -42,7 +44,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
     prismatic = joint.sigma == PRISMATIC
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
-    stiffness, damping, gap = best(
+    found = alike(
         side,
         [
             np.geomspace(softest, stiffest, _STEPS),
@@ -55,11 +57,11 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "backlash",
         joint.number,
         (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
-        partial(_columns, k),
+        partial(_columns, LinkSides(k, side.rotor)),
         shapes=(
-            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, points=(gap,)),
-            ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, points=(stiffness,)),
-            ShapeRange("damping", "1", *DAMPING, points=(damping,)),
+            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, step=_FINE),
+            ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, step=2 * _FINE),
+            ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
         given={"Iam": side.rotor},
         kind=ELASTIC,
@@ -72,6 +74,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
+        starts=tuple({"gap": gap, "k": stiffness, "damping": damping} for stiffness, damping, gap in found),
     )
 
 
@@ -91,7 +94,7 @@ def _has_gap(robot: Robot, number: int) -> bool:
     return any("gap" in use.values for use in uses)
 
 
-def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    side = LinkSide(scene, k, shape["Iam"])
+def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
+    side = sides.along(scene)
     deflection = side.deflection(Train(shape["k"], shape["damping"], shape["gap"]))
     return side.torque_per(deflection)[None] / shape["gap"]

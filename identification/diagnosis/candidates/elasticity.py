@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, Train
+from identification.diagnosis.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.swings import DAMPING, best, liveliest, stiffnesses, watched
+from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
 
 #: Stiffnesses and damping ratios that are looked at.
 _STEPS, _DAMPINGS = 60, 3
+#: Step of the logarithm by which a stiffness is searched between them.
+_FINE = 0.05
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -40,20 +42,18 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
     prismatic = joint.sigma == PRISMATIC
     low, high = stiffnesses(side)
-    stiffness, damping, _ = best(
-        side, [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)]
-    )
+    found = alike(side, [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
-    points = tuple(sorted({stiffness, high}))
+    starts = {(stiffness, damping) for stiffness, damping, _ in found} | {(high, found[0][1])}
     return Hypothesis(
         "joint_elasticity",
         "elasticity of the drive train",
         joint.number,
         (Coefficient(f"compliance{joint.number}", "m/N" if prismatic else "rad/(N m)", 0.0),),
-        partial(_columns, k),
+        partial(_columns, LinkSides(k, side.rotor)),
         shapes=(
-            ShapeRange("k", "N/m" if prismatic else "N m/rad", low, high, points=points),
-            ShapeRange("damping", "1", *DAMPING, points=(damping,)),
+            ShapeRange("k", "N/m" if prismatic else "N m/rad", low, high, step=_FINE),
+            ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
         given={"Iam": side.rotor},
         kind=ELASTIC,
@@ -68,9 +68,10 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             "fourth power",
         },
         tries=_STEPS * _DAMPINGS,
+        starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
     )
 
 
-def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    side = LinkSide(scene, k, shape["Iam"])
+def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
+    side = sides.along(scene)
     return shape["k"] * side.torque_per(side.deflection(Train(shape["k"], shape["damping"])))[None]
