@@ -71,9 +71,13 @@ class ShapeRange:
         return self.step or float(np.median(np.diff(np.sort(self._even(self.grid())))))
 
     def moved(self, value: float, steps: float) -> float:
-        """A value moved by steps of the grid, to one step beyond its ends at most."""
-        searched = [self.low, self.high] if self.step else self.grid()
-        ends = np.sort(self._even(searched))[[0, -1]] + self.spacing * np.array([-1.0, 1.0])
+        """A value moved by steps: anywhere in the range where it has a ``step``, else to one step of the grid beyond
+        its ends at most.
+        """
+        if self.step:
+            ends = self._even([self.low, self.high])
+        else:
+            ends = np.sort(self._even(self.grid()))[[0, -1]] + self.spacing * np.array([-1.0, 1.0])
         even = float(np.clip(self._even(value) + steps * self.spacing, *ends))
         return float(np.exp(even)) if self.log else even
 

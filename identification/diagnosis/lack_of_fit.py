@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 _BURST = 10
 #: By how much an event must stand out of the rest of the residual, in parts of its mean power.
 _OUTSTANDING = 12.0
+#: By how much an event's power is above that of what was explained at the time.
+_BEYOND = 4.0
 
 
 @dataclass(frozen=True)
@@ -40,8 +42,18 @@ class Lack:
     burst: tuple[str, float] | None = None
 
 
-def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, number: int) -> Lack:
-    """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1."""
+def lack_of_fit(
+    runs: Sequence[Prepared],
+    residuals: Sequence[Array],
+    k: int,
+    number: int,
+    explained: Sequence[Array] | None = None,
+) -> Lack:
+    """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1.
+
+    ``explained`` are the same rows of what was found and taken from them already: laws are never exact, and what is
+    left while they act so much is no event of its own.
+    """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
         if not run.period or len(run.t) < 2 * run.period:
@@ -56,7 +68,7 @@ def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, nu
         phases += int(twice.sum())
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
-    burst = _burst(runs, residuals, k)
+    burst = _burst(runs, residuals, k, explained or [np.zeros_like(e) for e in residuals])
     if phases and freedom > 50:
         ratio = (common / phases) / max(differing / freedom, 1e-300)
         size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
@@ -68,15 +80,20 @@ def lack_of_fit(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, nu
     return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, burst)
 
 
-def _burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int) -> tuple[str, float] | None:
-    """Where the residual is far above the noise for a short time, once in all runs; not where a joint is unsettled."""
+def _burst(
+    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, explained: Sequence[Array]
+) -> tuple[str, float] | None:
+    """Where the residual is far above the noise and what was ``explained`` then, for a short time, once in all runs;
+    not where a joint is unsettled.
+    """
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
-    for run, e in zip(runs, residuals, strict=True):
+    for run, e, less in zip(runs, residuals, explained, strict=True):
         if len(e) < 5 * _BURST:
             continue
         unsettled = run.unsettled[k][run.kept[k]]
-        power = np.convolve(np.where(unsettled, 0.0, e**2), np.ones(_BURST), "valid")
+        power, known = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, less))
+        power[power < _BEYOND * known] = 0.0
         if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
             continue
         i = int(np.argmax(power))

@@ -183,7 +183,10 @@ class Selection:
         return one if moved is one.variant else self.weighing.of(moved, others)
 
     def _shaped(self, one: Variant, others: Sequence[Variant]) -> Variant:
-        """With the shape that explains most beside ``others``."""
+        """With the shape that explains most beside ``others``, from whichever of its starts leads there."""
+        if one.hypothesis.starts:
+            same = [other for other in self.weighing.bank.variants if key_of(other) == key_of(one)]
+            one = self.weighing.best_shape([one, *same], others).variant
         return nearest(self.weighing, refined(self.weighing, one, others), others)
 
     def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:

@@ -45,7 +45,9 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        lacks.append(lack_of_fit(bank.runs, white, k, number))
+        start = [bank.residual(r, k, found.start) for r in everything]
+        explained = [before - after for before, after in zip(start, white, strict=True)]
+        lacks.append(lack_of_fit(bank.runs, white, k, number, explained))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
