@@ -91,11 +91,11 @@ def test_no_event_is_told_where_a_joint_is_unsettled() -> None:
 
 
 @pytest.mark.parametrize(("size", "told"), [(1.0, True), (8.0, False)])
-def test_what_a_law_leaves_while_it_acts_is_no_event(size: float, told: bool) -> None:
+def test_a_swing_that_comes_late_is_no_event(size: float, told: bool) -> None:
     draw = np.random.default_rng(6)
-    e, explained = draw.normal(size=COUNT), np.zeros(COUNT)
+    e, swing = draw.normal(size=COUNT), np.zeros(COUNT)
     e[620:628] += 8.0
-    explained[600:650] = size
+    swing[600:650] = size
     run = one_run()
-    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3, [explained[run.kept[0]]])
+    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3, [swing[run.kept[0]]])
     assert (found.burst is not None) == told

@@ -42,7 +42,7 @@ class EffectColumns:
         self._effect = effect
         self._function: Callable[..., Any] | None = None
         self._step: Any = None
-        self._steps: dict[int, Any] = {}
+        self._by_count: dict[int, Any] = {}
 
     def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
         """Columns at the recorded rate; not a number where the shape is impossible along the run."""
@@ -95,9 +95,9 @@ class EffectColumns:
         # What moved before the record began has come to its end.
         start = float(np.sign(speed[0]))
         given = np.array([*values, stride * scene.period])[:, None]
-        if count not in self._steps:
-            self._steps[count] = self._step.mapaccum("states", count)
-        _, z = self._steps[count](start, speed[None], np.tile(given, count))
+        if count not in self._by_count:
+            self._by_count[count] = self._step.mapaccum("states", count)
+        _, z = self._by_count[count](start, speed[None], np.tile(given, count))
         return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, z.full()[0])]
 
 

@@ -222,7 +222,9 @@ class Weighing:
                 least = max(least, _SECOND * drop)
             elif set(other.joints) & set(variant.joints):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
-                alike |= {variant.hypothesis.effect, other.hypothesis.effect} <= set(_BEHIND)
+                # What a delay of the whole robot explains is not of one joint.
+                behind = {variant.hypothesis.effect, other.hypothesis.effect} <= set(_BEHIND)
+                alike |= behind and other.hypothesis.joint != 0
                 least = max(least, (_ALIKE if alike else _BESIDE) * drop)
         return least
 
@@ -301,7 +303,7 @@ def _at_end(variant: Variant) -> bool:
     """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
     for shape in variant.hypothesis.shapes:
         points = shape.grid()
-        if shape.whole or len(points) < 4 or not shape.log:
+        if shape.whole or shape.step or len(points) < 4 or not shape.log:
             continue
         value = variant.shape[shape.name]
         if value <= min(points) * 0.7 or value >= max(points) * 1.4:

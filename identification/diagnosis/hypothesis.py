@@ -67,7 +67,7 @@ class ShapeRange:
 
     @property
     def spacing(self) -> float:
-        """Usual step of the grid, of the logarithm if ``log``."""
+        """Usual step of the search, of the logarithm if ``log``."""
         return self.step or float(np.median(np.diff(np.sort(self._even(self.grid())))))
 
     def moved(self, value: float, steps: float) -> float:
@@ -82,7 +82,7 @@ class ShapeRange:
         return float(np.exp(even)) if self.log else even
 
     def steps(self, start: float, end: float) -> float:
-        """How many steps of the grid lie between two values."""
+        """How many usual steps lie between two values."""
         return float(self._even(end) - self._even(start)) / self.spacing
 
     def _even(self, values: ArrayLike) -> Array:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _BURST = 10
 #: By how much an event must stand out of the rest of the residual, in parts of its mean power.
 _OUTSTANDING = 12.0
-#: By how much an event's power is above that of what was explained at the time.
+#: By how much an event's power is above that of a swing which was found at the time.
 _BEYOND = 4.0
 
 
@@ -47,12 +47,12 @@ def lack_of_fit(
     residuals: Sequence[Array],
     k: int,
     number: int,
-    explained: Sequence[Array] | None = None,
+    swings: Sequence[Array] | None = None,
 ) -> Lack:
     """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1.
 
-    ``explained`` are the same rows of what was found and taken from them already: laws are never exact, and what is
-    left while they act so much is no event of its own.
+    ``swings`` are the same rows of what was found of elastic drive trains, and taken from them already: a swing that
+    comes a little late leaves more than it was, which is no event of its own.
     """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
@@ -68,7 +68,7 @@ def lack_of_fit(
         phases += int(twice.sum())
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
-    burst = _burst(runs, residuals, k, explained or [np.zeros_like(e) for e in residuals])
+    burst = _burst(runs, residuals, k, swings or [np.zeros_like(e) for e in residuals])
     if phases and freedom > 50:
         ratio = (common / phases) / max(differing / freedom, 1e-300)
         size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
@@ -81,18 +81,18 @@ def lack_of_fit(
 
 
 def _burst(
-    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, explained: Sequence[Array]
+    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, swings: Sequence[Array]
 ) -> tuple[str, float] | None:
-    """Where the residual is far above the noise and what was ``explained`` then, for a short time, once in all runs;
+    """Where the residual is far above the noise and the ``swings`` then, for a short time, once in all runs;
     not where a joint is unsettled.
     """
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
-    for run, e, less in zip(runs, residuals, explained, strict=True):
+    for run, e, swing in zip(runs, residuals, swings, strict=True):
         if len(e) < 5 * _BURST:
             continue
         unsettled = run.unsettled[k][run.kept[k]]
-        power, known = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, less))
+        power, known = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, swing))
         power[power < _BEYOND * known] = 0.0
         if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
             continue

@@ -107,16 +107,16 @@ class LinkSide:
 
 
 class LinkSides:
-    """Those of coordinate ``k`` with the drive train's inertia ``rotor`` along several scenes."""
+    """Those of coordinate ``k`` along several scenes, whose loads and inertias are found once."""
 
-    def __init__(self, k: int, rotor: float) -> None:
-        self._k, self._rotor = k, rotor
-        self._made: dict[int, LinkSide] = {}
+    def __init__(self, k: int) -> None:
+        self._k = k
+        self._made: dict[tuple[int, float], LinkSide] = {}
 
-    def along(self, scene: Scene) -> LinkSide:
-        """That of a scene, whose load and inertia are found once."""
+    def along(self, scene: Scene, rotor: float) -> LinkSide:
+        """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
         # A scene that is kept by its link side keeps its identity.
-        return self._made.setdefault(id(scene), LinkSide(scene, self._k, self._rotor))
+        return self._made.setdefault((id(scene), rotor), LinkSide(scene, self._k, rotor))
 
 
 def _step(e: Value, v: Value, load: Value, M: Value, own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:

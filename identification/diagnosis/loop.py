@@ -112,7 +112,7 @@ def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant |
             return variant
     for one in offered:
         if (one.effect, one.joint) == (old.hypothesis.effect, old.hypothesis.joint):
-            return bank.add(one, old.shape)
+            return bank.add(one, {**old.shape, **one.given})
     return None
 
 

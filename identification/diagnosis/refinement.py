@@ -1,7 +1,7 @@
 """Shapes between the tried ones: Gauss-Newton steps of a variant's coefficients and shape values together.
 
 With torque x_k c_k(s), a step in the shape adds x_k dc_k/ds_i per unit: one more column each, by differences. Shapes
-move by steps of their grids. Where little speaks for a step it is short (Levenberg 1944).
+move by their usual steps. Where little speaks for a step it is short (Levenberg 1944).
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ Array = NDArray[np.float64]
 
 #: Steps, the parts of one that are tried, and what of the rank a step must gain.
 _STEPS, _PARTS, _GAIN = 6, (1.0, 0.3, 0.1), 0.5
-#: Difference by which columns are differentiated, and the longest step, in steps of the grid.
+#: Difference by which columns are differentiated, and the longest step, in usual steps.
 _DIFFERENCE, _LONGEST = 0.05, 1.0
-#: What a step of the grid must lower the sum of squares by.
+#: What a usual step must lower the sum of squares by.
 _DAMPING = 1.0
 
 
@@ -48,7 +48,7 @@ def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> 
 def _step(
     weighing: Weighing, variant: Variant, free: Sequence[ShapeRange], others: Sequence[Variant]
 ) -> dict[str, float]:
-    """Of each shape value, in steps of its grid."""
+    """Of each shape value, in its usual steps."""
     neighbours = [(shape, neighbour(weighing, variant, shape)) for shape in free]
     here = variant.shape
     moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in neighbours if one]
@@ -88,7 +88,7 @@ def neighbour(weighing: Weighing, variant: Variant, shape: ShapeRange) -> Varian
 
 
 def _moved(weighing: Weighing, variant: Variant, step: Mapping[str, float]) -> Variant | None:
-    """With shape values moved by steps of their grids; None where that is impossible."""
+    """With shape values moved by usual steps; None where that is impossible."""
     shapes = {one.name: one for one in variant.hypothesis.shapes}
     values = {name: shapes[name].moved(variant.shape[name], steps) for name, steps in step.items()}
     moved = weighing.bank.add(variant.hypothesis, {**variant.shape, **values})

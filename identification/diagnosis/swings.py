@@ -18,8 +18,8 @@ from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
 
-#: Samples that are played, of the run in which the joint is fastest.
-_SAMPLES = 6000
+#: Time [s] that is played, of the run in which the joint is fastest, and the most samples.
+_PLAYED, _SAMPLES = 12.0, 12000
 #: Frequencies [Hz] of a link on its drive train, the motor held, and their largest part of the samples' rate, which the
 #: integration can follow.
 _LOWEST, _HIGHEST, _PART = 3.0, 100.0, 0.125
@@ -29,6 +29,8 @@ DAMPING = (0.01, 0.4)
 _FINER = 7
 #: Rows over which the windows reach through which swings are compared.
 _WIDTHS = (1, 4)
+#: Least rows for each column of the base parameters, and least singular value of scaled columns.
+_ROWS, _RANK = 3, 1e-6
 
 
 def watched(scenes: Sequence[Scene], k: int) -> bool:
@@ -37,10 +39,13 @@ def watched(scenes: Sequence[Scene], k: int) -> bool:
 
 
 def liveliest(scenes: Sequence[Scene], k: int) -> LinkSide | None:
-    """The joint's link side in the run in which it is fastest; None where the model's link has no inertia."""
+    """The joint's link side in the run in which it is fastest; None where the model's link has no inertia, or samples
+    that follow no swing.
+    """
     scene = max(scenes, key=lambda one: float(np.mean(one.motion.qd[k] ** 2)))
     side = LinkSide(scene, k, rotor_inertia(scene, k))
-    return side if np.min(side.inertia) > 0 and np.any(side.load) else None
+    quick = _PART / scene.period > _LOWEST
+    return side if quick and np.min(side.inertia) > 0 and np.any(side.load) else None
 
 
 def stiffnesses(side: LinkSide) -> tuple[float, float]:
@@ -74,6 +79,10 @@ def _about(x: float, grid: Array) -> Array:
     return np.geomspace(max(x / step, grid[0]), min(x * step, grid[-1]), _FINER)
 
 
+def _samples(scene: Scene) -> int:
+    return min(scene.motion.samples, round(_PLAYED / scene.period), _SAMPLES)
+
+
 class _Rows:
     """What the rows of a joint show through windows ``width`` rows wide, without those in which it stands and without
     what other base parameters would explain.
@@ -81,24 +90,29 @@ class _Rows:
 
     def __init__(self, side: LinkSide, width: int) -> None:
         scene, k = side.scene, side.k
-        self._width = width * scene.sampled.filters.factor
-        standing = scene.sampled.left_out
-        still = np.zeros(scene.motion.samples) if standing is None else standing[k].astype(float)
-        self._kept = self._windowed(still) == 0
-        self._base, _ = np.linalg.qr(self._windowed(scene.regressors.base(scene.motion)[k])[:, self._kept].T)
-        self._left = self._seen((scene.tau - scene.model_torque)[k])
-
-    def _windowed(self, x: Array) -> Array:
-        return windowed(x[..., :_SAMPLES], self._width)
+        self._width, count = width * scene.sampled.filters.factor, _samples(scene)
+        self._kept = windowed(scene.sampled.left_out[k, :count].astype(float), self._width) == 0
+        base = windowed(scene.regressors.base(scene.motion.part(0, count))[k], self._width)[:, self._kept]
+        # Few rows are explained by anything.
+        self._base = _directions(base if base.shape[1] > _ROWS * len(base) else base[:0])
+        self._left = self._seen((scene.tau - scene.model_torque)[k, :count])
 
     def _seen(self, torque: Array) -> Array:
-        rows = self._windowed(torque)[..., self._kept]
-        return np.asarray(rows - (rows @ self._base) @ self._base.T)
+        rows = windowed(torque, self._width)[..., self._kept]
+        return np.asarray(rows - (rows @ self._base.T) @ self._base)
 
     def cosines(self, torques: Array) -> Array:
-        """Of torques (K x N) with the residual (K)."""
+        """Of torques (K x N) with the residual (K); not a number where a torque is none, or has no end."""
         seen = self._seen(torques)
-        return np.asarray(seen @ self._left / np.linalg.norm(seen, axis=1))
+        size = np.linalg.norm(seen, axis=1)
+        return np.asarray(np.where(np.isfinite(size), seen @ self._left / size, np.nan))
+
+
+def _directions(rows: Array) -> Array:
+    """Orthonormal rows that make the same space."""
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    _, values, directions = np.linalg.svd(rows / np.where(size > 0, size, 1.0), full_matrices=False)
+    return np.asarray(directions[values > _RANK])
 
 
 class _Played:
@@ -106,10 +120,11 @@ class _Played:
 
     def __init__(self, side: LinkSide, grids: Sequence[Array]) -> None:
         self._combinations = np.stack([x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij")])
+        count = _samples(side.scene)
         # A drive train too stiff for the samples runs away; it is like nothing.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            played = np.array(list(side.steps(Train(*self._combinations), _SAMPLES)))
-            self._torques = side.inertia[:_SAMPLES] * played.T
+            played = np.array(list(side.steps(Train(*self._combinations), count)))
+            self._torques = side.inertia[:count] * played.T
 
     def most_alike(self, rows: _Rows) -> tuple[float, ...]:
         """The combination whose swing has the largest cosine with the residual."""

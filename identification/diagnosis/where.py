@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from identification.diagnosis.evidence import columns_of
 from identification.diagnosis.finding import Finding
+from identification.diagnosis.hypothesis import ELASTIC
 from identification.diagnosis.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.loop import Search
 from identification.diagnosis.views import View, strongest, views
@@ -42,12 +44,14 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     bank = found.bank
     numbers = [joint.number for joint in bank.scenes[0].robot.moving]
     everything = range(len(bank.runs))
+    chosen = [one.evidence.variant for one in found.choices]
+    elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
+    stiff = {column: x for column, x in weights.items() if column not in elastic}
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        start = [bank.residual(r, k, found.start) for r in everything]
-        explained = [before - after for before, after in zip(start, white, strict=True)]
-        lacks.append(lack_of_fit(bank.runs, white, k, number, explained))
+        swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
+        lacks.append(lack_of_fit(bank.runs, white, k, number, swings))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)

@@ -57,7 +57,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "backlash",
         joint.number,
         (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
-        partial(_columns, LinkSides(k, side.rotor)),
+        partial(_columns, LinkSides(k)),
         shapes=(
             ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, step=_FINE),
             ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, step=2 * _FINE),
@@ -95,6 +95,6 @@ def _has_gap(robot: Robot, number: int) -> bool:
 
 
 def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
-    side = sides.along(scene)
+    side = sides.along(scene, shape["Iam"])
     deflection = side.deflection(Train(shape["k"], shape["damping"], shape["gap"]))
     return side.torque_per(deflection)[None] / shape["gap"]

@@ -50,7 +50,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "elasticity of the drive train",
         joint.number,
         (Coefficient(f"compliance{joint.number}", "m/N" if prismatic else "rad/(N m)", 0.0),),
-        partial(_columns, LinkSides(k, side.rotor)),
+        partial(_columns, LinkSides(k)),
         shapes=(
             ShapeRange("k", "N/m" if prismatic else "N m/rad", low, high, step=_FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
@@ -73,5 +73,5 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
 
 
 def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
-    side = sides.along(scene)
+    side = sides.along(scene, shape["Iam"])
     return shape["k"] * side.torque_per(side.deflection(Train(shape["k"], shape["damping"])))[None]
