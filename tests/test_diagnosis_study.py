@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.diagnosis_study.archive import archived, restore, store
 from benchmarks.diagnosis_study.baselines import named_by_baselines
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
 from benchmarks.diagnosis_study.drawing import cases, cells
@@ -203,7 +204,24 @@ def test_the_page_says_what_the_results_say() -> None:
 
 
 def test_the_committed_page_is_of_the_committed_results() -> None:
-    assert PAGE.read_text(encoding="utf-8") == page(json.loads(JSON.read_text(encoding="utf-8")))
+    committed = json.loads(JSON.read_text(encoding="utf-8"))
+    assert PAGE.read_text(encoding="utf-8") == page(committed)
+    code, results = archived()
+    assert committed["code"] == code
+    assert {key: committed[key] for key in tables(results)} == json.loads(json.dumps(tables(results)))
+
+
+def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> None:
+    archive, folder = tmp_path / "cases.jsonl", tmp_path / "one" / "abc"
+    folder.mkdir(parents=True)
+    whole = json.loads(json.dumps(record("null", [], [], NOTHING)))
+    name = f"{case(whole['case']).name}.json"
+    (folder / name).write_text(json.dumps(whole | {"answer": {"verdict": NOTHING}}))
+    store(folder, archive)
+    assert archived(archive) == ("abc", [whole])
+    for code, there in (("abc", [name]), ("def", [])):
+        restore(tmp_path / "two" / code, archive)
+        assert [file.name for file in (tmp_path / "two").glob(f"{code}/*")] == there
 
 
 def test_the_power_curve_is_drawn() -> None:

@@ -127,6 +127,12 @@ def _grown(draw: st.DrawFn, program: Program, nodes: Sequence[Node]) -> Node:
     def some() -> Node:
         return program.constant(draw(_constants)) if draw(st.integers(0, 5)) == 0 else draw(st.sampled_from(nodes))
 
+    def still() -> Node:
+        return draw(st.sampled_from([node for node in nodes if node.parameter_only]))
+
+    def moving() -> Node:
+        return draw(st.sampled_from([node for node in nodes if not node.parameter_only]))
+
     a, b = some(), some()
     positive = a * a + 1
     grow: dict[str, Callable[[], Node]] = {
@@ -143,6 +149,7 @@ def _grown(draw: st.DrawFn, program: Program, nodes: Sequence[Node]) -> Node:
         "tanh": lambda: program.function("tanh", a),
         "abs": lambda: program.function("abs", a),
         "sign": lambda: program.function("sign", a),
+        "directed": lambda: program.directed(still(), moving()),
         "pow": lambda: program.power(positive, draw(st.sampled_from([Fraction(2, 3), Fraction(-7, 5), Fraction(9)]))),
     }
     return grow[draw(st.sampled_from(["add", "sub", "mul", *grow]))]()
@@ -190,6 +197,8 @@ def _passed_on(operation: str, given: Sequence[tuple[float, float]], result: flo
         return result * da
     if operation == "sign":
         return math.inf if abs(a) <= da else 0.0
+    if operation == "directed":
+        return math.inf if abs(b) <= db else da
     return sum(error for _, error in given)
 
 
@@ -207,5 +216,6 @@ OPERATIONS: dict[str, Callable[..., float]] = {
     "tanh": math.tanh,
     "abs": abs,
     "sign": lambda a: float((a > 0) - (a < 0)),
+    "directed": lambda size, a: size * float((a > 0) - (a < 0)),
     "pow": math.pow,
 }

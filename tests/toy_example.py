@@ -25,7 +25,7 @@ def example() -> Any:
     mass = zz + 2 * mx
     mass.name = "MASS"
     sign = program.function("sign", q[1])
-    torque = mass * program.function("cos", q[0]) + fc * sign - kc / nq * wrench[1]
+    torque = mass * program.function("cos", q[0]) + program.directed(fc, q[1]) - kc / nq * wrench[1]
     torque.name = "register"
     plain = program.function("sqrt", program.function("abs", q[2]) + 1)
     rest = program.function("log", program.constant(2)) * q[0]

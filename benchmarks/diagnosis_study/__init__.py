@@ -2,6 +2,6 @@
 
 ``make study-diagnosis [cases=N]`` makes the cases of ``study.json`` with the plant of ``tests/plant``, gives robot
 file and runs to ``counterpoise diagnose``, holds its ``diagnosis.json`` against the truth, and writes
-``benchmarks/diagnosis.json`` and ``docs/diagnosis_study.md``. Nothing but what a user would have is given to the
-command.
+``benchmarks/diagnosis_cases.jsonl``, ``benchmarks/diagnosis.json`` and ``docs/diagnosis_study.md``. Nothing but what a
+user would have is given to the command.
 """

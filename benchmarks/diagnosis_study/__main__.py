@@ -1,4 +1,4 @@
-"""``python -m benchmarks.diagnosis_study [--cases N] [--cells A B ...]``: the study, its JSON and its page."""
+"""``python -m benchmarks.diagnosis_study [--cases N] [--cells A B ...]``: the study, its results and its page."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from math import inf
 from typing import Any
 
+from benchmarks.diagnosis_study.archive import restore, store
 from benchmarks.diagnosis_study.drawing import MODES, cells
 from benchmarks.diagnosis_study.page import JSON, tables, write
 from benchmarks.diagnosis_study.runner import Plan, folder_of_results, kept, run
@@ -28,6 +29,7 @@ def main() -> int:
     wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
     plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
     made, folder = [], folder_of_results(plan.reserved)
+    restore(folder)
     for one in run(plan, folder):
         made.append(one)
         print(_line(one), flush=True)
@@ -36,7 +38,8 @@ def main() -> int:
     if told.development:
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))
         return 0
-    record = {"cases": told.cases, **found, "results": [_short(one) for one in results]}
+    store(folder)
+    record = {"cases": told.cases, "code": folder.name, **found}
     JSON.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     write(results, found)
     return int(any("failed" in one for one in results))
@@ -50,11 +53,6 @@ def _line(one: Mapping[str, Any]) -> str:
         score = one["score"]
         said = f"{score['verdict']}: {', '.join(score['named']) or 'nothing'} ({one['seconds']:.0f} s)"
     return f"{case['cell']} {case['mode']} {case['robot']} {case['motion']} {case['seed']}: {hidden} -> {said}"
-
-
-def _short(one: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what the files of single cases keep."""
-    return {key: value for key, value in one.items() if key not in ("answer", "truth")}
 
 
 if __name__ == "__main__":

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Container, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -13,19 +11,19 @@ from dataclasses import asdict, dataclass
 from hashlib import sha256
 from itertools import islice
 from math import inf
+from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from benchmarks.diagnosis_study.asking import diagnose
 from benchmarks.diagnosis_study.baselines import named_by_baselines
-from benchmarks.diagnosis_study.case import KNOWN, Case, Hidden
+from benchmarks.diagnosis_study.case import Case, Hidden
 from benchmarks.diagnosis_study.case import case as case_of
 from benchmarks.diagnosis_study.drawing import cases
 from benchmarks.diagnosis_study.making import made
-from benchmarks.diagnosis_study.runs import FITTED, NAMES
 from benchmarks.diagnosis_study.scoring import scored
 from benchmarks.diagnosis_study.sizing import OutOfReach
-from tests.plant.robot_file import PRIOR
 from tests.plant.simulate import RanAway
 
 ROOT = Path(__file__).parents[2]
@@ -35,8 +33,6 @@ RESULTS = ROOT / "build" / "diagnosis_study"
 _SOURCES = ("generator", "identification", "templates", "tests/plant", "benchmarks/diagnosis_study")
 #: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
 MISMATCH = 0.05
-#: Seconds after which a diagnosis counts as broken.
-_PATIENCE = 600
 #: Processes share the cores by cases.
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 #: Draws for each case that is wanted: not every law reaches every size on every joint.
@@ -48,27 +44,6 @@ BASELINES = ("null", "one_3x", "one_1x", "outside")
 Command = Callable[[Path, Case], dict[str, Any]]
 #: Robot, mode, motion and what is hidden.
 Place = tuple[str, str, str, Hidden]
-
-
-def diagnose(folder: Path, case: Case) -> dict[str, Any]:
-    """What ``counterpoise diagnose`` answers on the files in a folder; the last line of its complaint if it fails."""
-    runs = [str(folder / f"{name}.csv") for name in NAMES]
-    words = ["diagnose", str(folder / "robot.yaml"), *runs[:FITTED], "--validate", runs[FITTED], "--test", runs[-1]]
-    if case.mode == KNOWN:
-        words += ["--prior", PRIOR]
-    out = folder / "out"
-    done = subprocess.run(
-        [sys.executable, "-m", "generator", *words, "--out", str(out)],
-        capture_output=True,
-        env={**os.environ, **_ONE_THREAD},
-        text=True,
-        timeout=_PATIENCE,
-        check=False,
-    )
-    if done.returncode:
-        lines = done.stderr.strip().splitlines()
-        return {"failed": f"exit status {done.returncode}: {lines[-1] if lines else 'nothing said'}"}
-    return dict(json.loads((out / "diagnosis.json").read_text(encoding="utf-8")))
 
 
 def result(
@@ -136,7 +111,8 @@ def run(plan: Plan, folder: Path) -> Iterator[dict[str, Any]]:
     barren: set[Place] = set()
     queue = _queue(plan, counted, barren)
     running: set[Future[dict[str, Any]]] = set()
-    with ProcessPoolExecutor(plan.processes) as pool:
+    os.environ |= _ONE_THREAD  # read where a process begins
+    with ProcessPoolExecutor(plan.processes, get_context("spawn")) as pool:
         while True:
             room = plan.processes - len(running) if time.monotonic() < end else 0
             running |= {pool.submit(_kept, folder, *one) for one in islice(queue, room)}
@@ -183,8 +159,6 @@ def _kept(folder: Path, case: Case, baselines: bool) -> dict[str, Any]:
         return dict(json.loads(file.read_text(encoding="utf-8")))
     try:
         done = result(case, baselines=baselines and case.cell in BASELINES)
-    except subprocess.TimeoutExpired:
-        done = {"case": case.record(), "failed": f"no answer within {_PATIENCE} s"}
     except (ValueError, ArithmeticError) as error:
         done = {"case": case.record(), "failed": f"{type(error).__name__}: {error}"}
     half = file.with_suffix(".part")

@@ -27,7 +27,7 @@ _TRIGONOMETRY = ("sin", "cos")
 
 #: Operations on lanes, under the names that the template gives them.
 _LANGUAGE = Language(
-    calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign")},
+    calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign", "directed")},
     statement="const lanes {name} = {value};",
     literal="R({value})",
     reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "PITCH", *INPUTS},
@@ -71,6 +71,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "trigonometry": [name for name in _TRIGONOMETRY if name in used],
         "uses_sign": "sign" in used,
+        "uses_directed": "directed" in used,
         "spread": _spread([*prepared.moving[DYNAMICS], *prepared.moving[REGRESSOR]]),
     }
     return {

@@ -90,6 +90,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "prepare": _prepare(prepared, prefix, constants),
         "mathematics": {name: function for name, function in MATHEMATICS.items() if name in used},
         "uses_sign": "sign" in used,
+        "uses_directed": "directed" in used,
         "block": BLOCK,
     }
     return {

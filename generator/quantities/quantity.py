@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from generator.quantities import signals
+from generator.symbolic.directed import directed
 from generator.symbolic.factoring import factored
 from generator.symbolic.function import Function, Output, Signal, Sparsity
 from generator.symbolic.model import Model
@@ -46,8 +47,7 @@ class Quantity:
             if nodes.shape != signal.shape:
                 raise ValueError(f"{self.name}: {signal.name} is {nodes.shape}, its signal {signal.shape}")
             outputs.append(Output(signal, tuple(nodes.ravel())))
-        if not model.plain:
-            outputs = _factored(model, outputs)
+        outputs = _rewritten(model, outputs)
         sparsity = self.sparsity(model) if self.sparsity else None
         inputs = (*self.inputs(model), *_further(model, self.inputs(model), outputs))
         return Function(self.name, self.summary, self.details, inputs, tuple(outputs), model.program, sparsity)
@@ -64,6 +64,9 @@ def _further(model: Model, inputs: Sequence[Signal], outputs: Sequence[Output]) 
     return [signal for signal in candidates if signal.name in read]
 
 
-def _factored(model: Model, outputs: Sequence[Output]) -> list[Output]:
-    nodes = iter(factored(model.program, [node for output in outputs for node in output.nodes]))
+def _rewritten(model: Model, outputs: Sequence[Output]) -> list[Output]:
+    roots = [node for output in outputs for node in output.nodes]
+    if not model.plain:
+        roots = factored(model.program, roots)
+    nodes = iter(directed(model.program, roots))
     return [Output(output.signal, tuple(next(nodes) for _ in output.nodes)) for output in outputs]

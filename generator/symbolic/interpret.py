@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,14 @@ _UNARY = {
     "abs": np.abs,
     "sign": np.sign,
 }
-_BINARY = {"add": np.add, "sub": np.subtract, "mul": np.multiply, "div": np.divide, "pow": np.power}
+_BINARY: dict[str, Callable[[Any, Any], Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "pow": np.power,
+    "directed": lambda size, x: size * np.sign(x),
+}
 
 
 def evaluate(function: Function, inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:

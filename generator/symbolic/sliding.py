@@ -43,7 +43,8 @@ def sliding(program: Program, outputs: Nodes, speeds: Nodes, directions: Nodes) 
 def replaced(program: Program, roots: Sequence[Node], given: Mapping[Node, Node]) -> list[Node]:
     """``roots`` with the nodes ``given`` replaced."""
     done = dict(given)
-    for node in program.reachable(roots, known=given):
+    # As they were made: what is deep in a sum stays deep, and printed code keeps its order.
+    for node in sorted(program.reachable(roots, known=given), key=lambda n: n.index):
         if any(done[argument] is not argument for argument in node.arguments):
             done[node] = program.apply(node.operation, [done[argument] for argument in node.arguments])
             if node.name and done[node].name is None and done[node].arguments:

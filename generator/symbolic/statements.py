@@ -26,8 +26,8 @@ _ROUNDING = Fraction(1, 10**40)
 class Node:
     """One operation of a program; made by the program only, compared by identity.
 
-    ``operation`` is ``constant``, ``input``, ``add``, ``sub``, ``mul``, ``div``, ``neg``, ``pow`` or one of
-    ``FUNCTIONS``. ``value`` is the fraction of a constant, ``(signal, index)`` of an input, else None.
+    ``operation`` is ``constant``, ``input``, ``add``, ``sub``, ``mul``, ``div``, ``neg``, ``pow``, ``directed`` or one
+    of ``FUNCTIONS``. ``value`` is the fraction of a constant, ``(signal, index)`` of an input, else None.
     ``parameter_only`` tells that no input signal of the moving robot is among its ancestors.
     """
 
@@ -261,6 +261,12 @@ class Program:
             return self.function(name, size)
         return self._intern(name, (a,))
 
+    def directed(self, size: Node, a: Node) -> Node:
+        """``size`` sign(a) for a parameter ``size``: chosen among it, its negative and zero, without a product."""
+        negative, size = self._sign_and_size(size)
+        node = self._intern("directed", (size, a))
+        return self.negate(node) if negative else node
+
     def apply(self, operation: str, arguments: Sequence[Node]) -> Node:
         """The node of an operation by its name, on as many arguments as it takes."""
         if operation == "add":
@@ -277,6 +283,8 @@ class Program:
             exponent = arguments[1].number
             assert exponent is not None
             return self.power(arguments[0], exponent)
+        if operation == "directed":
+            return self.directed(*arguments)
         return self.function(operation, arguments[0])
 
     # -- reading --------------------------------------------------------------------------------------------------

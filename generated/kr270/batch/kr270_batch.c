@@ -288,6 +288,16 @@ INLINE lanes lanes_sign(lanes x)
     return y;
 }
 
+/* size sign(x), without a product. */
+INLINE lanes lanes_directed(real size, lanes x)
+{
+    lanes y = x;
+    for (size_t l = 0; l < LANES; ++l) {
+        LANE(y, l) = (LANE(x, l) > R(0.0)) ? size : ((LANE(x, l) < R(0.0)) ? -size : R(0.0));
+    }
+    return y;
+}
+
 #define NQ KR270_NQ
 #define NBASE KR270_NBASE
 
@@ -563,7 +573,7 @@ INLINE void dynamics_lanes(
     const lanes t66 = t26*t61 - (prepared->S4_11n*U4_21 - (prepared->S4_22*U4_12n - t55));
     const lanes n4_3 = t25*t65 + t66;
     const lanes t67 = R(0.05)*f4_2n - (prepared->YZ3*U3_12n + (prepared->XZ3*t9 + t52));
-    const lanes t68 = prepared->Fv1*qd[0] + (prepared->Fc1*lanes_sign(qd[0]) - t51);
+    const lanes t68 = prepared->Fv1*qd[0] + (lanes_directed(prepared->Fc1, qd[0]) - t51);
     const lanes t69 = prepared->YZ4*U4_12n + (prepared->XY4*U4_32 - prepared->MS4_1*VPu4_3);
     const lanes U4_31n = t40 - WP4_2n;
     const lanes t70 = prepared->MS5_2*VP5_1 - (prepared->MS5_1 + MSu6_1)*VP5_2;
@@ -586,7 +596,7 @@ INLINE void dynamics_lanes(
     const lanes t86 = lanes_sin(t85);
     const lanes t87 = lanes_sqrt(R(0.51908705) + R(0.25725016)*lanes_cos(t85));
     const lanes t88 = t86*prepared->p51 + t86*prepared->p52/t87;
-    const lanes t89 = prepared->Fv2*qd[1] + (prepared->Fc2*lanes_sign(qd[1]) - t88);
+    const lanes t89 = prepared->Fv2*qd[1] - (t88 - lanes_directed(prepared->Fc2, qd[1]));
     const lanes t90 = qdd[0]*t83 + (U1_11n*t81 + (R(8.918181818181818)*t3 + t89));
     const lanes t91 = prepared->MS4_1*U4_31n - prepared->MS4_2*U4_32 + prepared->MS3_2*VPu4_3;
     const lanes t92 = t25*t49 - (t26*t44 - t91);
@@ -607,10 +617,10 @@ INLINE void dynamics_lanes(
     const lanes t104 = prepared->Fv6*qd[5] + prepared->Ia6*qdd[5];
     tau[0] = prepared->Off1 + t84;
     tau[1] = prepared->Off2 - (t99 + t100);
-    tau[2] = prepared->Off3 + (prepared->Fc3*lanes_sign(qd[2]) + t101 - t99);
-    tau[3] = prepared->Off4 + (prepared->Fc4*lanes_sign(qd[3]) + t102 + n4_3);
-    tau[4] = prepared->Off5 + (prepared->Fc5*lanes_sign(qd[4]) + t103 + n5_3);
-    tau[5] = prepared->Off6 + (prepared->Fc6*lanes_sign(qd[5]) + t104 + t60);
+    tau[2] = prepared->Off3 - (t99 - (lanes_directed(prepared->Fc3, qd[2]) + t101));
+    tau[3] = prepared->Off4 + (n4_3 + (lanes_directed(prepared->Fc4, qd[3]) + t102));
+    tau[4] = prepared->Off5 + (n5_3 + (lanes_directed(prepared->Fc5, qd[4]) + t103));
+    tau[5] = prepared->Off6 + (t60 + (lanes_directed(prepared->Fc6, qd[5]) + t104));
 }
 
 /* The nonzeros of LANES samples: each to its entry's place. */

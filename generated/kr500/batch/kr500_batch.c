@@ -288,6 +288,16 @@ INLINE lanes lanes_sign(lanes x)
     return y;
 }
 
+/* size sign(x), without a product. */
+INLINE lanes lanes_directed(real size, lanes x)
+{
+    lanes y = x;
+    for (size_t l = 0; l < LANES; ++l) {
+        LANE(y, l) = (LANE(x, l) > R(0.0)) ? size : ((LANE(x, l) < R(0.0)) ? -size : R(0.0));
+    }
+    return y;
+}
+
 #define NQ KR500_NQ
 #define NBASE KR500_NBASE
 
@@ -563,7 +573,7 @@ INLINE void dynamics_lanes(
     const lanes t67 = Su6_12*t39 + (Su6_22*t40 - (Su6_23*(t35 - t30) - (Su6_13n*t27 - t66)));
     const lanes t68 = t25*t62 - (prepared->S4_11n*U4_21 - (prepared->S4_22*U4_12n - t54));
     const lanes t69 = t24*t67 + t68;
-    const lanes t70 = prepared->Fv1*qd[0] + (prepared->Fc1*lanes_sign(qd[0]) - t49);
+    const lanes t70 = prepared->Fv1*qd[0] + (lanes_directed(prepared->Fc1, qd[0]) - t49);
     const lanes t71 = prepared->YZ4*U4_12n + (prepared->XY4*U4_32 - prepared->MS4_1*t56);
     const lanes U4_31n = t38 - WP4_2n;
     const lanes t72 = prepared->MS5_2*t57 - (prepared->MS5_1 + MSu6_1)*t65;
@@ -586,7 +596,7 @@ INLINE void dynamics_lanes(
     const lanes t89 = q[1] - R(1.6293);
     const lanes t90 = lanes_sqrt(R(0.97741405) + R(0.39874956)*lanes_cos(t89));
     const lanes t91 = lanes_sin(t89)*prepared->p2/(t90*(t90 - R(1.4767799349556487)));
-    const lanes t92 = t91 + (prepared->Fv2*qd[1] + prepared->Fc2*lanes_sign(qd[1]));
+    const lanes t92 = t91 + (prepared->Fv2*qd[1] + lanes_directed(prepared->Fc2, qd[1]));
     const lanes t93 = qdd[0]*t87 + (U1_11n*t85 + (R(9.570731707317073)*t3 + t92));
     const lanes t94 = prepared->MS4_1*U4_31n - prepared->MS4_2*U4_32 + prepared->MS3_2*t56;
     const lanes t95 = t24*t47 - (t25*t42 - t94);
@@ -607,10 +617,10 @@ INLINE void dynamics_lanes(
     const lanes t107 = prepared->Fv6*qd[5] + prepared->Ia6*qdd[5];
     tau[0] = prepared->Off1 + t88;
     tau[1] = prepared->Off2 - (t102 + t103);
-    tau[2] = prepared->Off3 + (prepared->Fc3*lanes_sign(qd[2]) + t104 - t102);
-    tau[3] = prepared->Off4 + (prepared->Fc4*lanes_sign(qd[3]) + t105 + t69);
-    tau[4] = prepared->Off5 + (prepared->Fc5*lanes_sign(qd[4]) + t106 + t76);
-    tau[5] = prepared->Off6 + (prepared->Fc6*lanes_sign(qd[5]) + t107 + t61);
+    tau[2] = prepared->Off3 - (t102 - (lanes_directed(prepared->Fc3, qd[2]) + t104));
+    tau[3] = prepared->Off4 + (t69 + (lanes_directed(prepared->Fc4, qd[3]) + t105));
+    tau[4] = prepared->Off5 + (t76 + (lanes_directed(prepared->Fc5, qd[4]) + t106));
+    tau[5] = prepared->Off6 + (t61 + (lanes_directed(prepared->Fc6, qd[5]) + t107));
 }
 
 /* The nonzeros of LANES samples: each to its entry's place. */

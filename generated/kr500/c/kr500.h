@@ -31,21 +31,21 @@
  *                                         mul      add      div  sin/cos    other
  *   balancer                                3        3        2        2        1
  *   base_parameters                        19       49        0        0        0
- *   bias                                  213      197        1       12        7
- *   direct_dynamics                       389      365        6       12        7
- *   direct_dynamics_loaded                577      498        7       12        7
+ *   bias                                  207      197        1       12        7
+ *   direct_dynamics                       383      365        6       12        7
+ *   direct_dynamics_loaded                571      498        7       12        7
  *   direct_dynamics_sliding               389      365        6       12        1
  *   direct_dynamics_smooth                399      371       12       12        7
- *   dynamics                              339      327        1       12        7
- *   flexible_direct_dynamics              407      406       12       12       13
+ *   dynamics                              333      327        1       12        7
+ *   flexible_direct_dynamics              395      406       12       12       13
  *   flexible_direct_dynamics_sliding      407      412       12       12        1
  *   flexible_direct_dynamics_smooth       429      424       24       12       13
- *   flexible_inverse_dynamics             261      267        1       12       13
+ *   flexible_inverse_dynamics             249      267        1       12       13
  *   flexible_regressor                    386      306        1       12       13
  *   gravity                                25       18        0       10        0
  *   inertia_matrix                        106      104        0       10        0
- *   inverse_dynamics                      237      226        1       12        7
- *   inverse_dynamics_loaded               335      297        1       12        7
+ *   inverse_dynamics                      231      226        1       12        7
+ *   inverse_dynamics_loaded               329      297        1       12        7
  *   inverse_dynamics_standard             372      332        1       12        7
  *   jacobians                              78       54        0       10        0
  *   joint_position                          9        3        0        0        0

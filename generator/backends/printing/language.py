@@ -16,8 +16,9 @@ _MARGIN = 12
 class Language:
     """Facts of a target language.
 
-    ``calls`` maps an operation of the program (``sin``, ``pow``, ...) to what is called for it. ``statement`` and
-    ``literal`` are formats of ``name`` and ``value``. ``reserved`` are the words that no variable may be called.
+    ``calls`` maps an operation of the program (``sin``, ``pow``, ...) to what is called for it; where it does not hold
+    ``directed``, that is a product with ``sign``. ``statement`` and ``literal`` are formats of ``name`` and ``value``.
+    ``reserved`` are the words that no variable may be called.
     """
 
     calls: Mapping[str, str]

@@ -150,6 +150,9 @@ class _Printer:
             sign, binding = _INFIX[node.operation]
             left, right = node.arguments
             return _Text(f"{self._within(left, binding)}{sign}{self._within(right, binding + 1)}", binding)
+        if node.operation == "directed" and node.operation not in self._language.calls:
+            size, of = self._within(node.arguments[0], _PRODUCT), self.text(node.arguments[1]).text
+            return _Text(f"{size}*{self._language.calls['sign']}({of})", _PRODUCT)
         arguments = ", ".join(self.text(argument).text for argument in node.arguments)
         return _Text(f"{self._language.calls[node.operation]}({arguments})", _ATOM)
 
