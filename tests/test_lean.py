@@ -180,6 +180,13 @@ def test_no_equation_is_longer_than_the_textbooks(path: Path) -> None:
     assert [n for n in names if lean.functions[n].count.total > plain.functions[n].count.total] == []
 
 
+@pytest.mark.parametrize("plain", [False, True])
+def test_friction_along_a_speed_takes_no_product(plain: bool) -> None:
+    function = derive(_robot("kr500"), ["inverse_dynamics"], check=False, plain=plain).functions["inverse_dynamics"]
+    assert sum(node.operation == "directed" for node in function.moving) == 6
+    assert not any(node.operation == "sign" for node in function.moving)
+
+
 def test_products_of_sums_are_multiplied_out_where_that_is_shorter() -> None:
     program = Program()
     a, b, c, d, f, g, x = (program.input("q", index) for index in range(7))
