@@ -103,7 +103,7 @@ lock: ## resolve the lock files anew (asks the package registry)
 	build/lock/bin/uv pip compile --quiet pyproject.toml --extra identification --group build --group test --group bench \
 	    --constraint requirements-test.lock $(LOCKING) --output-file requirements-bench.lock
 
-study-diagnosis: $(TESTING) ## hide effects in simulated robots and see what the diagnosis names; cases=N of each kind
+study-diagnosis: $(TESTING) ## hide effects in simulated robots; what the diagnosis names, into docs/diagnosis_study.md; cases=N of each kind (200: thousands of runs)
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.diagnosis_study $(if $(cases),--cases $(cases)) $(options)
 
 twins: $(TESTING) ## derive the simulated twins of the report's robots anew, into robots/ and docs/

@@ -149,7 +149,7 @@ def main() -> None:
         path, read(path), Request([a, b], [c], [d]), FOLDER / "out", lambda *about: {REPORT: report(*about)}
     )
     assert new is not None
-    printed = [*summary(found), *tested(new), f"files            {', '.join(files)} in out/"]
+    printed = [*summary(found), *tested(new), f"files            {', '.join(files)} in build/example_diagnosis/out/"]
     output = "\n".join(["```text", *printed, "```"])
     readme, page = (
         replaced((ROOT / name).read_text(encoding="utf-8"), "example output", output) for name in (README, PAGE)

@@ -29,16 +29,18 @@ def replace(folder: Path, files: Mapping[str, bytes]) -> None:
 def replacing(folder: Path, shared: str = "") -> Iterator[Path]:
     """A fresh folder to write into; when the context ends well its entries replace those of ``folder``, all or none.
 
-    That ``folder`` can be written is looked at first. Of its entry ``shared`` each entry is replaced by itself.
+    That ``folder`` can be written is tried first. Of its entry ``shared`` each entry is replaced by itself. Until then
+    all of it is in a hidden folder: in ``folder``, where that is there, else beside it.
     """
+    with _written(folder / shared):
+        _check_shared(folder, shared)
     with _written(folder):
-        _usable(folder)
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        temporary = tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent)
+        temporary = tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=_beside(folder))
     with temporary as name:
         fresh, stale = Path(name, "fresh"), Path(name, "stale")
-        fresh.mkdir()
-        stale.mkdir()
+        with _written(folder):
+            fresh.mkdir()
+            stale.mkdir()
         yield fresh
         with _written(folder):
             folder.mkdir(exist_ok=True)
@@ -56,11 +58,31 @@ def _written(folder: Path) -> Iterator[None]:
         ) from error
 
 
-def _usable(folder: Path) -> None:
+def _beside(folder: Path) -> Path:
+    """Where what becomes part of ``folder`` can wait; it has to be on the same file system to be moved."""
+    if folder.is_dir():
+        # Its parent may be on another one, where the folder is a link or a mount point, or may not be written.
+        return folder
     if os.path.lexists(folder):
-        code = errno.EEXIST if not folder.is_dir() else 0 if os.access(folder, os.W_OK | os.X_OK) else errno.EACCES
-        if code:
-            raise OSError(code, os.strerror(code))
+        raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST))
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    return folder.parent
+
+
+def _check_shared(folder: Path, shared: str) -> None:
+    """Refuses an entry ``shared`` into which nothing of the folder can be moved at the end."""
+    entry = folder / shared
+    if not shared or not os.path.lexists(entry):
+        return
+    code = 0
+    if not entry.is_dir():
+        code = errno.EEXIST
+    elif not os.access(entry, os.W_OK | os.X_OK):
+        code = errno.EACCES
+    elif entry.stat().st_dev != folder.stat().st_dev:
+        code = errno.EXDEV
+    if code:
+        raise OSError(code, os.strerror(code))
 
 
 def _entries(fresh: Path, shared: str) -> list[str]:

@@ -14,6 +14,9 @@ from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from identification.recording import Array
 
+#: What a file states for joints that no motion limits or warms [A, K].
+NEVER = 1e6
+
 
 def true_positions(q: Array, robot: Robot) -> Array:
     """Recorded joint positions (n x N) [rad, m] with their offsets."""
@@ -24,21 +27,28 @@ def true_positions(q: Array, robot: Robot) -> Array:
 def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> Array | None:
     """How warm each joint's drive is (n x N), ``t`` (N) [s] after the recording began; None if nothing says it.
 
-    By the ``rises`` [K] of the temperatures ``temp1`` ... (N each) since then over ``warm_rise`` where both are there,
-    else 1 - exp(-t/warm_up_time).
+    By the rise [K] of its temperature ``temp1`` ... (N) since then, one of ``rises``, over its ``warm_rise``; without
+    the one or the other 1 - exp(-t/warm_up_time). A drive of which neither tells, and on whose warmth nothing depends,
+    has rows that are no numbers.
 
-    Raises InputError where an effect or the torque constants depend on it and nothing says it.
+    Raises InputError where an effect or a torque constant depends on it and nothing says it.
     """
-    signals, names = robot.signals, [f"temp{joint.number}" for joint in robot.moving]
-    if signals.warm_rise and all(name in rises for name in names):
-        return np.asarray(np.stack([rises[name] for name in names]) / _column(signals.warm_rise))
-    if signals.warm_up_time:
-        return warming_up(t, _column(signals.warm_up_time))
-    if needs_warmth(robot):
-        problem = f"nothing says how warm the drives of {robot.name} are, on which its torques depend"
-        expected = "warm_up_time, or warm_rise and columns temp, in section signals of the robot file"
-        raise InputError(place, problem, expected)
-    return None
+    signals, needed = robot.signals, _warm_joints(robot)
+    found = []
+    for k, joint in enumerate(robot.moving):
+        rise, whole = rises.get(f"temp{joint.number}"), float(signals.warm_rise[k]) if signals.warm_rise else NEVER
+        if rise is not None and whole < NEVER:
+            found.append(rise / whole)
+        elif signals.warm_up_time:
+            found.append(warming_up(t, float(signals.warm_up_time[k])))
+        elif joint.number in needed:
+            problem = f"nothing says how warm the drive of joint {joint.number} is, on which torques depend"
+            ways = [f"a column temp{joint.number}", "warm_up_time in section signals of the robot file"]
+            expected = ", or ".join(ways if whole < NEVER else [ways[1], f"warm_rise there and {ways[0]}"])
+            raise InputError(place, problem, expected)
+        else:
+            found.append(np.full(len(t), np.nan))
+    return np.stack(found) if np.any(np.isfinite(found)) else None
 
 
 def warming_up(t: Array, warm_up_time: Array | float) -> Array:
@@ -46,10 +56,11 @@ def warming_up(t: Array, warm_up_time: Array | float) -> Array:
     return np.asarray(1 - np.exp(-t / warm_up_time))
 
 
-def needs_warmth(robot: Robot) -> bool:
-    """Whether torques depend on how warm the drives are."""
-    drifts = robot.drives is not None and any(robot.drives.torque_drift)
-    return drifts or any("warmth" in one.effect.needs for one in effects_of(robot))
+def _warm_joints(robot: Robot) -> set[int]:
+    """Numbers of the joints on whose drives' warmth torques depend."""
+    drift = robot.drives.torque_drift if robot.drives is not None else ()
+    drifting = {joint.number for joint, part in zip(robot.moving, drift, strict=False) if part}
+    return drifting | {one.site.joint.number for one in effects_of(robot) if "warmth" in one.effect.needs}
 
 
 def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
@@ -66,8 +77,10 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     motor = np.asarray(np.linalg.solve(N.T, tau), dtype=float)
     if signals.torque_gain:
         motor = _column(signals.torque_gain) * motor
-    if drift and warmth is not None:
-        motor = (1 + np.array([[float(part)] for part in drift]) * warmth) * motor
+    if warmth is not None:
+        for k, part in enumerate(drift):
+            if part:
+                motor[k] *= 1 + float(part) * warmth[k]
     if signals.torque_delay:
         motor = _earlier(motor, signals.torque_delay, period)
     return np.asarray(N.T @ motor, dtype=float)

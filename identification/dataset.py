@@ -40,7 +40,8 @@ class Run:
     """One run of n joints and N samples, samples along the last axis.
 
     ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``unusable``
-    marks samples whose effort was cut off. ``warmth`` of the drives (n x N) is there where the robot file says it.
+    marks samples whose effort was cut off. ``by_motors`` tells that both were recorded on the motor side and brought
+    over by the file's ratios. ``warmth`` of the drives (n x N) is there where the robot file says it.
     ``others`` are the file's further columns of known meaning by name (N each). ``began`` are the time ``t`` and the
     temperatures with which the recording began that the run is a part of, the run's own where they are not given.
     ``notes`` tell every repair.
@@ -54,6 +55,7 @@ class Run:
     tau: Array
     payload: Payload | None = None
     unusable: NDArray[np.bool_] | None = None
+    by_motors: bool = False
     warmth: Array | None = None
     others: Mapping[str, Array] = field(default_factory=dict)
     began: Mapping[str, float] = field(default_factory=dict)
@@ -134,7 +136,12 @@ def _parsed(source: str) -> tuple[Path, float, float]:
 
 def part_of(source: str, start: float, end: float) -> str:
     """The source of a part of ``source``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
-    return f"{_parsed(source)[0]}@{start:.9g}:{end:.9g}"
+    return f"{_parsed(source)[0]}@{_seconds(start)}:{_seconds(end)}"
+
+
+def _seconds(t: float) -> str:
+    """To a microsecond, whatever the clock counts from."""
+    return f"{round(t, 6):.16g}"
 
 
 def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
@@ -200,7 +207,18 @@ def _run(
     place = where(None, "t")
     began = {name: value for name, value in beginning.began.items() if name == "t" or name.startswith("temp")}
     run = Run(
-        source, place, ticks.start, ticks.period, q, tau, payload, unusable, None, others, began, recording.sha256
+        source,
+        place,
+        ticks.start,
+        ticks.period,
+        q,
+        tau,
+        payload,
+        unusable,
+        by_motors=at.stem == "qm" and effort.stem != "tau",
+        others=others,
+        began=began,
+        sha256=recording.sha256,
     )
     return replace(_corrected(run, robot), notes=tuple(notes))
 

@@ -45,7 +45,7 @@ class Known:
         for stem, block in (("qs", run.qs), ("temp", run.temperature)):
             if block is not None:
                 others |= {f"{stem}{j + 1}": column for j, column in enumerate(block.T)}
-        recorded = Recorded("run", Place("run"), 0.0, 1 / run.rate, run.q.T, run.tau.T, others=others)
+        recorded = Recorded("run", Place("run"), 0.0, 1 / run.rate, run.q.T, run.tau.T, by_motors=True, others=others)
         one = sampled(recorded, Recipe().changed(cutoff=CUTOFF, factor=1, standstill=0.0), self.regressors)
         return Scene(one, self.regressors, self.values)
 

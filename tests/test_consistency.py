@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from generator.derivation import derive
+from generator.errors import InputError
 from generator.reference import sample
 from generator.resources import robots
 from generator.robot.description import ParameterSet, ParameterValue
@@ -196,9 +197,76 @@ def test_the_rest_of_a_robot_file_stays(path: Path, tmp_path: Path) -> None:
     assert set(again) == {*kept, "fitted"}
 
 
-def test_a_section_on_one_line_is_refused() -> None:
-    with pytest.raises(ValueError, match="section parameters is not written one key a line"):
-        with_parameter_set(PENDULUM + "parameters: {}\n", SET)
+CAD = "cad: {values: {Fc1: 3 N m}}"
+JSON = """{"name": "pendulum", "gravity": ["0 m/s2", "-9.81 m/s2", "0 m/s2"],
+ "joints": [{"j": 1, "sigma": 0, "alpha": 0, "d": 0, "theta": "q1", "r": 0}],
+ "effects": [{"effect": "viscous_friction", "joints": "all"}, {"effect": "coulomb_friction", "joints": "all"}]"""
+
+
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        ("parameters:\n    cad:\n        values: {Fc1: 3 N m}\n", "\n    fitted:\n        description: "),
+        (f"parameters:\n {CAD}\n\nsource: me\n", "\n\n fitted:\n  description: "),
+        (f"parameters:\n    fitted:\n        values: {{Fc1: 1 N m}}\n\n    # cad\n    {CAD}\n", "\n\n    # cad\n"),
+        (f'"parameters":\n    {CAD}\n    "fitted": {{values: {{Fc1: 1 N m}}}}', "\n    fitted:\n"),
+        (f"parameters: # two\n  {CAD}\n  # not yet\n  # named\n# the end\nsource: me", "# named\n\n  fitted:"),
+        ("parameters: {}\n", "\nparameters:\n  fitted:\n"),
+        ("parameters: { }  # none yet\nsource: me\n", "\nparameters:  # none yet\n  fitted:\n"),
+        ("parameters:\n  {}\n", "\nparameters:\n  fitted:\n"),
+        ("parameters: {  # none yet\n}\n", "{  # none yet\n  fitted: {"),
+        (f"parameters: {{{CAD}}}  # flow\n", "  }}  # flow\n"),
+        (f"parameters: {{\n  {CAD},  # flow\n}}\nsource: me\n", "  },  # flow\n}\nsource: me\n"),
+        (f"parameters: {{{CAD}  # flow\n}}", "  }  # flow\n}"),
+        (f"parameters: {{fitted: {{values: {{Fc1: 1 N m}}}}, {CAD}}}", f"  }}, {CAD}}}\n"),
+        (f"parameters:\r\n    {CAD}\r\n\r\n# the end\r\nsource: me\r\n", "\n\n# the end\nsource: me\n"),
+        ("source: me\n# the end\n...\n", "# the end\n\nparameters:\n  fitted:\n"),
+    ],
+)  # fmt: skip
+def test_a_section_keeps_its_own_layout(text: str, kept: str, tmp_path: Path) -> None:
+    """Indentation, braces, comments and the other sets, whatever the file's line ends and last key."""
+    text = PENDULUM + text
+    written = with_parameter_set(text, SET)
+    assert kept in written
+    one = read_back(written, tmp_path)
+    assert {name: value.value for name, value in one.values.items()} == READ_BACK
+    assert (one.description, one.other_values["ML"].value) == (SET.description, 5)
+    robot = read(tmp_path / "robot.yaml")
+    assert list(robot.parameter_sets.keys() - {"fitted"}) == (["cad"] if "cad" in text else [])
+    assert "cad" not in text or robot.parameter_sets["cad"].values["Fc1"].value == 3
+    assert ("source: me" in text) == (robot.source == "me")
+    assert [line for line in text.splitlines() if line.lstrip().startswith("#") and line not in written] == []
+    assert with_parameter_set(written, SET) == written
+    assert max(map(len, written.splitlines())) <= 120
+
+
+@pytest.mark.parametrize("section", ["", ', "parameters": {}', ', "parameters": {"cad": {"values": {"Fc1": "3 N m"}}}'])
+def test_a_robot_in_braces_takes_a_set(section: str, tmp_path: Path) -> None:
+    written = with_parameter_set(f"{JSON}{section}}}", SET)
+    assert {name: value.value for name, value in read_back(written, tmp_path).values.items()} == READ_BACK
+    assert len(read(tmp_path / "robot.yaml").parameter_sets) == 1 + ("cad" in section)
+    assert with_parameter_set(written, SET) == written
+
+
+def test_a_set_without_values_is_read_back(tmp_path: Path) -> None:
+    one = ParameterSet("fitted", "nothing known", "made up", {}, SET.other_values)
+    for text in (PENDULUM, PENDULUM + f"parameters: {{{CAD}}}\n"):
+        read_one = read_back(with_parameter_set(text, one), tmp_path)
+        assert (read_one.values, read_one.other_values["ML"].value) == ({}, 5)
+
+
+@pytest.mark.parametrize(
+    ("text", "refusal"),
+    [
+        ("parameters: [cad]\n", "a:10:13: parameters is a list, expected a table with names as keys"),
+        ("parameters: cad\n", "a:10:13: parameters is the text 'cad', expected a table with names as keys"),
+        ("parameters: {cad: 1\n", "a:11:1: not YAML: "),
+    ],
+)
+def test_a_section_that_holds_no_sets_is_refused(text: str, refusal: str) -> None:
+    with pytest.raises(InputError) as refused:
+        with_parameter_set(PENDULUM + text, SET, "a")
+    assert str(refused.value).startswith(refusal)
 
 
 @pytest.mark.parametrize(("value", "expected"), [(123456.7, 123457.0), (1234567.8, 1.23457e6), (-4e-7, 0.0), (0, 0.0)])

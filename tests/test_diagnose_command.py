@@ -223,3 +223,29 @@ def test_what_would_fail_at_the_end_is_refused_first(
     assert done.err.strip().splitlines()[-1].startswith(f"error: {told}")
     assert "making the columns" not in done.err
     assert not (hidden.folder / "bad").exists()
+
+
+@pytest.mark.parametrize(
+    ("robot", "out"),
+    [("out/three_axis.yaml", "out"), ("three_axis.yaml", "."), ("linked.yaml", "out")],
+    ids=["second_round", "here", "link"],
+)
+def test_the_robot_file_is_not_written_over(
+    hidden: Case, robot: str, out: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    Path("three_axis.yaml").write_bytes(Path("arm.yaml").read_bytes())
+    Path("linked.yaml").unlink(missing_ok=True)
+    Path("linked.yaml").symlink_to("out/three_axis.yaml")
+    arguments = ("diagnose", robot, "1.csv", "--validate", "2.csv", "--test", "gone.csv", "--out", out)
+    done = command(*arguments, capsys=capsys)
+    target = "three_axis.yaml" if out == "." else "out/three_axis.yaml"
+    assert done.status == 2
+    assert done.err.strip().splitlines()[-1] == (
+        f"error: {target}:1:1: the mended robot would be written over {robot}, the one that is diagnosed, "
+        "expected another --out"
+    )
+    assert "reading" not in done.err
+    # Nothing is written over the file without findings: the run that is missing is what stops it.
+    done = command(*arguments, "--dry-run", capsys=capsys)
+    assert done.err.strip().splitlines()[-1].startswith("error: gone.csv:1:1: there is no such file")

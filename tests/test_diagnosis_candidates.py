@@ -331,7 +331,7 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
     for candidate in ("position_offset", "torque_gain", "torque_delay", "current_limit", "torque_drift"):
         assert offered([scene], candidate, 2), candidate
         assert not offered([_with(scene, changed)], candidate, 2), candidate
-    for candidate in ("position_offset", "torque_gain", "torque_drift"):
+    for candidate in ("position_offset", "torque_gain", "torque_delay", "torque_drift"):
         assert offered([_with(scene, changed)], candidate, 1), candidate
     unlimited = replace(signals, current_limit=tuple(sympy.Integer(9 if k == 1 else 10**6) for k in range(n)))
     limited = _with(scene, replace(robot, signals=unlimited))

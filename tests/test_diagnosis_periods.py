@@ -183,6 +183,23 @@ def test_blocks_hold_two_periods_where_the_motion_repeats() -> None:
     assert all(end - start > 14.0 for _, start, end in parts(found.train))
 
 
+@pytest.mark.parametrize("start", [0.1, 1700000003.2])
+def test_parts_are_told_apart_whatever_the_clock_counts_from(start: float) -> None:
+    found = roles([recorded("A", start=start, seconds=20.0)], [], [])
+    mine = [*parts(found.train), *parts(found.test)]
+    assert all(end - begin > 3.0 for _, begin, end in mine)
+    assert all(after[1] - before[2] >= 0.39 for before, after in pairwise(mine))
+
+
+@pytest.mark.parametrize("samples", [12, 24])
+def test_a_run_of_few_samples_is_refused(samples: int) -> None:
+    regressors = Regressors(read(find_robot("emps")))
+    q = np.sin(0.1 * np.arange(samples))[None]
+    run = Run("A", Place("A"), 0.0, 0.1, q, np.zeros_like(q))
+    with pytest.raises(InputError, match=rf"A:1:1: {samples} rows .* at 10 Hz\), expected at least \d+"):
+        prepared(run, Recipe(), regressors)
+
+
 def test_a_run_too_short_to_be_split_is_refused() -> None:
     with pytest.raises(InputError, match=r"A:1:1: a run of 1.5 s, expected 2.13 s at least, to be split in time"):
         roles([recorded("A", seconds=1.5)], [], [recorded("T")])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -110,6 +112,17 @@ def test_what_the_set_does_not_tell_is_not_known(regressors: Regressors) -> None
     place = {name: k for k, name in enumerate(regressors.names)}
     unknown = {name for name, k in place.items() if not found.known[k]}
     assert unknown == {"XZ2", "YZ2"}
+
+
+def test_what_is_known_exactly_is_known_best(tmp_path: Path) -> None:
+    """Of zero no part is a standard deviation: as where the set tells none it is one of the largest friction's."""
+    path = tmp_path / "arm.yaml"
+    spreads = {"Fv1": "8, unit: N m s/rad, relative_std: 0", "Fv2": "0, unit: N m s/rad, relative_std: 10"}
+    path.write_text(ARM + "".join(f"      {name}: {{value: {told}}}\n" for name, told in spreads.items()))
+    made = Regressors(read(path))
+    found = prior_of(made.model, "drawing")
+    std = {name: found.precision[k, k] ** -0.5 for k, name in enumerate(made.names) if found.known[k]}
+    assert std == pytest.approx({"Fv1": 8e-4, "Fv2": 8e-3}, rel=1e-3)
 
 
 def test_an_unknown_set_is_refused(regressors: Regressors) -> None:

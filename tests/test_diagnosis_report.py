@@ -18,6 +18,7 @@ from identification.report.diagnose.report import report
 from identification.report.diagnose.subject import Subject
 from identification.report.diagnose.words import values, verdict
 from identification.report.numbers import plain
+from identification.report.titles import titles
 from tests.diagnosed_arm import NOISE, STAYS, Case, case
 from tests.reports import Page
 
@@ -121,6 +122,10 @@ def test_a_shape_that_the_runs_do_not_tell_is_said(named: Case) -> None:
     vague = replace(one, shape_std={"vs": 2 * one.shape["vs"]})
     case = Case(found := replace(named.found, findings=(vague,)), None, report(found))
     assert "The runs tell its torque, but not these values one by one" in case.words
+
+
+def test_runs_of_one_name_are_called_by_their_folders() -> None:
+    assert titles(["mon/run.csv", "tue/run.csv", "tue/other.csv"]) == ["mon/run.csv", "tue/run.csv", "other.csv"]
 
 
 def test_runs_that_were_fitted_are_not_called_untouched(named: Case) -> None:

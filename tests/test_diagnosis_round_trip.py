@@ -1,4 +1,4 @@
-"""Diagnose, robot file, code, diagnose again on fresh runs: a slide, and an arm of seven axes."""
+"""Diagnose, robot file, code, diagnose again on fresh runs: a slide, seven axes, drives, signals, the base."""
 
 from __future__ import annotations
 
@@ -10,16 +10,45 @@ from generator.robot.readers import read
 from identification import recipe as recipes
 from identification.dataset import load
 from identification.diagnosis.command import Request, diagnosed
-from identification.diagnosis.diagnosis import NAMED, NOTHING, diagnose
+from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis, diagnose
+from identification.diagnosis.mending import Mended
 from identification.diagnosis.prepared import prepared
+from identification.diagnosis.priors import prior_of
 from identification.diagnosis.roles import roles
+from identification.diagnosis.untouched import untouched
 from identification.observation import Regressors
 from tests.plant.effect import Effect
-from tests.plant.robot_file import robot_file
+from tests.plant.robot_file import PRIOR, robot_file
 from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
+
+
+def runs(name: str, hidden: Effect, folder: Path) -> list[str]:
+    """Five, of motions of their own."""
+    sources = [str(folder / f"{seed}.csv") for seed in range(1, 6)]
+    for seed, source in enumerate(sources, 1):
+        write_csv(make_run(ROBOTS[name], fourier(seed, period=5.0, periods=3), [hidden], seed=seed), Path(source))
+    return sources
+
+
+def there_and_back(name: str, hidden: Effect, prior: str | None, folder: Path) -> tuple[Diagnosis, Mended, Diagnosis]:
+    """The diagnosis of three runs, the mended robot, and its diagnosis on two fresh ones."""
+    sources = runs(name, hidden, folder)
+    path = folder / "arm.yaml"
+    path.write_text(robot_file(ROBOTS[name]), encoding="utf-8")
+    wanted = Request(sources[:1], sources[1:2], sources[2:3], prior)
+    found, new, _ = diagnosed(path, read(path), wanted, folder / "out", lambda *about: {})
+    assert new is not None
+    assert (folder / "out" / new.generated / "c" / f"{name}.c").is_file()
+
+    robot = read(folder / "out" / f"{name}.yaml")
+    regressors, recipe = Regressors(robot), recipes.recipe_of(name)
+    known = None if prior is None else prior_of(regressors.model, prior)
+    fresh = [load(source, robot, recipe.columns) for source in sources[3:]]
+    ready = [prepared(one, recipe, regressors) for one in fresh]
+    return found, new, diagnose(regressors, ready, roles(fresh[:1], fresh[1:], [], tested=False), known)
 
 
 @pytest.mark.parametrize(
@@ -29,24 +58,31 @@ from tests.plant.trajectories.fourier import fourier
 def test_what_was_found_and_added_is_not_found_again(
     name: str, law: str, joint: int, named: str, tmp_path: Path
 ) -> None:
-    arm = ROBOTS[name]
-    hidden = Effect(law, joint, 0.75 * arm.chain[joint - 1].coulomb)
-    sources = [str(tmp_path / f"{seed}.csv") for seed in range(1, 6)]
-    for seed, source in enumerate(sources, 1):
-        write_csv(make_run(arm, fourier(seed, period=5.0, periods=3), [hidden], seed=seed), Path(source))
-    path = tmp_path / "arm.yaml"
-    path.write_text(robot_file(arm), encoding="utf-8")
-    wanted = Request(sources[:1], sources[1:2], sources[2:3])
-    found, new, _ = diagnosed(path, read(path), wanted, tmp_path / "out", lambda *about: {})
+    hidden = Effect(law, joint, 0.75 * ROBOTS[name].chain[joint - 1].coulomb)
+    found, _, again = there_and_back(name, hidden, None, tmp_path)
     assert found.verdict == NAMED
     assert [(one.hypothesis.effect, one.joints) for one in found.findings] == [(named, (joint,))]
-    assert new is not None
-    assert (tmp_path / "out" / new.generated / "c" / f"{name}.c").is_file()
+    assert (again.verdict, again.findings) == (NOTHING, ())
 
-    robot = read(tmp_path / "out" / f"{name}.yaml")
-    regressors, recipe = Regressors(robot), recipes.recipe_of(name)
-    fresh = [load(source, robot, recipe.columns) for source in sources[3:]]
-    again = diagnose(
-        regressors, [prepared(one, recipe, regressors) for one in fresh], roles(fresh[:1], fresh[1:], [], tested=False)
-    )
+
+@pytest.mark.parametrize(
+    ("law", "size", "named"),
+    [
+        ("torque_gain", 0.15, "torque_gain"),
+        ("gear_ratio", 0.08, "gear_ratio"),
+        ("encoder_offset", 0.05, "position_offset"),
+        ("delay", 4e-3, "torque_delay"),
+        ("torque_constant_drift", 0.3, "torque_drift"),
+        ("base_tilt", 0.05, "base_tilt"),
+    ],
+)
+def test_what_drives_and_signals_and_the_base_lack_is_corrected(
+    law: str, size: float, named: str, tmp_path: Path
+) -> None:
+    """Corrections of recorded runs and of the base's pose, with known parameters: fresh runs show nothing more."""
+    found, new, again = there_and_back("three_axis", Effect(law, 2, size), PRIOR, tmp_path)
+    assert [one.hypothesis.effect for one in found.findings] == [named]
+    tried = untouched(found.found.bank, new.before, new.after)
+    assert all(one.closed is None or one.closed > 0.9 for one in tried.values())
+    assert any(one.closed is not None for one in tried.values())
     assert (again.verdict, again.findings) == (NOTHING, ())

@@ -35,6 +35,10 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
 
 
+def test_what_a_rigid_model_cannot_play_is_no_objection() -> None:
+    assert objections({1: tried(40.0, 20.0)}, elastic={1}) == []
+
+
 @pytest.mark.parametrize(
     ("fitted", "last", "named", "back"),
     [

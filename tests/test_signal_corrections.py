@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from generator.robot.readers import read
+from identification import corrections
 from identification.dataset import Run, load
 
 Array = NDArray[np.float64]
@@ -158,7 +159,28 @@ def test_a_part_of_a_run_is_as_warm_as_the_whole_run_there(tmp_path: Path) -> No
 
 def test_without_a_word_on_the_warmth_it_is_asked_for(tmp_path: Path) -> None:
     of = robot(tmp_path, "", "  torque_drift: [-1/10, 0, 1/20]\n")
-    with pytest.raises(InputError, match=r"how warm the drives of slide_and_wrist are.*expected warm_up_time"):
+    with pytest.raises(InputError, match=r"how warm the drive of joint 1 is.*expected warm_up_time.*column temp1"):
+        Recorded(tmp_path).run(of, positions(T), currents(T))
+
+
+def test_each_drive_goes_by_its_temperature_or_by_time(tmp_path: Path) -> None:
+    """A rise that no drive reaches says nothing of its warmth."""
+    of = robot(tmp_path, "warm_up_time: [1 s, 2 s, 4 s], warm_rise: [1000000 K, 20 K, 1000000 K]")
+    rise = 3 * T
+    for rises, second in (({"temp1": rise, "temp2": rise}, rise / 20), ({"temp1": rise}, 1 - np.exp(-T / 2))):
+        found = corrections.warmth(rises, T, of, Place("run"))
+        np.testing.assert_allclose(found, [1 - np.exp(-T), second, 1 - np.exp(-T / 4)], atol=1e-12)
+
+
+def test_only_drives_that_drift_need_a_temperature(tmp_path: Path) -> None:
+    of = robot(tmp_path, "warm_rise: [20 K, 20 K, 1000000 K]", "  torque_drift: [0, -1/10, 0]\n")
+    found = corrections.warmth({"temp2": 5 * T}, T, of, Place("run"))
+    assert found is not None
+    np.testing.assert_allclose(found[1], T / 4, atol=1e-12)
+    assert np.isnan(found[[0, 2]]).all()
+    motor = corrections.true_torques(N.T @ currents(T), of, 2e-3, found)
+    np.testing.assert_allclose(np.linalg.solve(N.T, motor), currents(T) * [T**0, 1 - 0.1 * T / 4, T**0], atol=1e-9)
+    with pytest.raises(InputError, match=r"how warm the drive of joint 2 is.*expected a column temp2, or warm_up_time"):
         Recorded(tmp_path).run(of, positions(T), currents(T))
 
 

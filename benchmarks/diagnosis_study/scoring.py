@@ -134,7 +134,7 @@ def _within(told: Mapping[str, Any], one: Mapping[str, Any]) -> bool | None:
         return None
     for name, parameter in told.get("parameters", {}).items():
         if name.rstrip("0123456789") == expected.parameter and parameter.get("std") is not None:
-            error = float(parameter["value"]) - expected.factor * float(one["size"])
+            error = float(parameter["value"]) - expected.value(float(one["size"]))
             return abs(error) <= 2 * float(parameter["std"])
     return None
 

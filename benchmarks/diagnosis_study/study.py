@@ -15,7 +15,8 @@ FILE = Path(__file__).with_name("study.json")
 class Expected:
     """For a law of the plant: ``named`` are the ids that are right; ``variables`` what it shows in; ``joints`` by
     robot, from 1, where not all; ``anywhere`` where it has no joint of its own; ``parameter`` of the finding and the
-    factor from the law's size to it, where it has one.
+    factor from the law's size to it, where it has one; with ``share`` what was recorded is 1 + the parameter of what
+    was true, and what was true is 1 + the size of what was recorded.
     """
 
     named: tuple[str, ...]
@@ -24,6 +25,11 @@ class Expected:
     anywhere: bool = False
     parameter: str = ""
     factor: float = 1.0
+    share: bool = False
+
+    def value(self, size: float) -> float:
+        """Of the parameter, for a size of the law."""
+        return 1 / (1 + size) - 1 if self.share else self.factor * size
 
 
 @dataclass(frozen=True)
@@ -52,6 +58,7 @@ def _expected(record: Mapping[str, Any]) -> Expected:
         anywhere=record.get("anywhere", False),
         parameter=record.get("parameter", ""),
         factor=record.get("factor", 1.0),
+        share=record.get("share", False),
     )
 
 

@@ -6,10 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from generator.effects.library import library
+from identification.corrections import NEVER as NEVER
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
-
-#: What joints have in the file that no motion limits or warms [A, K].
-NEVER = 1e6
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from generator.cli.progress import stage
+from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from generator.writing import replace, replacing
 from identification import recipe as recipes
@@ -47,8 +49,10 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used, before anything is looked for.
+    used, before anything is looked for, and for a ``folder`` in which the mended robot would replace ``path``.
     """
+    if not wanted.dry:
+        _keep(path, folder / f"{robot.name}.yaml")
     regressors = Regressors(robot)
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
@@ -80,3 +84,9 @@ def diagnosed(
             replace(fresh, files)
     made = [] if new is None else [f"{robot.name}.yaml", GENERATED]
     return found, new, [*files, *made]
+
+
+def _keep(path: Path, mended: Path) -> None:
+    if os.path.exists(mended) and os.path.samefile(path, mended):
+        problem = f"the mended robot would be written over {path}, the one that is diagnosed"
+        raise InputError(Place(str(mended)), problem, "another --out")

@@ -127,13 +127,9 @@ def _along(found: Search, test: Sequence[Prepared]) -> _Testing | None:
 
 def _columns(bank: Bank, variant: Variant) -> tuple[int, ...] | None:
     """Numbers of a variant's columns along the testing runs, -1 where they make no torque; None where that is
-    impossible.
+    impossible: a testing run may lack what the others have, such as a temperature.
     """
-    try:
-        there = bank.add(variant.hypothesis, variant.shape)
-    except ValueError:
-        # A testing run may lack what the others have, such as a temperature.
-        return None
+    there = bank.add(variant.hypothesis, variant.shape)
     if there is not None:
         return there.only(variant.used).columns
     return (-1,) * len(variant.used) if key_of(variant) in bank.nowhere else None

@@ -109,7 +109,7 @@ class Finding:
     @property
     def told(self) -> tuple[Told, ...]:
         """Coefficients, then the shape."""
-        units = {shape.name: shape.unit for shape in self.hypothesis.shapes}
+        units = {**self.hypothesis.units, **{shape.name: shape.unit for shape in self.hypothesis.shapes}}
         coefficients = [
             Told(c.name, one.value, one.std or None, one.unit, not one.value and not one.std)
             for c in self.hypothesis.coefficients

@@ -97,12 +97,12 @@ class Hypothesis:
     ``effect`` is an id of the generator's library, or of a correction of the robot file. ``columns(scene, shape)``
     returns k x n x N torques [N m, N] per unit of each coefficient at the recorded rate: what the *measured* torque
     holds more than the model's says. ``shapes`` are searched, from ``starts`` if there are any instead of all
-    combinations of their grids; ``given`` are values that are known; both are values of the effect in the robot
-    file. ``kind`` tells where a finding is written. ``would_show`` says what data would show the effect where these
-    cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the experiment that tells
-    them apart. ``measured`` are coefficients by name that the runs tell without any torque: there is nothing to
-    search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of a drive's
-    torque, for the part of it that the model has without what was found beside it.
+    combinations of their grids; ``given`` are values that are known, in ``units`` (1 where not told); both are values
+    of the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
+    the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
+    experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
+    there is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of
+    a drive's torque, for the part of it that the model has without what was found beside it.
     """
 
     effect: str
@@ -112,6 +112,7 @@ class Hypothesis:
     columns: Callable[[Scene, Mapping[str, float]], Array]
     shapes: tuple[ShapeRange, ...] = ()
     given: Mapping[str, float] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
     kind: str = EFFECT
     joints: tuple[int, ...] = ()
     variable: str = ""

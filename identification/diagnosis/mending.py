@@ -15,7 +15,7 @@ from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
-from identification.diagnosis.hypothesis import BODY
+from identification.diagnosis.hypothesis import BODY, ELASTIC
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Played, Player, aligned, compiled, play
 from identification.diagnosis.prepared import Prepared, prepared
@@ -82,7 +82,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         after = _played(found.roles.test, player, fit.values)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
-    against = objections(untouched(found.found.bank, before, after))
+    elastic = {joint for one in additions if one.kind == ELASTIC for joint in one.joints}
+    against = objections(untouched(found.found.bank, before, after), elastic)
     return Mended(
         text,
         new.robot,

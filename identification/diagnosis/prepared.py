@@ -14,7 +14,7 @@ from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.observation import Regressors
 from identification.recipe import Recipe, possible_factor
-from identification.run_filters import fast_enough
+from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
 
 Array = NDArray[np.float64]
@@ -85,7 +85,8 @@ def windowed(x: Array, factor: int) -> Array:
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     """The run by the diagnosis' filters, which replace those of ``recipe``.
 
-    Raises InputError for a run that is too short, sampled too slowly, or with a payload of which something is sought.
+    Raises InputError for a run that is too short, has too few samples, is sampled too slowly, or with a payload of
+    which something is sought.
     """
     fast_enough(run, recipe)
     if run.payload is not None and run.payload.sought:
@@ -104,7 +105,9 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         possible = [r for r in divisors if possible_factor(r) == r]
         factor = min(possible, key=lambda r: abs(r - wanted), default=factor)
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
-    one = sampled(run, replace(changed, dropped_first=None, dropped_last=None), regressors)
+    filtering = replace(changed, dropped_first=None, dropped_last=None)
+    filters_of(run, filtering)
+    one = sampled(run, filtering, regressors)
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual

@@ -7,6 +7,7 @@ import sympy
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved_sets
@@ -14,8 +15,9 @@ from identification.diagnosis.normal import Prior
 
 Array = NDArray[np.float64]
 
-#: Relative standard deviation of a value whose set tells none, and that of zero, in parts of the largest of its unit.
-_UNTOLD, _ZERO = 0.05, 1e-3
+#: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, in parts
+#: of the largest of its unit.
+_UNTOLD, _KNOWN, _ZERO = 0.05, 1e-4, 1e-3
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6
 
@@ -34,13 +36,7 @@ def prior_of(model: Model, name: str) -> Prior:
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
-    deviation = {
-        key: max(
-            abs(one.value) * (_UNTOLD if one.relative_std is None else one.relative_std / 100),
-            _ZERO * largest[one.unit] * (one.relative_std is None),
-        )
-        for key, one in given.items()
-    }
+    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()}
     keys = list(deviation)
     map_ = np.zeros((len(model.base_parameters), len(keys)))
     lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
@@ -53,6 +49,13 @@ def prior_of(model: Model, name: str) -> Prior:
                 map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
     return Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
+
+
+def _deviation(one: ParameterValue, largest: float) -> float:
+    """Standard deviation of a value; no part of zero tells one, and none at all would be no knowledge."""
+    if one.relative_std is None or one.value == 0:
+        return max(_UNTOLD * abs(one.value), _ZERO * largest)
+    return abs(one.value) * max(one.relative_std / 100, _KNOWN)
 
 
 def _precision(root: Array) -> Array:

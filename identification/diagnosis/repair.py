@@ -190,9 +190,14 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
     joints = sorted({*robot.flexible, *one.joints})
     if joints != sorted(robot.flexible):
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
-    if not one.values.get("gap"):
-        return text, []
-    return _add_effect(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
+    notes = [
+        f"the drive train of joint {', '.join(map(str, one.joints))} is elastic in the flexible model; the rigid "
+        "inverse dynamics, which plays the untouched runs, does not know it"
+    ]
+    if one.values.get("gap"):
+        text, more = _add_effect(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
+        notes += more
+    return text, notes
 
 
 def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

@@ -68,16 +68,18 @@ class Scene:
 
     def warmth(self, k: int, warm_up_time: float | None = None) -> Array:
         """How warm the drive of coordinate ``k`` is (N), 0 when the recording began: as the robot's file says, or by
-        ``warm_up_time`` [s].
-
-        Raises ValueError where neither tells.
+        ``warm_up_time`` [s]; not a number where neither tells.
         """
         if warm_up_time is not None:
             return warming_up(self._inside(self.sampled.run.elapsed), warm_up_time)
         if self.motion.warmth is None:
-            raise ValueError(f"nothing says how warm the drive of coordinate {k} is")
+            return np.full(self.motion.samples, np.nan)
         told: Array = self.motion.warmth[k]
         return told
+
+    def told(self, k: int) -> bool:
+        """Whether the robot's file says how warm the drive of coordinate ``k`` is."""
+        return bool(np.all(np.isfinite(self.warmth(k))))
 
     def rise(self, k: int) -> Array | None:
         """Of the drive's temperature since the recording began [K] (N); None where the run has none."""

@@ -64,6 +64,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
         given={"Iam": side.rotor},
+        units={"Iam": "kg" if prismatic else "kg m2"},
         kind=ELASTIC,
         joints=(joint.number,),
         variable="load",

@@ -72,7 +72,7 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     over = excess[excess != 0]
     if not over.size or np.sqrt(np.mean(over**2)) < _CLEAR * _noise(scene, k):
         excess = np.zeros_like(excess)
-    return np.outer(coupling(scene.robot)[k] * _constant(scene, k), excess)[None]
+    return np.outer(coupling(scene.robot)[k] * _torque_per_recorded(scene, k), excess)[None]
 
 
 def _noise(scene: Scene, k: int) -> float:
@@ -83,12 +83,12 @@ def _noise(scene: Scene, k: int) -> float:
 
 
 def _current(scene: Scene, k: int, torque: Array) -> Array:
-    """The current of a motor [A] (N) for torques of the joints (n x N)."""
-    return np.asarray(np.linalg.solve(coupling(scene.robot).T, torque)[k] / _constant(scene, k))
+    """The recorded current of a motor [A] (N) for true torques of the joints (n x N)."""
+    return np.asarray(np.linalg.solve(coupling(scene.robot).T, torque)[k] / _torque_per_recorded(scene, k))
 
 
-def _constant(scene: Scene, k: int) -> float:
-    """Torque per current of a motor [N m/A]."""
-    drives = scene.robot.drives
+def _torque_per_recorded(scene: Scene, k: int) -> float:
+    """True torque of a motor per recorded current [N m/A], with the gain that the robot's file states."""
+    drives, gain = scene.robot.drives, scene.robot.signals.torque_gain
     assert drives is not None
-    return float(drives.torque_constants[drives.torque_constant][k])
+    return float(drives.torque_constants[drives.torque_constant][k]) * (float(gain[k]) if gain else 1.0)

@@ -25,8 +25,10 @@ _LARGEST = 0.2
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint of a robot whose file has drives."""
-    if not scenes or scenes[0].robot.drives is None:
+    """One a joint of a robot whose file has drives, where all runs hold what the motors did: another ratio in the file
+    changes nothing of what was recorded on the joint side.
+    """
+    if not scenes or scenes[0].robot.drives is None or not all(scene.sampled.run.by_motors for scene in scenes):
         return []
     return [
         Hypothesis(

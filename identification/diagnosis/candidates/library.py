@@ -70,19 +70,19 @@ def _weighty(scenes: Sequence[Scene]) -> list[bool]:
 
 def _warming(k: int, scenes: Sequence[Scene]) -> bool:
     """Whether the runs show a drive at different warmths."""
-    time = None if _told(scenes) else _WARM_UP
+    time = None if _told(k, scenes) else _WARM_UP
     return bool(np.ptp(np.concatenate([scene.warmth(k, time) for scene in scenes])) > _WARMING)
 
 
-def _told(scenes: Sequence[Scene]) -> bool:
-    """Whether the robot's file tells the warmth of every run."""
-    return all(scene.motion.warmth is not None for scene in scenes)
+def _told(k: int, scenes: Sequence[Scene]) -> bool:
+    """Whether the robot's file tells a drive's warmth; runs for which it does not show nothing then."""
+    return any(scene.told(k) for scene in scenes)
 
 
 def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -> list[Hypothesis]:
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []
-    if "warmth" in effect.needs and not _told(scenes):
+    if "warmth" in effect.needs and not _told(k, scenes):
         shapes.append(ShapeRange("warm_up_time", "s", _WARM_UP, _WARM_UP, points=(_WARM_UP,)))
     tries = 1
     for shape in effect.shapes:
@@ -115,6 +115,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
             columns,
             shapes=tuple(shapes),
             given=given,
+            units={one.name: one.unit_on(joint) for one in effect.shapes},
             joints=(joint.number,),
             variable=_variable(effect),
             would_show=_would_show(effect),

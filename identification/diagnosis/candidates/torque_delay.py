@@ -18,16 +18,18 @@ _LONGEST = 0.1
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One delay of all torques, and one of each joint's own; none where the robot's file states one.
+    """One delay of all torques, and one of each joint's own, without those that the robot's file states.
 
     The coefficient is ``torque_delay`` of the file's signals; it is negative where positions come later than torques.
     """
-    if not scenes or any(scenes[0].robot.signals.torque_delay):
+    if not scenes:
         return []
-    moving = scenes[0].robot.moving
-    all_joints = tuple(joint.number for joint in moving)
-    own = [_hypothesis(joint.number, (joint.number,), k) for k, joint in enumerate(moving)] if len(moving) > 1 else []
-    return [_hypothesis(0, all_joints, None), *own]
+    moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
+    own = [_hypothesis(one.number, (one.number,), k) for k, one in enumerate(moving) if not (stated and stated[k])]
+    if any(stated):
+        return own
+    together = _hypothesis(0, tuple(joint.number for joint in moving), None)
+    return [together, *own] if len(moving) > 1 else [together]
 
 
 def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesis:

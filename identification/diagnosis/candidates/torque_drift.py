@@ -3,6 +3,9 @@
 The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from the recording's beginning,
 or a temperature's rise since then where the runs have one. ``drift`` is ``torque_drift`` of the robot's drives; with
 ``start`` the constant differs already where w is 0.
+
+The true torque is linear in both, what is recorded is not: columns are of the torque that is recorded, not of the true
+one, as soon as an earlier search has found a drift, and a large one is exact.
 """
 
 from __future__ import annotations
@@ -23,8 +26,12 @@ Array = NDArray[np.float64]
 _LARGEST = 0.6
 #: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
 _SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
+#: Of the warmth, in what part of a torque is recorded.
+_DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
 _RISE = 2.0
+#: Time constants that are held against a temperature.
+_TIMES = 60
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -35,7 +42,6 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         return []
     robot = scenes[0].robot
     stated = robot.drives.torque_drift if robot.drives is not None else ()
-    told = all(scene.motion.warmth is not None for scene in scenes)
     duration = max(float(scene.sampled.run.elapsed[-1]) for scene in scenes)
     shortest = max(_SHORTEST * duration, _QUICK)
     time = ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * duration, 2 * shortest))
@@ -43,16 +49,31 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     for k, joint in enumerate(robot.moving):
         if stated and stated[k]:
             continue
-        if told:
+        if any(scene.told(k) for scene in scenes):
             found.append(_hypothesis(k, joint, "drive's warmth"))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
-        rises = [rise for scene in scenes if (rise := scene.rise(k)) is not None]
-        highest = max((float(rise.max()) for rise in rises), default=0.0)
-        if len(rises) == len(scenes) and highest > _RISE:
-            whole = ShapeRange("warm_rise", "K", highest, highest, points=(highest,))
-            found.append(_hypothesis(k, joint, "drive's temperature", (whole,)))
+        if temperature := _temperature(k, scenes, time):
+            found.append(_hypothesis(k, joint, "drive's temperature", temperature))
     return found
+
+
+def _temperature(k: int, scenes: Sequence[Scene], time: ShapeRange) -> tuple[ShapeRange, ...]:
+    """The rise that counts as warm, and the time constant that follows the temperature best, by which the file tells
+    the warmth in runs without one; none where a run has none, or nothing has got warm.
+    """
+    rises = [rise for scene in scenes if (rise := scene.rise(k)) is not None]
+    whole = max((float(rise.max()) for rise in rises), default=0.0)
+    if len(rises) < len(scenes) or whole <= _RISE:
+        return ()
+
+    def off(T: float) -> float:
+        pairs = zip(scenes, rises, strict=True)
+        return float(sum(np.sum((scene.warmth(k, T) - rise / whole) ** 2) for scene, rise in pairs))
+
+    nearest = min(np.geomspace(time.low, time.high, _TIMES).tolist(), key=off)
+    values = (("warm_rise", "K", whole), ("warm_up_time", "s", nearest))
+    return tuple(ShapeRange(name, unit, value, value, points=(value,)) for name, unit, value in values)
 
 
 def _hypothesis(k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
@@ -88,12 +109,24 @@ def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
 
 
 def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> Array:
-    own = supplied(scene.robot, k, torque)
-    return -np.stack([own * _warmth(k, scene, shape), own])
+    own, w = supplied(scene.robot, k, torque), _warmth(k, scene, shape)
+    number = scene.robot.moving[k].number
+    if not scene.found(f"torque_drift{number}") or not np.all(np.isfinite(w)):
+        return -np.stack([own * w, own])
+    recorded = own * _part(k, scene, w)
+    return -np.stack([(1 + scene.found(f"start{number}")) * recorded * w, recorded])
+
+
+def _part(k: int, scene: Scene, w: Array) -> Array:
+    """What part of its torque the log holds of a motor: a polynomial of the warmth, which follows none of the noise."""
+    powers = w ** np.arange(_DEGREE + 1)[:, None]
+    true, logged = (supplied(scene.robot, k, torque)[k] for torque in (scene.torque, scene.tau))
+    part: Array = np.linalg.lstsq((powers * true).T, logged, rcond=None)[0] @ powers
+    return part
 
 
 def _warmth(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    if "warm_rise" not in shape:
+        return scene.warmth(k, shape.get("warm_up_time"))
     rise = scene.rise(k)
-    if "warm_rise" in shape and rise is not None:
-        return rise / shape["warm_rise"]
-    return scene.warmth(k, shape.get("warm_up_time"))
+    return np.full(scene.motion.samples, np.nan) if rise is None else rise / shape["warm_rise"]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 from generator.quantities import signals
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending import Mended
 from identification.diagnosis.played import Played
 from identification.diagnosis.untouched import Untouched, untouched
+from identification.report.titles import titles
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,7 @@ class Subject:
         """Untouched runs by name, as the model before and the one after play them."""
         if self.mended is None:
             return []
-        names = [Path(one).name for one in self.found.roles.test]
-        return list(zip(names, self.mended.before, self.mended.after, strict=True))
+        return list(zip(titles(self.found.roles.test), self.mended.before, self.mended.after, strict=True))
 
     @cached_property
     def tried(self) -> dict[int, Untouched]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from generator.review.markup import Markup, element, join
 from identification import outcome
 from identification.diagnosis.prepared import Prepared
 from identification.report.diagnose.subject import Subject
 from identification.report.runs_table import runs_table
+from identification.report.titles import titles
 from identification.report.told import facts
 
 TITLE = "Runs and method"
@@ -22,9 +21,10 @@ def render(subject: Subject) -> Markup:
         kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs]
         for kind, runs in (("fitted", found.runs[:count]), ("validates", found.runs[count:]))
     }
-    periods = {Path(one.sampled.run.name).name: _period(one) for one in found.runs}
+    names = titles([one.sampled.run.name for one in found.runs])
+    periods = {name: _period(one) for name, one in zip(names, found.runs, strict=True)}
     about = {
-        "tests": ", ".join(Path(one).name for one in found.roles.test) or "none",
+        "tests": ", ".join(titles(found.roles.test)) or "none",
         "noise": "autoregressive, measured joint by joint and run by run",
         "evidence": "chi-squared beyond all that was tried, a drop on runs that were not fitted, bounds of physics",
         "mode": found.mode,

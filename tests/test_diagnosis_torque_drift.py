@@ -1,0 +1,161 @@
+"""Drift of a torque constant, from what is recorded to what the robot file then says, without any noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.robot.readers import read
+from identification.dataset import load
+from identification.diagnosis.addition import Addition, addition
+from identification.diagnosis.bank import Bank
+from identification.diagnosis.candidates import library, torque_drift
+from identification.diagnosis.confirmation import confirmed
+from identification.diagnosis.diagnosis import diagnose
+from identification.diagnosis.hypothesis import DRIVE, EFFECT, Hypothesis
+from identification.diagnosis.loop import search
+from identification.diagnosis.played import Player, play
+from identification.diagnosis.prepared import Prepared, prepared
+from identification.diagnosis.refit import refit
+from identification.diagnosis.repair import repaired
+from identification.diagnosis.results import document
+from identification.diagnosis.roles import Roles
+from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from tests.recorded import TRUTH, TWO_LINKS, Recorded, recorded, two_links
+
+Array = NDArray[np.float64]
+
+RISE = 30.0
+
+
+@dataclass(frozen=True)
+class Drift:
+    """Of motor 2: true torque = ``gain`` (1 + ``drift`` w) recorded, w = 1 - exp(-t/``time``); without a time it comes
+    and goes once a minute.
+    """
+
+    drift: float
+    time: float = 20.0
+    gain: float = 1.0
+
+    def warmth(self, t: Array) -> Array:
+        return np.asarray(1 - np.exp(-t / self.time) if self.time else np.sin(np.pi * t / 60) ** 2)
+
+
+def logged(folder: Path, seed: int, drift: Drift, temperatures: Sequence[int] = (), seconds: float = 60.0) -> str:
+    """The run's file, with the temperatures of some joints, which rise with w."""
+    of = two_links(folder)
+    run = recorded(of, TRUTH, seconds, 200.0, seed).columns
+    warmth = drift.warmth(run["t"])
+    N = coupling(of.model.robot)
+    motor = np.linalg.solve(N.T, np.stack([run["tau1"], run["tau2"]]))
+    motor[1] /= drift.gain * (1 + drift.drift * warmth)
+    tau1, tau2 = N.T @ motor
+    temps = {f"temp{joint}": 300 + RISE * warmth for joint in temperatures}
+    path = folder / f"{seed}{'t' * len(temps)}.csv"
+    return str(Recorded({**run, "tau1": tau1, "tau2": tau2, **temps}).save(path))
+
+
+def ready(source: str, regressors: Regressors) -> Prepared:
+    return prepared(load(source, regressors.model.robot, resting=True), Recipe(), regressors)
+
+
+def gap(run: Prepared, known: Sequence[Prepared], regressors: Regressors) -> float:
+    """Norm of what the model leaves of a run [N m], with parameters from others."""
+    fit = refit([one.sampled for one in known], regressors)
+    each = play(run, Player(regressors), fit.values).residuals.per_joint
+    return float(np.linalg.norm([each[k].norm for k in each]))
+
+
+@pytest.mark.parametrize("drift", [Drift(-0.3), Drift(-0.15, gain=0.8), Drift(0.2)], ids=str)
+def test_a_large_drift_is_found_and_written_as_it_is(drift: Drift, tmp_path: Path) -> None:
+    before = two_links(tmp_path)
+    sources = [logged(tmp_path, seed, drift) for seed in (1, 2, 3)]
+    *runs, last = (ready(source, before) for source in sources)
+    roles = Roles(tuple(sources[:1]), tuple(sources[1:2]), tuple(sources[2:]), tuple(sources[:2]))
+    found = diagnose(before, runs, roles)
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.joints) == ("torque_drift", (2,))
+    told = {name: value["value"] for name, value in document(found)["findings"][0]["parameters"].items()}
+    assert told["torque_drift2"] == pytest.approx(drift.drift, rel=0.05)
+    assert told["warm_up_time"] == pytest.approx(drift.time, rel=0.05)
+    assert 1 + told["start2"] == pytest.approx(drift.gain, rel=0.05)
+
+    values = {name: value.value for name, value in one.parameters.items() if value.value is not None}
+    robot = repaired(TWO_LINKS, "x", [addition(one.hypothesis, one.shape, values)]).robot
+    assert robot.drives is not None
+    signals = robot.signals
+    written = [float(part[1]) for part in (robot.drives.torque_drift, signals.torque_gain, signals.warm_up_time)]
+    assert written == pytest.approx([told["torque_drift2"], 1 + told["start2"], told["warm_up_time"]], rel=1e-5)
+    after = Regressors(robot)
+    *known, test = (ready(source, after) for source in sources)
+    assert gap(test, known, after) < 0.05 * gap(last, runs, before)
+
+
+def by(kind: str, scenes: Sequence[Scene], joint: int) -> Hypothesis:
+    (one,) = [one for one in torque_drift.hypotheses(scenes) if one.joint == joint and f"with the {kind}" in one.title]
+    return one
+
+
+def scene(run: Prepared, regressors: Regressors) -> Scene:
+    return Scene(run.sampled, regressors, {name: TRUTH.get(name, 0.0) for name in regressors.names})
+
+
+def test_a_drift_by_temperature_needs_it_in_every_run(tmp_path: Path) -> None:
+    """One that a validating run lacks offers nothing, nor does a warmth that the file cannot tell of it."""
+    of, small = two_links(tmp_path), Drift(-0.1)
+    runs = [ready(logged(tmp_path, 1, small, (2,), 12.0), of), ready(logged(tmp_path, 2, small, (), 12.0), of)]
+    scenes = [scene(run, of) for run in runs]
+    assert not [one for one in torque_drift.hypotheses(scenes[:1]) if one.joint == 1 and "temperature" in one.title]
+    both = Bank(runs, scenes)
+    for kind, there in (("time since the start", True), ("drive's temperature", False)):
+        one = by(kind, scenes[:1], 2)
+        assert (both.add(one, one.variants[0]) is not None) == there
+
+    path = tmp_path / "told.yaml"
+    path.write_text(f"{TWO_LINKS}signals: {{warm_rise: {RISE} K}}\n")
+    told = Regressors(read(path))
+    runs = [ready(str(tmp_path / name), told) for name in ("1t.csv", "2.csv")]
+    scenes = [scene(run, told) for run in runs]
+    (friction,) = [one for one in library.hypotheses(scenes[:1]) if one.effect == "warm_friction" and one.joint == 2]
+    for one in (by("drive's warmth", scenes[:1], 2), friction):
+        assert one.variants == [one.given]
+        assert Bank(runs[:1], scenes[:1]).add(one, one.variants[0]) is not None
+        assert Bank(runs, scenes).add(one, one.variants[0]) is None
+
+
+def test_runs_without_a_temperature_are_read_after_a_drift_by_temperature(tmp_path: Path) -> None:
+    """They are as warm as the time says, by a constant that follows the temperature; so are drives that have none."""
+    of, small = two_links(tmp_path), Drift(-0.1)
+    source = logged(tmp_path, 1, small, (2,))
+    one = by("drive's temperature", [scene(ready(source, of), of)], 2)
+    (shape,) = one.variants
+    found = addition(one, shape, {"torque_drift2": -0.1, "start2": 0.0})
+    rubbing = Addition(EFFECT, "warm_friction", (1,), {"warm_up_time": 40.0})
+    timed = Addition(DRIVE, "torque_drift", (1,), {"torque_drift": 0.05, "torque_gain": 1.0, "warm_up_time": 40.0})
+    for additions in ([found, timed], [timed, found], [rubbing, found]):
+        robot = repaired(TWO_LINKS, "x", additions).robot
+        warm, plain = (load(each, robot) for each in (source, logged(tmp_path, 2, small)))
+        measured = small.warmth(warm.elapsed) * RISE / shape["warm_rise"]
+        first = 1 - np.exp(-warm.elapsed / 40.0)
+        np.testing.assert_allclose(warm.warmth, [first, measured], atol=1e-6)
+        np.testing.assert_allclose(plain.warmth, [first, measured], atol=0.04)
+
+
+def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
+    of, drift = two_links(tmp_path), Drift(-0.2, time=0.0)
+    runs = [ready(logged(tmp_path, seed, drift, (2,)), of) for seed in (1, 2)]
+    found = search(runs, (0,), (1,), of)
+    kept, gone = confirmed(found, [ready(logged(tmp_path, 3, drift), of)])
+    assert not gone
+    ((drift_found, *_),) = [one.evidence.coefficients for one in kept.choices]
+    assert "warm_rise" in kept.choices[0].evidence.variant.shape
+    assert drift_found == pytest.approx(drift.drift, rel=0.01)
