@@ -32,6 +32,8 @@ from identification.signals import (
 )
 from identification.timing import Clock, clock
 
+#: Time [s] to which parts of runs are told.
+_CLOSE = 1e-6
 _PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
 
 
@@ -149,7 +151,7 @@ def _part(recording: Recording, source: str, start: float, end: float) -> tuple[
     if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
         return recording, 0
     t = recording.columns["t"]
-    inside = np.flatnonzero((t >= start - 1e-9) & (t <= end + 1e-9))
+    inside = np.flatnonzero((t >= start - _CLOSE) & (t <= end + _CLOSE))
     if not inside.size:
         raise InputError(Place(source), f"no sample from {start:g} s to {end:g} s", f"times from {t[0]:g} to {t[-1]:g}")
     first, last = int(inside[0]), int(inside[-1]) + 1

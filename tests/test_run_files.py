@@ -11,7 +11,7 @@ import scipy.io
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification.dataset import Run, load
+from identification.dataset import Run, load, part_of
 from tests.recorded import TRUTH, Recorded, recorded, two_links
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
@@ -93,6 +93,14 @@ def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
         load(f"{path}@20:", robot)
     with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
         load(f"{path}@2:x", robot)
+
+
+@pytest.mark.parametrize("first", [0.0, 1700000000.0])
+def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp_path: Path, first: float) -> None:
+    """Also at a rate whose period is no whole number of microseconds."""
+    t = first + good.columns["t"] * 5 / 7
+    path = str(good.with_columns(t=t).save(tmp_path / "a.csv"))
+    assert load(part_of(path, t[200], t[801]), robot).samples == 602
 
 
 def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot, tmp_path: Path) -> None:
