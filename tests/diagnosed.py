@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import Place
+from generator.robot.description import Robot as Described
 from generator.robot.readers import read
 from identification.dataset import Run as Recorded
 from identification.diagnosis.scene import Scene
@@ -95,3 +97,11 @@ def fitted(columns: Array, truth: Array, kept: Array, scene: Scene) -> tuple[Arr
     x = np.linalg.lstsq(A, y, rcond=None)[0]
     fit = A @ x
     return x, float(fit @ y / (np.linalg.norm(fit) * np.linalg.norm(y)))
+
+
+def with_robot(scene: Scene, robot: Described) -> Scene:
+    """The scene of a robot that says more of itself."""
+    regressors = copy(scene.regressors)
+    regressors.model = copy(regressors.model)
+    regressors.model.robot = robot
+    return replace(scene, regressors=regressors)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
@@ -15,7 +14,7 @@ import pytest
 import sympy
 
 from generator.discovery import modules
-from generator.robot.description import EffectUse, Robot, Signals
+from generator.robot.description import EffectUse, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.acting import Acting
@@ -27,7 +26,7 @@ from identification.diagnosis.link_side import LinkSide
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
-from tests.diagnosed import CLEAN, Known, fitted, known, played, rows
+from tests.diagnosed import CLEAN, Known, fitted, known, played, rows, with_robot
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
 from tests.plant.robots import ROBOTS
@@ -330,16 +329,16 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
     )
     for candidate in ("position_offset", "torque_gain", "torque_delay", "current_limit", "torque_drift"):
         assert offered([scene], candidate, 2), candidate
-        assert not offered([_with(scene, changed)], candidate, 2), candidate
+        assert not offered([with_robot(scene, changed)], candidate, 2), candidate
     for candidate in ("position_offset", "torque_gain", "torque_delay", "torque_drift"):
-        assert offered([_with(scene, changed)], candidate, 1), candidate
+        assert offered([with_robot(scene, changed)], candidate, 1), candidate
     unlimited = replace(signals, current_limit=tuple(sympy.Integer(9 if k == 1 else 10**6) for k in range(n)))
-    limited = _with(scene, replace(robot, signals=unlimited))
+    limited = with_robot(scene, replace(robot, signals=unlimited))
     assert offered([limited], "current_limit", 1)
     assert not offered([limited], "current_limit", 2)
     assert offered([scene], "coupled_rotor", 6)
     there = replace(robot, effects=(*robot.effects, EffectUse("coupled_rotor", (6,))))
-    assert not offered([_with(scene, there)], "coupled_rotor", 6)
+    assert not offered([with_robot(scene, there)], "coupled_rotor", 6)
 
 
 def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Callable[[str], Known]) -> None:
@@ -347,7 +346,7 @@ def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Calla
     run = replace(scene.sampled.run, others={"qs2": scene.t})
     watched = replace(scene, sampled=replace(scene.sampled, run=run))
     gap = EffectUse("joint_elasticity", (2,), {"gap": Quantity(sympy.Rational(1, 1000), "rad")})
-    elastic = _with(scene, replace(scene.robot, flexible=(2,), effects=(*scene.robot.effects, gap)))
+    elastic = with_robot(scene, replace(scene.robot, flexible=(2,), effects=(*scene.robot.effects, gap)))
     for candidate in ("joint_elasticity", "backlash"):
         assert offered([scene], candidate, 2), candidate
         assert not offered([watched], candidate, 2), candidate
@@ -365,7 +364,7 @@ def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], 
         assert value.value == pytest.approx(4e-3, rel=0.05)
         assert not one.columns(scene, one.variants[0]).any()
         assert (added.joints, added.values) == ((one.joint,), {"link_delay": value.value})
-    stated = _with(
+    stated = with_robot(
         scene, replace(scene.robot, signals=Signals(link_delay=(sympy.Rational(1, 250), *[sympy.S.Zero] * 3)))
     )
     punctual, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY, sensors)
@@ -374,11 +373,3 @@ def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], 
         assert not offered([punctual], "link_delay", number)
         assert not offered([blind], "link_delay", number)
         assert bool(offered([stated], "link_delay", number)) == (number == 2)
-
-
-def _with(scene: Scene, robot: Robot) -> Scene:
-    """The scene of a robot that says more of itself."""
-    regressors = copy(scene.regressors)
-    regressors.model = copy(regressors.model)
-    regressors.model.robot = robot
-    return replace(scene, regressors=regressors)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from copy import copy
 from dataclasses import replace
 
 import pytest
@@ -12,7 +10,7 @@ import sympy
 from identification.diagnosis.candidates import current_limit, gear_ratio
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.scene import Scene
-from tests.diagnosed import known, played
+from tests.diagnosed import known, played, with_robot
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
@@ -44,16 +42,9 @@ def test_a_limit_is_one_of_the_recorded_current(scene: Scene) -> None:
         return found
 
     gains = tuple(sympy.Rational(9, 10) if j == JOINT else sympy.Integer(1) for j in range(1, 7))
-    stated = _with_gains(scene, gains)
+    signals = replace(scene.robot.signals, torque_gain=gains)
+    stated = with_robot(scene, replace(scene.robot, signals=signals))
     plain, gained = limit(scene).shapes[0], limit(stated).shapes[0]
     assert (gained.low, gained.high) == pytest.approx((plain.low / 0.9, plain.high / 0.9))
     columns = limit(stated).columns(stated, {"current_limit": gained.low})
     assert columns == pytest.approx(limit(scene).columns(scene, {"current_limit": plain.low}))
-
-
-def _with_gains(scene: Scene, gains: Sequence[sympy.Expr]) -> Scene:
-    """The scene of a robot whose file states gains of its motors."""
-    regressors = copy(scene.regressors)
-    regressors.model = copy(regressors.model)
-    regressors.model.robot = replace(scene.robot, signals=replace(scene.robot.signals, torque_gain=tuple(gains)))
-    return replace(scene, regressors=regressors)

@@ -212,16 +212,14 @@ def test_the_committed_page_is_of_the_committed_results() -> None:
 
 
 def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> None:
-    archive, folder = tmp_path / "cases.jsonl", tmp_path / "one" / "abc"
-    folder.mkdir(parents=True)
+    archive = tmp_path / "cases.jsonl"
     whole = json.loads(json.dumps(record("null", [], [], NOTHING)))
     name = f"{case(whole['case']).name}.json"
-    (folder / name).write_text(json.dumps(whole | {"answer": {"verdict": NOTHING}}))
-    store(folder, archive)
+    store("abc", [whole | {"answer": {"verdict": NOTHING}}], archive)
     assert archived(archive) == ("abc", [whole])
     for code, there in (("abc", [name]), ("def", [])):
-        restore(tmp_path / "two" / code, archive)
-        assert [file.name for file in (tmp_path / "two").glob(f"{code}/*")] == there
+        restore(tmp_path / code, archive)
+        assert [file.name for file in tmp_path.glob(f"{code}/*")] == there
 
 
 def test_the_power_curve_is_drawn() -> None:

@@ -38,7 +38,7 @@ def main() -> int:
     if told.development:
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))
         return 0
-    store(folder)
+    store(folder.name, results)
     record = {"cases": told.cases, "code": folder.name, **found}
     JSON.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     write(results, found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -33,10 +33,9 @@ def restore(folder: Path, archive: Path = ARCHIVE) -> None:
             file.write_text(json.dumps(one, indent=1) + "\n", encoding="utf-8")
 
 
-def store(folder: Path, archive: Path = ARCHIVE) -> None:
-    """The archive made anew from a folder of results, without the whole answers."""
-    results = [json.loads(file.read_text(encoding="utf-8")) for file in sorted(folder.glob("*.json"))]
-    records = [{"code": folder.name}, *map(_short, results)]
+def store(code: str, results: Iterable[Mapping[str, Any]], archive: Path = ARCHIVE) -> None:
+    """The archive made anew from all results of a code, without the whole answers."""
+    records = [{"code": code}, *map(_short, results)]
     text = "".join(json.dumps(one, separators=(",", ":")) + "\n" for one in records)
     archive.write_text(text, encoding="utf-8")
 

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from generator.effects.library import library
-from identification.corrections import NEVER as NEVER
 from identification.diagnosis.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
 
 

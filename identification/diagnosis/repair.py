@@ -14,7 +14,8 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import PRISMATIC, Joint, Robot
-from identification.diagnosis.addition import NEVER, Addition
+from identification.corrections import NEVER
+from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 

@@ -50,7 +50,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
+        swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)] if elastic else None
         lacks.append(lack_of_fit(bank.runs, white, k, number, swings))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])

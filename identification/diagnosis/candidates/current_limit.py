@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.addition import NEVER
+from identification.corrections import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
 from identification.drive_train import coupling
