@@ -18,6 +18,9 @@ Operand = Union["Node", int, Fraction]
 #: Operations of one argument that are evaluated by the mathematics library of the target language.
 FUNCTIONS = ("sin", "cos", "sqrt", "log", "exp", "tanh", "abs", "sign")
 
+#: How long operations take, in additions; the others take one.
+_LATENCY = {"constant": 0, "input": 0, "neg": 0, "div": 4}
+
 #: Denominators beyond this belong to rounded irrational constants (see ``symbolic.lowering``).
 _EXACT_DENOMINATOR = 10**30
 _ROUNDING = Fraction(1, 10**40)
@@ -295,6 +298,7 @@ class Program:
         The order is depth first with the deeper argument first, which keeps few intermediate results alive.
         """
         done = set(known)
+        depth = self._depths(outputs := list(outputs), done)
         ordered: list[Node] = []
         for output in outputs:
             stack = [output]
@@ -305,13 +309,28 @@ class Program:
                     continue
                 pending = [argument for argument in node.arguments if argument not in done]
                 if pending:
-                    # The deeper argument was made later; it goes on top and comes first.
-                    stack += pending if pending[0].index < pending[-1].index else pending[::-1]
+                    # The last on the stack comes first.
+                    stack += sorted(pending, key=lambda one: (depth[one], one.index))
                 else:
                     done.add(node)
                     ordered.append(node)
                     stack.pop()
         return ordered
+
+    def _depths(self, outputs: Iterable[Node], known: set[Node]) -> dict[Node, int]:
+        """How long a processor waits for each node that ``outputs`` need, in operations one after the other."""
+        depth = dict.fromkeys(known, 0)
+        stack = list(outputs)
+        while stack:
+            node = stack[-1]
+            pending = [argument for argument in node.arguments if argument not in depth]
+            if pending:
+                stack += pending
+                continue
+            stack.pop()
+            if node not in depth:
+                depth[node] = max((depth[one] for one in node.arguments), default=0) + _LATENCY.get(node.operation, 1)
+        return depth
 
     def count(self, nodes: Iterable[Node]) -> Count:
         """Operation count of a list of nodes; a unary minus is free."""

@@ -398,7 +398,7 @@ typedef struct {
     kr270_real S4_13n; /**< XZ4 + MS4_1 */
     kr270_real MS4_2; /**< 1.1*MY4R */
     kr270_real S4_23n; /**< YZ4 + MS4_2 */
-    kr270_real p19; /**< from MX3R, ZZ3R, XX3R */
+    kr270_real p19; /**< from ZZ3R, XX3R, MX3R */
     kr270_real S3_12n; /**< from MY3R, XY3R */
     kr270_real MS2_2; /**< 0.35*MY2 */
     kr270_real MS2_1; /**< 0.35*MX2R */
@@ -413,8 +413,8 @@ typedef struct {
     kr270_real p31; /**< 9.81*MY2 */
     kr270_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.00275*MY3R */
     kr270_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
-    kr270_real p34; /**< from MY3R, ZZ2R, XX2R */
-    kr270_real p35; /**< from MY3R, ZZ2R, XX2R */
+    kr270_real p34; /**< from ZZ2R, XX2R, MY3R */
+    kr270_real p35; /**< from ZZ2R, XX2R, MY3R */
     kr270_real MS2_1_v2; /**< 1.1*(MX2R + 1.1363636363636365*MY3R) */
     kr270_real MS3_1_; /**< 1.1*(MX3R + 0.05*MY3R) */
     kr270_real MS2_1_v3; /**< 0.35*(MX2R + 1.1363636363636365*MY3R) */
@@ -432,8 +432,8 @@ typedef struct {
     kr270_real p50; /**< 2.0*S3_12n */
     kr270_real p51; /**< 0.12862508*Kr2 */
     kr270_real p52; /**< 0.12862508*K02 */
-    kr270_real p53; /**< from MY3R, MX2R */
-    kr270_real p54; /**< S3_11n + S3_22 */
+    kr270_real p53; /**< S3_11n + S3_22 */
+    kr270_real p54; /**< from MY3R, MX2R */
     kr270_real p55; /**< Ia6 + p7 */
     kr270_real p56; /**< 1.0/p55 */
     kr270_real p57; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
@@ -442,10 +442,10 @@ typedef struct {
     kr270_real p60; /**< 2.0*MY2 */
     kr270_real p61; /**< 2.5*MY3R */
     kr270_real p62; /**< 2.5*MX3R */
-    kr270_real p63; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
-    kr270_real p64; /**< XZ5 + XY6 */
-    kr270_real p65; /**< S5_11n + S6_11n */
-    kr270_real p66; /**< S6_22 + S4_22 */
+    kr270_real p63; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R, MY3R */
+    kr270_real p64; /**< S5_11n + S6_11n */
+    kr270_real p65; /**< S6_22 + S4_22 */
+    kr270_real p66; /**< XZ5 + XY6 */
     kr270_real p67; /**< 0.7*MY2 */
     kr270_real p68; /**< 0.7*MX2R */
     kr270_real p69; /**< 219.0*kt1 */

@@ -396,7 +396,7 @@ typedef struct {
     kr500_real S4_13n; /**< XZ4 + MS4_1 */
     kr500_real MS4_2; /**< 1.025*MY4R */
     kr500_real S4_23n; /**< YZ4 + MS4_2 */
-    kr500_real p21; /**< from MX3R, ZZ3R, XX3R */
+    kr500_real p21; /**< from ZZ3R, XX3R, MX3R */
     kr500_real S3_12n; /**< from MY3R, XY3R */
     kr500_real MS2_2; /**< 0.5*MY2 */
     kr500_real MS2_1; /**< 0.5*MX2R */
@@ -411,8 +411,8 @@ typedef struct {
     kr500_real p33; /**< 9.81*MY2 */
     kr500_real S3_11n; /**< XX3R - 0.5*(XX3R + ZZ3R) - 0.002951219512195122*MY3R */
     kr500_real S3_22; /**< 0.5*(XX3R + ZZ3R) - (ZZ4R - 0.5*(XX4R + ZZ4R) - MS3_2) */
-    kr500_real p36; /**< from MY3R, ZZ2R, XX2R */
-    kr500_real p37; /**< from MY3R, ZZ2R, XX2R */
+    kr500_real p36; /**< from ZZ2R, XX2R, MY3R */
+    kr500_real p37; /**< from ZZ2R, XX2R, MY3R */
     kr500_real MS2_1_v2; /**< 1.025*(MX2R + 1.2682926829268293*MY3R) */
     kr500_real MS3_1_; /**< 1.025*(MX3R - 0.05365853658536585*MY3R) */
     kr500_real MS2_1_v3; /**< 0.5*(MX2R + 1.2682926829268293*MY3R) */
@@ -428,8 +428,8 @@ typedef struct {
     kr500_real p50; /**< from MY3R, MX3R */
     kr500_real p51; /**< 2.0*S3_11n */
     kr500_real p52; /**< 2.0*S3_12n */
-    kr500_real p53; /**< from MY3R, MX2R */
-    kr500_real p54; /**< S3_11n + S3_22 */
+    kr500_real p53; /**< S3_11n + S3_22 */
+    kr500_real p54; /**< from MY3R, MX2R */
     kr500_real p55; /**< Ia6 + p9 */
     kr500_real p56; /**< 1.0/p55 */
     kr500_real p57; /**< from S5_22, ZZ4R, XX4R, ZZ3R, XX3R */
@@ -438,10 +438,10 @@ typedef struct {
     kr500_real p60; /**< 2.0*MY2 */
     kr500_real p61; /**< 2.6*MY3R */
     kr500_real p62; /**< 2.6*MX3R */
-    kr500_real p63; /**< from MY3R, ZZ1R, ZZ3R, XX3R, ZZ2R, XX2R */
-    kr500_real p64; /**< XZ5 + XY6 */
-    kr500_real p65; /**< S5_11n + S6_11n */
-    kr500_real p66; /**< S6_22 + S4_22 */
+    kr500_real p63; /**< from ZZ3R, XX3R, ZZ2R, XX2R, ZZ1R, MY3R */
+    kr500_real p64; /**< S5_11n + S6_11n */
+    kr500_real p65; /**< S6_22 + S4_22 */
+    kr500_real p66; /**< XZ5 + XY6 */
     kr500_real p67; /**< 469.375*kt1 */
     kr500_real p68; /**< 469.375*kt2 */
     kr500_real p69; /**< 504.76973684210526*kt3 */
