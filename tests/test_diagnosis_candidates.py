@@ -14,7 +14,7 @@ import pytest
 import sympy
 
 from generator.discovery import modules
-from generator.robot.description import EffectUse, Signals
+from generator.robot.description import EffectUse, ParameterSet, ParameterValue, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.acting import Acting
@@ -346,11 +346,15 @@ def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Calla
     run = replace(scene.sampled.run, others={"qs2": scene.t})
     watched = replace(scene, sampled=replace(scene.sampled, run=run))
     gap = EffectUse("joint_elasticity", (2,), {"gap": Quantity(sympy.Rational(1, 1000), "rad")})
-    elastic = with_robot(scene, replace(scene.robot, flexible=(2,), effects=(*scene.robot.effects, gap)))
+    sets = {"stiff": ParameterSet("stiff", "", "", {"k2": ParameterValue(1e4, "N m/rad")})}
+    effects = (*scene.robot.effects, gap)
+    elastic = with_robot(scene, replace(scene.robot, flexible=(2,), effects=effects, parameter_sets=sets))
     for candidate in ("joint_elasticity", "backlash"):
         assert offered([scene], candidate, 2), candidate
         assert not offered([watched], candidate, 2), candidate
         assert not offered([elastic], candidate, 2), candidate
+    soft = with_robot(scene, replace(scene.robot, flexible=(2,)))
+    assert offered([soft], "joint_elasticity", 2), "no parameter set says how stiff it is"
 
 
 def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], Known]) -> None:

@@ -105,6 +105,16 @@ def test_a_prior_is_rows_more(columns: tuple[Array, Array, Array]) -> None:
     assert S[2, -1] ** 2 / S[2, 2] == pytest.approx(drop, rel=1e-7)
 
 
+def test_more_parameters_may_be_known_beside_others() -> None:
+    precision = np.array([[4.0, 1.0], [1.0, 2.0]])
+    whole = Prior(np.array([1.0, -1.0]), precision).beside([0.0, 9.0])
+    assert whole.mean.tolist() == [1.0, -1.0, 0.0, 0.0]
+    assert np.array_equal(
+        whole.precision, np.block([[precision, np.zeros((2, 2))], [np.zeros((2, 2)), np.diag([0, 9])]])
+    )
+    assert whole.known.tolist() == [True, True, False, True]
+
+
 def test_a_shifted_prior_lets_its_direction_go() -> None:
     one = prior()
     direction, value, std = np.array([1.0, 0.0, 20.0, 0.0]), 0.7, 0.5

@@ -85,5 +85,5 @@ def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
 def _elastic(one: Hypothesis, found: float, shape: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:
     rotor = {f"Iam{one.joint}": shape["Iam"]} if "Iam" in shape else {}
     if one.effect == "backlash":
-        return {"gap": found}, rotor
+        return {"gap": found}, {**rotor, f"k{one.joint}": shape["k"]}
     return {}, {**rotor, f"k{one.joint}": 1 / found} if found > 0 else rotor

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis import stated_elasticity
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
@@ -84,7 +85,7 @@ class Bank:
     def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
         self.runs, self.scenes = tuple(runs), tuple(scenes)
         regressors = scenes[0].regressors
-        self.base: tuple[str, ...] = regressors.names
+        self.base: tuple[str, ...] = (*regressors.names, *stated_elasticity.names(scenes[0].robot))
         self.variants: list[Variant] = []
         self._made: dict[tuple[object, ...], Variant | None] = {}
         self._offered: set[tuple[object, ...]] = set()
@@ -103,6 +104,18 @@ class Bank:
                     for k, (names, W) in enumerate(zip(regressors.structure, base, strict=True))
                 ]
             )
+            if len(self.base) > len(regressors.names):
+                self._add_elasticity(scene)
+
+    def _add_elasticity(self, scene: Scene) -> None:
+        """The columns of the file's elastic drive trains, on joints on which they act."""
+        run, joints = self.runs[len(self._joints) - 1], self._joints[-1]
+        numbers = range(len(scene.regressors.names), len(self.base))
+        for number, column in zip(numbers, stated_elasticity.columns(scene), strict=True):
+            for joint, row in zip(joints, column, strict=True):
+                if row.any():
+                    joint.numbers.append(number)
+                    joint.rows.append(run.decimated(row))
 
     @property
     def dof(self) -> int:

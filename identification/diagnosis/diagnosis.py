@@ -13,13 +13,14 @@ from generator.robot.description import Robot
 from identification.diagnosis.confirmation import confirmed
 from identification.diagnosis.evidence import key_of
 from identification.diagnosis.finding import Finding, findings
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.loop import Search, search
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.selection import Choice
+from identification.diagnosis.stated_elasticity import TOGETHER, names, stated
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -34,6 +35,8 @@ LOCATED = "located"
 _SMALL, _PART, _CHANCE = 0.2, 0.5, 1e-4
 #: Where nothing repeats the noise is not known apart from the model, and more must stay.
 _SMALL_APERIODIC = 0.5
+#: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
+_ELASTIC, _SURE = 0.5, 4.0
 
 
 @dataclass(frozen=True)
@@ -87,7 +90,7 @@ def diagnose(
     named = findings(found, firm=not open_)
     if named:
         before = led(before, named[0])
-    notes = [*roles.notes, *_notes(named, runs), *_taken_back(gone)]
+    notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
     return Diagnosis(
         regressors.model.robot,
         FREE if prior is None else KNOWN,
@@ -126,6 +129,26 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
     return [
         np.stack([bank.residual(r, k, weights, white=False) for k in range(bank.dof)]) for r in range(len(bank.runs))
     ]
+
+
+def _of_elasticity(found: Search) -> list[str]:
+    """What is to be told of drive trains that the file says are elastic."""
+    robot = found.bank.scenes[0].robot
+    where = on_joints(one.number for one in stated(robot))
+    if not names(robot):
+        return []
+    notes = [
+        f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
+        "stiffnesses; the rigid inverse dynamics, which plays the untouched runs, does not know it"
+    ]
+    if TOGETHER in found.values:
+        at = found.bank.base.index(TOGETHER)
+        part, std = found.values[TOGETHER], float(np.sqrt(found.covariance[at, at]))
+        if part + _SURE * std < _ELASTIC:
+            notes.append(
+                f"the runs show {max(part, 0.0):.0%} of that torque: these drive trains are stiffer than stated"
+            )
+    return notes
 
 
 def _taken_back(gone: Sequence[Choice]) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis import stated_elasticity
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
@@ -25,6 +26,8 @@ Array = NDArray[np.float64]
 
 #: Times that columns which depend on the model are made anew with what was found.
 _PASSES = 3
+#: Times that the model is fitted before, where the file has elastic drive trains.
+_ELASTIC = 3
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ class Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
         columns = [number for one in choices for number in one.evidence.variant.columns]
         solution, covariance = self.weighing.normal.solution(columns)
-        values = dict(zip(self.bank.base, solution.tolist(), strict=False))
+        values = _values(self.bank, solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
     def _fitted(self, columns: Sequence[int]) -> dict[int, float]:
@@ -77,6 +80,10 @@ def search(
 
     None is looked for in a ``dry`` search.
     """
+    if more := stated_elasticity.names(regressors.model.robot):
+        p = len(regressors.names)
+        unknown = Prior(np.zeros(p), np.zeros((p, p)))
+        prior = (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
@@ -97,7 +104,7 @@ def search(
         chosen = [one.evidence.variant for one in choices]
         columns = [number for one in chosen for number in one.columns]
         solution, covariance = weighing.normal.solution(columns)
-        values = dict(zip(bank.base, solution.tolist(), strict=False))
+        values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         if not acting.again or acting.near(before):
             break
@@ -120,12 +127,20 @@ def first_values(
     runs: Sequence[Prepared], train: Sequence[int], regressors: Regressors, prior: Prior | None
 ) -> dict[str, float]:
     """Base parameters of the model without anything new, each joint weighted by its own residual."""
-    zero = dict.fromkeys(regressors.names, 0.0)
-    bank = Bank(runs, [Scene(run.sampled, regressors, zero) for run in runs])
+    values: dict[str, float] = {}
+    # What the file's elastic drive trains do is linear about values that are near.
+    for _ in range(_ELASTIC if stated_elasticity.names(regressors.model.robot) else 1):
+        bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
+        values = _values(bank, _weighted(bank, train, prior))
+    return values
+
+
+def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
+    """Values of the base columns (p), each joint weighted by its own residual."""
     deviations = np.ones(bank.dof)
     solution = np.zeros(len(bank.base))
     for _ in range(3):
-        bank.whiten([[_flat(one) for one in deviations] for _ in runs])
+        bank.whiten([[_flat(one) for one in deviations] for _ in bank.runs])
         normal = Normal(np.sum([bank.grams[r] for r in train], axis=0), len(bank.base), 1, prior)
         solution, _ = normal.solution([])
         weights = dict(enumerate(solution.tolist()))
@@ -135,7 +150,12 @@ def first_values(
                 kept = bank.raw(r, joint)[3]
                 parts += stretches(bank.residual(r, joint, weights, white=False), kept)
             deviations[joint] = colour(parts, order=0).deviations[0]
-    return dict(zip(bank.base, solution.tolist(), strict=True))
+    return solution
+
+
+def _values(bank: Bank, solution: Array) -> dict[str, float]:
+    """Base parameters by name, and what the file's elastic drive trains have."""
+    return stated_elasticity.moved(bank.scenes[0].values, dict(zip(bank.base, solution.tolist(), strict=False)))
 
 
 def _flat(deviation: float) -> Colour:

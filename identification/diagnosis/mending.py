@@ -22,6 +22,7 @@ from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.refit import Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
+from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.untouched import objections, untouched
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
@@ -83,6 +84,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
     elastic = {joint for one in additions if one.kind == ELASTIC for joint in one.joints}
+    elastic |= {one.number for one in stated(found.robot)}
     against = objections(untouched(found.found.bank, before, after), elastic)
     return Mended(
         text,

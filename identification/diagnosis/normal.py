@@ -42,6 +42,14 @@ class Prior:
         weighted = self.precision @ self.mean
         return np.block([[self.precision, weighted[:, None]], [weighted[None], self.mean @ weighted]])
 
+    def beside(self, precision: Sequence[float]) -> Prior:
+        """With more parameters, which are zero to the ``precision``; of nothing where that is zero."""
+        more = np.diag(np.asarray(precision, dtype=float))
+        count = len(precision)
+        whole = np.pad(self.precision, (0, count))
+        whole[len(self.mean) :, len(self.mean) :] = more
+        return Prior(np.append(self.mean, np.zeros(count)), whole)
+
     def products(self, rows: Sequence[int], columns: Sequence[int], torque: int) -> Array:
         """The prior's part of products of columns by number, that of the torque being ``torque``."""
         p = len(self.mean)

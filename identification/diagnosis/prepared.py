@@ -12,6 +12,7 @@ from scipy.ndimage import maximum_filter1d
 from generator.errors import InputError
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
+from identification.diagnosis.stated_elasticity import stated
 from identification.observation import Regressors
 from identification.recipe import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
@@ -27,6 +28,8 @@ _SLOW = 0.04
 _CRAWLING = 0.12
 #: Time [s] in which a joint may remember what was before the record.
 _MEMORY = 1.0
+#: Time [s] in which the swings of an elastic drive train fade, of which the log does not tell how they began.
+_SWINGING = 1.5
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
 #: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
@@ -115,6 +118,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     for joint, weights in regressors.signs:
         along = sum(weight * speed[k] for k, weight in weights)
         standing[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
+    if swinging := stated(regressors.model.robot):
+        standing[[one.k for one in swinging], : round(_SWINGING * run.rate)] = True
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
     reach = round(_SETTLING * run.rate)

@@ -117,8 +117,7 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
 
     Where the runs contradict what was known, that was known less well by as much (Birge's ratio).
     """
-    count = len(start.names) - len(prior.mean)
-    whole = Prior(np.append(prior.mean, np.zeros(count)), np.pad(prior.precision, (0, count)))
+    whole = prior.beside([0.0] * (len(start.names) - len(prior.mean)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
     result, sigma = start, dict(start.sigma)
     width = 1.0

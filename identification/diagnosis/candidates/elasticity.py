@@ -12,6 +12,7 @@ from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
@@ -23,8 +24,8 @@ _FINE = 0.05
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint whose drive train is stiff in the robot's file and whose link has no encoder of its own: with one,
-    ``identification.link_encoders`` tells the stiffness without any torque that a model lacks.
+    """One a joint whose link has no encoder of its own: with one, ``identification.link_encoders`` tells the stiffness
+    without any torque that a model lacks. None where the robot's file states a stiffness (``stated_elasticity``).
 
     The coefficient is the compliance 1/k by the torque's size, the shape ``k`` the stiffness by the frequency of the
     swing; they agree where ``Iam``, the drive train's inertia, is known.
@@ -32,8 +33,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     found = []
+    known = [one.k for one in stated(scenes[0].robot)]
     for k, joint in enumerate(scenes[0].robot.moving):
-        if joint.number not in scenes[0].robot.flexible and not watched(scenes, k):
+        if k not in known and not watched(scenes, k):
             side = liveliest(scenes, k)
             found += [] if side is None else [_hypothesis(k, joint, side)]
     return found
