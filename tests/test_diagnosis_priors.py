@@ -114,6 +114,20 @@ def test_what_the_set_does_not_tell_is_not_known(regressors: Regressors) -> None
     assert unknown == {"XZ2", "YZ2"}
 
 
+def test_a_set_of_the_motor_side_tells_the_same(tmp_path: Path) -> None:
+    """Where joints are elastic, and the set has no joint-side value beside it."""
+    path = tmp_path / "arm.yaml"
+    found = []
+    for motor in ("", "m"):
+        own = {"Ia1": f"Ia{motor}1", "Fv1": f"Fv{motor}1", "Fv2": "Fv2"}
+        lines = [f"      {name}: {{value: {3 + len(old)}, unit: {VALUES[old][1]}}}" for old, name in own.items()]
+        path.write_text(ARM.replace("joints:\n", "flexible: all\njoints:\n", 1) + "\n".join(lines) + "\n")
+        found.append(prior_of(Regressors(read(path)).model, "drawing"))
+    assert found[0].known.any()
+    for what in ("mean", "precision"):
+        assert np.array_equal(getattr(found[0], what), getattr(found[1], what))
+
+
 def test_what_is_known_exactly_is_known_best(tmp_path: Path) -> None:
     """Of zero no part is a standard deviation: as where the set tells none it is one of the largest friction's."""
     path = tmp_path / "arm.yaml"

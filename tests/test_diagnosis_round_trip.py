@@ -86,3 +86,16 @@ def test_what_drives_and_signals_and_the_base_lack_is_corrected(
     assert all(one.closed is None or one.closed > 0.9 for one in tried.values())
     assert any(one.closed is not None for one in tried.values())
     assert (again.verdict, again.findings) == (NOTHING, ())
+
+
+@pytest.mark.parametrize(
+    ("law", "size", "named"), [("joint_flexibility", 1.1e-5, "joint_elasticity"), ("backlash", 3e-4, "backlash")]
+)
+def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
+    law: str, size: float, named: str, tmp_path: Path
+) -> None:
+    found, new, again = there_and_back("three_axis", Effect(law, 2, size), PRIOR, tmp_path)
+    assert [one.hypothesis.effect for one in found.findings] == [named]
+    assert new.robot.flexible == (2,)
+    assert (again.verdict, again.findings) == (NOTHING, ())
+    assert any("the drive trains of joint 2 are elastic in the robot's file" in note for note in again.notes)

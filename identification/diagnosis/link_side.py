@@ -163,12 +163,14 @@ def rotor_inertia(scene: Scene, k: int) -> float:
     half of the base parameter that it is grouped in, 0 where the model has none.
     """
     model = scene.regressors.model
-    name = f"Ia{model.robot.moving[k].number}"
+    number = model.robot.moving[k].number
+    name = f"Ia{number}"
     if name in scene.values:
         return scene.values[name]
     for one in model.robot.parameter_sets.values():
-        if name in one.values:
-            return one.values[name].value
+        for told in (name, f"Iam{number}"):
+            if told in one.values:
+                return one.values[told].value
     for title, terms in model.grouping.numeric().items():
         if name in terms:
             return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)

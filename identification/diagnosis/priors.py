@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from generator.effects.library import motor_side
 from generator.errors import InputError
 from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
-from generator.symbolic.parameter_sets import resolved_sets
+from generator.symbolic.parameter_sets import parameter_vector
 from identification.diagnosis.normal import Prior
 
 Array = NDArray[np.float64]
@@ -25,14 +28,15 @@ _EXACT = 1e-6
 def prior_of(model: Model, name: str) -> Prior:
     """The set ``name`` of the robot, as values and standard deviations of its base parameters.
 
-    Standard deviations of standard parameters add as independent ones. Raises InputError for an unknown set.
+    Standard deviations of standard parameters add as independent ones. A drive train of which the set has the motor
+    side alone counts on its joint: rigid, both sides turn as one. Raises InputError for an unknown set.
     """
     sets = model.robot.parameter_sets
     if name not in sets:
         problem = f"{model.robot.name} has no parameter set {name!r}"
         raise InputError(model.robot.place, problem, nearest(name, sets))
-    values = resolved_sets(model)[name]
-    given = sets[name].values
+    given = _joined(model, sets[name].values)
+    values = dict(zip((one.name for one in model.parameters), parameter_vector(model, given).tolist(), strict=True))
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
@@ -49,6 +53,21 @@ def prior_of(model: Model, name: str) -> Prior:
                 map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
     return Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
+
+
+def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
+    """Values with those of the motor side (Iam, Fvm, ...) on the joints, of which the set has none."""
+    sides = {
+        motor: f"{parameter.stem}{one.joint.number}"
+        for one in motor_side(model.robot)
+        if one.suffix
+        for motor, parameter in zip(one.names, one.effect.parameters, strict=True)
+    }
+    standard = {one.name for one in model.standard_parameters}
+    moved = {motor: own for motor, own in sides.items() if motor in given and own in standard and own not in given}
+    if any(name in model.grouping.numbers and name not in standard for name in given):
+        return dict(given)
+    return {moved.get(name, name): value for name, value in given.items()}
 
 
 def _deviation(one: ParameterValue, largest: float) -> float:
