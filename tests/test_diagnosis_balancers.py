@@ -6,9 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
+from generator.effects.library import effects_of
+from generator.effects.library import library as effects
+from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.candidates import library
+from identification.diagnosis.effect_columns import EffectColumns
 from identification.diagnosis.evidence import BALANCERS
 from identification.observation import Regressors
 from tests.diagnosed import known, played
@@ -35,3 +40,28 @@ def test_a_balancer_is_looked_for_where_bodies_weigh(tmp_path: Path) -> None:
     heavy, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("offset", 1, 0.0), WAY)
     found = {(one.effect, one.joint) for one in library.hypotheses([heavy])}
     assert {joint for effect, joint in found if effect == "spring_balancer"} == {3}
+
+
+def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> None:
+    """Along the run it may have: the robot file refuses one that the joint's limits do not allow."""
+    arm = known(ROBOTS[HEAVY], tmp_path)
+    scene, _, _ = played(arm, Effect("offset", 1, 0.0), WAY)
+    joint = arm.regressors.model.robot.moving[2]
+    shape = {"d21": 1.0, "d22": 0.4, "phi": 1.5, "exponent": 1.0}
+    columns = EffectColumns(effects()["gas_balancer"], joint, 2, arm.regressors.model.robot)
+    lengths = np.linspace(0.05, 1.5, 40).tolist()
+    finite = [bool(np.all(np.isfinite(columns(scene, {**shape, "l0": length})))) for length in lengths]
+    assert not finite[0]
+    assert finite[-1]
+    first = lengths[finite.index(True)]
+    text = robot_file(ROBOTS[HEAVY]).replace(
+        "effects:\n",
+        "effects:\n  - {effect: gas_balancer, joint: 3, values: {d21: 1.0 m, d22: 0.4 m, phi: 1.5 rad, exponent: 1, "
+        f"l0: {first} m}}}}\n",
+    )
+    path = tmp_path / "balanced.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert effects_of(read(path))
+    path.write_text(text.replace(f"l0: {first} m", f"l0: {first - 0.1} m"), encoding="utf-8")
+    with pytest.raises(InputError, match="l0 is too small"):
+        effects_of(read(path))

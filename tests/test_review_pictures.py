@@ -6,21 +6,24 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from itertools import pairwise
 from math import degrees, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy
 
-from generator.review.formula import (
-    formula,
-)
+from generator.derivation import derive
+from generator.review.formula import formula
 from generator.review.picture.arm import draw
 from generator.review.picture.skeleton import place, skeleton
 from generator.review.plain import plain
 from generator.review.plot import Curve, plot
 from generator.robot.description import PRISMATIC
+from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
-from tests.reviewed import SVG, model, page
+from tests.plant.robot_file import robot_file
+from tests.plant.robots import ROBOTS
+from tests.reviewed import SVG, files, model, page
 from tests.subject import Subject, close
 
 
@@ -132,3 +135,15 @@ def test_the_arm_shows_its_joints_lengths_and_frames(robot_arm: Subject) -> None
         if expression != 0 and joint.variable not in expression.free_symbols
     }
     assert written <= set(texts)
+
+
+def test_a_balancer_that_is_grouped_with_the_bodies_has_no_curves(tmp_path: Path) -> None:
+    """A spring on the first axis of a leaning arm pulls as a weight does; the one on joint 2 is drawn."""
+    path = tmp_path / "leaning.yaml"
+    spring = "{effect: spring_balancer, joint: 1, values: {d21: 1 m, d22: 0.25 m, phi: 0.3 rad}}"
+    path.write_text(robot_file(ROBOTS["three_axis"]).replace("effects:\n", f"effects:\n  - {spring}\n"))
+    of = derive(read(path), ("balancer", "inverse_dynamics"))
+    assert not {"Kr1", "K01"} <= {one.name for one in of.parameters}
+    text = files(of)["review.html"]
+    assert "The spring balancer on joint 2, over its range." in text
+    assert "The spring balancer on joint 1" not in text

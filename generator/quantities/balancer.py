@@ -14,7 +14,7 @@ from generator.symbolic.model import Model
 from generator.symbolic.vectors import Array
 
 
-def _observed(model: Model) -> list[Instance]:
+def observed(model: Model) -> list[Instance]:
     """The balancers whose parameters are known by themselves: one grouped with the bodies has no force of its own."""
     known = model.parameter_nodes
     return [one for one in model.effects if one.effect.observables and all(name in known for name in one.names)]
@@ -26,7 +26,7 @@ def _observables(instance: Instance) -> Mapping[str, tuple[sympy.Expr, str, str]
 
 
 def _signals(model: Model) -> tuple[Signal, ...]:
-    instances = _observed(model)
+    instances = observed(model)
     several = sum(one.effect.observables is not None for one in model.effects) > 1
     result = []
     for instance in instances:
@@ -38,7 +38,7 @@ def _signals(model: Model) -> tuple[Signal, ...]:
 
 def _build(model: Model) -> tuple[Array, ...]:
     result = []
-    for instance in _observed(model):
+    for instance in observed(model):
         values = model.lengths | {joint.variable: model.q[k] for k, joint in enumerate(model.robot.moving)}
         for parameter, name in zip(instance.effect.parameters, instance.names, strict=True):
             values[sympy.Symbol(parameter.stem, real=True)] = model.parameter_nodes[name]
@@ -54,5 +54,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q),
     outputs=_signals,
     build=_build,
-    applies=lambda model: bool(_observed(model)),
+    applies=lambda model: bool(observed(model)),
 )

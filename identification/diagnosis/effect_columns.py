@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 #: Steps a second in which states are integrated.
 _STEPS = 250.0
+#: Positions over a joint's limits at which lengths must be positive, and by how much [m].
+_STEPS_OVER, _ROOM = 200, 1e-4
 #: Slope times step below which (e^x - 1)/x is 1.
 _LINEAR = 1e-9
 #: What the rates of states are made of, by the names that they are printed with.
@@ -45,7 +47,9 @@ class EffectColumns:
         self._by_count: dict[int, Any] = {}
 
     def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
-        """Columns at the recorded rate; not a number where the shape is impossible along the run."""
+        """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
+        limits in the robot's file.
+        """
         if self._function is None:
             self._prepare()
         assert self._function is not None
@@ -54,7 +58,7 @@ class EffectColumns:
         signals = self._signals(scene, shape.get("warm_up_time"))
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
-        if self._positive is not None and np.min(self._positive(*values, *signals)) <= 0:
+        if self._positive is not None and np.min(self._positive(*values, self._anywhere(motion.q[self._k]))) < _ROOM:
             return np.full_like(result, np.nan)
         with np.errstate(invalid="ignore", over="ignore"):
             found = self._function(*values, *signals, *states)
@@ -77,9 +81,17 @@ class EffectColumns:
         self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
         self._positive = None
         if effect.positive is not None:
-            self._positive = sympy.lambdify(inputs, next(iter(effect.positive(at).values())), "numpy")
+            least = next(iter(effect.positive(at).values()))
+            self._positive = sympy.lambdify([*(at.values[name] for name in self._names), at.q], least, "numpy")
         if effect.rates is not None:
             self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
+
+    def _anywhere(self, q: Array) -> Array:
+        """Positions of a run, and all that the robot's file allows."""
+        lower, upper = self._site.joint.lower, self._site.joint.upper
+        return (
+            q if lower is None or upper is None else np.append(q, np.linspace(float(lower), float(upper), _STEPS_OVER))
+        )
 
     def _signals(self, scene: Scene, warm_up_time: float | None) -> list[Array]:
         motion = scene.motion

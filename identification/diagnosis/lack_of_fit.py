@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _BURST = 10
 #: By how much an event must stand out of the rest of the residual, in parts of its mean power.
 _OUTSTANDING = 12.0
-#: By how much an event's power is above that of a swing which was found at the time.
+#: By how much an event's power is above that of what may come late at the time.
 _BEYOND = 4.0
 
 
@@ -47,12 +47,12 @@ def lack_of_fit(
     residuals: Sequence[Array],
     k: int,
     number: int,
-    swings: Sequence[Array] | None = None,
+    late: Sequence[Array] | None = None,
 ) -> Lack:
     """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1.
 
-    ``swings`` are the same rows of what was found of elastic drive trains, and taken from them already: a swing that
-    comes a little late leaves more than it was, which is no event of its own.
+    ``late`` are the same rows of what may come a little late: swings that were found of elastic drive trains, and jumps
+    of the torque between two samples. What they leave then is no event of its own.
     """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
@@ -68,7 +68,7 @@ def lack_of_fit(
         phases += int(twice.sum())
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
-    burst = _burst(runs, residuals, k, swings or [np.zeros_like(e) for e in residuals])
+    burst = _burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
     if phases and freedom > 50:
         ratio = (common / phases) / max(differing / freedom, 1e-300)
         size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
@@ -81,19 +81,19 @@ def lack_of_fit(
 
 
 def _burst(
-    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, swings: Sequence[Array]
+    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]
 ) -> tuple[str, float] | None:
-    """Where the residual is far above the noise and the ``swings`` then, for a short time, once in all runs;
+    """Where the residual is far above the noise and of what may be ``late`` then, for a short time, once in all runs;
     not where a joint is unsettled.
     """
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
-    for run, e, swing in zip(runs, residuals, swings, strict=True):
+    for run, e, known in zip(runs, residuals, late, strict=True):
         if len(e) < 5 * _BURST:
             continue
         unsettled = run.unsettled[k][run.kept[k]]
-        power, known = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, swing))
-        power[power < _BEYOND * known] = 0.0
+        power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
+        power[power < _BEYOND * least] = 0.0
         if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
             continue
         i = int(np.argmax(power))

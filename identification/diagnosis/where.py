@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from identification.diagnosis.evidence import columns_of
 from identification.diagnosis.finding import Finding
@@ -15,10 +16,14 @@ from identification.diagnosis.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.loop import Search
 from identification.diagnosis.views import View, strongest, views
 
+Array = NDArray[np.float64]
+
 #: Part of the residual's variance that a variable must order to be a signature.
 _ORDERED = 0.05
 #: Part of what the strongest variable orders that the variable of a finding must order.
 _LEADS = 0.25
+#: Part of a sample's period within which the samples do not tell when a torque jumped.
+_UNTOLD = 0.5
 #: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
 #: motor's phase other orders cancel.
 _SHOWN = ("q", "q by direction", "qd", "qdd", "load")
@@ -50,11 +55,22 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)] if elastic else None
-        lacks.append(lack_of_fit(bank.runs, white, k, number, swings))
+        late = [_late(found, r, k) for r in everything]
+        if elastic:
+            swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
+            late = [np.hypot(one, swing) for one, swing in zip(late, swings, strict=True)]
+        lacks.append(lack_of_fit(bank.runs, white, k, number, late))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
+
+
+def _late(found: Search, r: int, k: int) -> Array:
+    """What the torque of a joint changes by in the time that samples do not tell, in white kept rows of a run."""
+    bank = found.bank
+    run, scene = bank.runs[r], bank.scenes[r]
+    change = run.decimated(_UNTOLD * scene.period * scene.rate(scene.torque[k]))
+    return np.asarray(bank.colours[r][k].white(change[None], run.kept[k])[0])
 
 
 def located(seen: Where, among: Sequence[Lack]) -> Where:

@@ -9,6 +9,7 @@ from itertools import islice
 import numpy as np
 
 from generator.effects.library import Instance
+from generator.quantities.balancer import observed
 from generator.review.laws import observables
 from generator.review.markup import Markup, element, join
 from generator.review.plot import Curve, Marker, plot
@@ -28,11 +29,11 @@ Vector = np.ndarray[tuple[int], np.dtype[np.float64]]
 
 def render(model: Model) -> Markup | None:
     function = model.functions.get("balancer")
-    observed = [instance for instance in model.effects if instance.effect.observables]
-    if function is None or not observed:
+    shown = observed(model)
+    if function is None or not shown:
         return None
     outputs = iter(function.outputs)
-    return join([_balancer(model, function, one, list(islice(outputs, len(observables(one))))) for one in observed])
+    return join([_balancer(model, function, one, list(islice(outputs, len(observables(one))))) for one in shown])
 
 
 def _balancer(model: Model, function: Function, instance: Instance, outputs: Sequence[Output]) -> Markup:
