@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -70,6 +72,18 @@ def test_many_columns_do_not_make_the_noise_small() -> None:
         column = draw.normal(size=COUNT)
         one.add(hypothesis("chance", lambda r, shape, column=column: column), {})  # type: ignore[misc]
     assert colours(one)[0][0].deviations[-1] == pytest.approx(DEVIATION, rel=0.05)
+
+
+def test_a_column_that_holds_the_record_s_noise_does_not_make_it_small() -> None:
+    """A current beyond a limit is the noise of a joint that holds a weight."""
+    tau = base()[0] + noise(7)
+    one = bank([run(base(), tau)])
+    recorded = replace(hypothesis("limit", lambda r, shape: tau - 0.9), recorded=True)
+    one.add(recorded, {})
+    assert colours(one)[0][0].deviations[-1] == pytest.approx(DEVIATION, rel=0.05)
+    other = bank([run(base(), tau)])
+    other.add(replace(recorded, recorded=False), {})
+    assert colours(other)[0][0].deviations[-1] < 0.1 * DEVIATION
 
 
 def test_columns_added_late_count_as_those_from_the_start() -> None:

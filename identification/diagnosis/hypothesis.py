@@ -102,7 +102,8 @@ class Hypothesis:
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
     there is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of
-    a drive's torque, for the part of it that the model has without what was found beside it.
+    a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
+    ``recorded`` hold the noise of the record, and so cannot tell how much of it there is.
     """
 
     effect: str
@@ -122,6 +123,7 @@ class Hypothesis:
     starts: tuple[Mapping[str, float], ...] = ()
     measured: Mapping[str, Value] = field(default_factory=dict)
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
+    recorded: bool = False
 
     @property
     def named(self) -> str:

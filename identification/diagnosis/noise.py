@@ -1,7 +1,7 @@
 """The noise of each joint in each run: what is left when everything that may act has been taken away.
 
 Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
-missing effect. Where a motion repeats, what its periods have in common is taken away too: only what differs between
+missing effect; those that hold the record's own noise stay away. Where a motion repeats, what its periods have in common is taken away too: only what differs between
 them is noise, whatever the model lacks.
 """
 
@@ -46,7 +46,7 @@ def _joint(bank: Bank, joint: int) -> list[Colour]:
 
 def _left(bank: Bank, joint: int, known: Colour | None) -> tuple[list[list[Array]], float]:
     """Stretches of noise of each run, and the part of its variance that is left in them."""
-    parts = [bank.raw(r, joint) for r in range(len(bank.runs))]
+    parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
     place = {number: i for i, number in enumerate(numbers)}
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
@@ -67,6 +67,14 @@ def _left(bank: Bank, joint: int, known: Colour | None) -> tuple[list[list[Array
         left.append(stretches(e, kept))
         shares += share * int(kept.sum()) / max(rows, 1)
     return left, freedom * shares
+
+
+def _without_record(bank: Bank, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
+    """Raw rows of a joint without columns that hold the record's own noise."""
+    noisy = {number for one in bank.variants if one.hypothesis.recorded for number in one.columns}
+    numbers, columns, tau, kept = bank.raw(run, joint)
+    quiet = [i for i, number in enumerate(numbers) if number not in noisy]
+    return [numbers[i] for i in quiet], columns[quiet], tau, kept
 
 
 def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:

@@ -60,6 +60,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
                 separating={
                     "torque_gain": "gentler motion: below the limit nothing is missing, a gain is missing everywhere",
                 },
+                recorded=True,
             )
         )
     return found
