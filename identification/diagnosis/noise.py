@@ -1,8 +1,8 @@
 """The noise of each joint in each run: what is left when everything that may act has been taken away.
 
 Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
-missing effect; those that hold the record's own noise stay away. Where a motion repeats, what its periods have in common is taken away too: only what differs between
-them is noise, whatever the model lacks.
+missing effect; those that hold the record's own noise stay away. Where a motion repeats, what its periods have in
+common is taken away too: only what differs between them is noise, whatever the model lacks.
 """
 
 from __future__ import annotations
