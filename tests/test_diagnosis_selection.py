@@ -242,6 +242,22 @@ def test_what_scales_a_torque_scales_all_of_it(share: float, named: set[str]) ->
     assert names(search(one)) == named
 
 
+@pytest.mark.parametrize("alike", [True, False])
+def test_what_tells_the_same_twice_must_agree(alike: bool) -> None:
+    data = Data(28)
+    column, other = data.column(), data.column()
+    seen: list[float] = []
+
+    def agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
+        seen.append(float(coefficients[0]))
+        return alike
+
+    told_twice = replace(fixed("soft", column), agrees=agrees)
+    found = names(search(data.bank(0.5 * column + 0.4 * other, [told_twice, fixed("other", other)])))
+    assert found == ({"soft", "other"} if alike else {"other"})
+    assert seen[-1] == pytest.approx(0.5, abs=0.1)
+
+
 def test_peaks_over_the_way_are_not_hidden_by_standstill() -> None:
     """From place to place, with stops: where the joint stands friction leaves more than the ripple is."""
     draw = np.random.default_rng(27)

@@ -103,7 +103,8 @@ class Hypothesis:
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
     there is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
-    ``recorded`` hold the noise of the record, and so cannot tell how much of it there is.
+    ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
+    coefficients in use and a shape, which tell the same twice, may be of one thing.
     """
 
     effect: str
@@ -124,6 +125,7 @@ class Hypothesis:
     measured: Mapping[str, Value] = field(default_factory=dict)
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
+    agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
 
     @property
     def named(self) -> str:

@@ -48,11 +48,13 @@ def lack_of_fit(
     k: int,
     number: int,
     late: Sequence[Array] | None = None,
+    rounded: float = 0.0,
 ) -> Lack:
     """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1.
 
     ``late`` are the same rows of what may come a little late: swings that were found of elastic drive trains, and jumps
-    of the torque between two samples. What they leave then is no event of its own.
+    of the torque between two samples. What they leave then is no event of its own. ``rounded`` is the part of the
+    noise's power that periods have in common, since it is rounding of the positions.
     """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
@@ -70,7 +72,7 @@ def lack_of_fit(
         repeats += float(count[twice].sum())
     burst = _burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
     if phases and freedom > 50:
-        ratio = (common / phases) / max(differing / freedom, 1e-300)
+        ratio = (common / phases) / max(differing / freedom + rounded, 1e-300)
         size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
         return Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
     rows = sum(len(e) for e in residuals)

@@ -158,23 +158,35 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     return result
 
 
+def rotor_is_told(scene: Scene, k: int) -> bool:
+    """Whether the fit or a parameter set of the robot's file has the inertia of the joint's drive train."""
+    return _told_rotor(scene, k) is not None
+
+
 def rotor_inertia(scene: Scene, k: int) -> float:
     """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
     half of the base parameter that it is grouped in, 0 where the model has none.
     """
+    if (told := _told_rotor(scene, k)) is not None:
+        return told
     model = scene.regressors.model
-    number = model.robot.moving[k].number
-    name = f"Ia{number}"
-    if name in scene.values:
-        return scene.values[name]
-    for one in model.robot.parameter_sets.values():
-        for told in (name, f"Iam{number}"):
-            if told in one.values:
-                return one.values[told].value
+    name = f"Ia{model.robot.moving[k].number}"
     for title, terms in model.grouping.numeric().items():
         if name in terms:
             return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
     return 0.0
+
+
+def _told_rotor(scene: Scene, k: int) -> float | None:
+    model = scene.regressors.model
+    number = model.robot.moving[k].number
+    if f"Ia{number}" in scene.values:
+        return scene.values[f"Ia{number}"]
+    for one in model.robot.parameter_sets.values():
+        for name in (f"Ia{number}", f"Iam{number}"):
+            if name in one.values:
+                return one.values[name].value
+    return None
 
 
 def _of_motor(model: Model, number: int) -> frozenset[str]:

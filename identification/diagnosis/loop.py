@@ -17,6 +17,7 @@ from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
 from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.rounding import rounding
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Choice, Selection
 from identification.diagnosis.whitening import Colour, colour, stretches
@@ -97,7 +98,8 @@ def search(
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
-        bank.whiten(colours(bank))
+        rounded = [rounding(run, scene) for run, scene in zip(runs, scenes, strict=True)]
+        bank.whiten(colours(bank, rounded if any(one.any() for one in rounded) else ()))
         weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)

@@ -7,6 +7,8 @@ common is taken away too: only what differs between them is noise, whatever the 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,25 +28,28 @@ _DOUBT = 200
 _PASSES = 2
 
 
-def colours(bank: Bank) -> list[list[Colour]]:
-    """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell."""
-    every = [_joint(bank, joint) for joint in range(bank.dof)]
+def colours(bank: Bank, rounded: Sequence[Array] = ()) -> list[list[Colour]]:
+    """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell.
+
+    ``rounded`` (n x rows each) counts as noise too, though periods may have it in common.
+    """
+    every = [_joint(bank, joint, [one[joint] for one in rounded]) for joint in range(bank.dof)]
     return [[colours[r] for colours in every] for r in range(len(bank.runs))]
 
 
-def _joint(bank: Bank, joint: int) -> list[Colour]:
+def _joint(bank: Bank, joint: int, rounded: Sequence[Array]) -> list[Colour]:
     """The colour of a joint's noise in each run."""
     known: Colour | None = None
     left: list[list[Array]] = []
     freedom = 1.0
     for _ in range(_PASSES):
-        left, freedom = _left(bank, joint, known)
+        left, freedom = _left(bank, joint, known, rounded)
         known = colour([part for parts in left for part in parts], freedom)
     assert known is not None
     return [_scaled(known, parts, freedom) for parts in left]
 
 
-def _left(bank: Bank, joint: int, known: Colour | None) -> tuple[list[list[Array]], float]:
+def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]) -> tuple[list[list[Array]], float]:
     """Stretches of noise of each run, and the part of its variance that is left in them."""
     parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
@@ -61,10 +66,10 @@ def _left(bank: Bank, joint: int, known: Colour | None) -> tuple[list[list[Array
     freedom = max(1 - rank / max(rows, 1), 0.1)
     left: list[list[Array]] = []
     shares = 0.0
-    for (mine, columns, tau, kept), run in zip(parts, bank.runs, strict=True):
+    for r, ((mine, columns, tau, kept), run) in enumerate(zip(parts, bank.runs, strict=True)):
         e = tau - weights[[place[number] for number in mine]] @ columns
         e, share = _between_periods(e, kept, run.period)
-        left.append(stretches(e, kept))
+        left.append(stretches(e + rounded[r] if rounded else e, kept))
         shares += share * int(kept.sum()) / max(rows, 1)
     return left, freedom * shares
 

@@ -93,7 +93,7 @@ class Selection:
 
     def choices(self, chosen: Sequence[Variant]) -> list[Choice]:
         """Those that pass beside each other, with what may stand in their places."""
-        standing = self._standing(chosen)
+        standing = self._agreeing(chosen)
         return [self._choice(one, [other for other in standing if other is not one]) for one in standing]
 
     def _common_start(self) -> list[Variant]:
@@ -112,6 +112,17 @@ class Selection:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
         chosen = self._standing(chosen)
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
+
+    def _agreeing(self, chosen: Sequence[Variant]) -> list[Variant]:
+        """Those that pass beside each other, without any that tells the same twice and not alike."""
+        standing = self._standing(chosen)
+        kept = []
+        for one in standing:
+            agrees = one.hypothesis.agrees
+            others = [other for other in standing if other is not one]
+            if agrees is None or agrees(self.weighing.beside(one, others)[0], one.shape):
+                kept.append(one)
+        return standing if len(kept) == len(standing) else self._agreeing(kept)
 
     def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other."""

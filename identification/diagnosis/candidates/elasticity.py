@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, LinkSides, Train
+from identification.diagnosis.link_side import LinkSide, LinkSides, Train, rotor_is_told
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 
 #: Stiffnesses and damping ratios that are looked at.
 _STEPS, _DAMPINGS = 60, 3
+#: By how much the stiffness that the torque's size tells may differ from the one of the swing.
+_ALIKE = 0.3
 #: Step of the logarithm by which a stiffness is searched between them.
 _FINE = 0.05
 
@@ -71,8 +73,14 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             "fourth power",
         },
         tries=_STEPS * _DAMPINGS,
+        agrees=_agrees if rotor_is_told(side.scene, k) else None,
         starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
     )
+
+
+def _agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
+    """Whether the size of the torque tells nearly the stiffness that the swing tells."""
+    return bool(_ALIKE < shape["k"] * coefficients[0] < 1 / _ALIKE)
 
 
 def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
