@@ -298,9 +298,10 @@ class Program:
         The order is depth first with the deeper argument first, which keeps few intermediate results alive.
         """
         done = set(known)
-        depth = self._depths(outputs := list(outputs), done)
+        wanted = list(outputs)
+        depth = self._depths(wanted, done)
         ordered: list[Node] = []
-        for output in outputs:
+        for output in wanted:
             stack = [output]
             while stack:
                 node = stack[-1]

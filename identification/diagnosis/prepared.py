@@ -28,8 +28,9 @@ _SLOW = 0.04
 _CRAWLING = 0.12
 #: Time [s] in which a joint may remember what was before the record.
 _MEMORY = 1.0
-#: Time [s] in which the swings of an elastic drive train fade, of which the log does not tell how they began.
-_SWINGING = 1.5
+#: Time [s] in which the swings of an elastic drive train fade, of which the log does not tell how they began, and the
+#: largest part of a run.
+_SWINGING, _FADING = 1.5, 0.2
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
 #: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
@@ -119,7 +120,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         along = sum(weight * speed[k] for k, weight in weights)
         standing[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
     if swinging := stated(regressors.model.robot):
-        standing[[one.k for one in swinging], : round(_SWINGING * run.rate)] = True
+        fading = min(_SWINGING, _FADING * length) * run.rate
+        standing[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
     reach = round(_SETTLING * run.rate)

@@ -116,12 +116,9 @@ class Selection:
     def _agreeing(self, chosen: Sequence[Variant]) -> list[Variant]:
         """Those that pass beside each other, without any that tells the same twice and not alike."""
         standing = self._standing(chosen)
-        kept = []
-        for one in standing:
-            agrees = one.hypothesis.agrees
-            others = [other for other in standing if other is not one]
-            if agrees is None or agrees(self.weighing.beside(one, others)[0], one.shape):
-                kept.append(one)
+        kept = [
+            one for one in standing if _agrees(self.weighing.of(one, [each for each in standing if each is not one]))
+        ]
         return standing if len(kept) == len(standing) else self._agreeing(kept)
 
     def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
@@ -239,7 +236,7 @@ class Selection:
         usual = likely(one, others)
         near = []
         for other in self.weighing.evidence(others):
-            if key_of(other.variant) == key_of(one) or not self._sound(other, others):
+            if key_of(other.variant) == key_of(one) or not self._sound(other, others) or not _agrees(other):
                 continue
             margin = -max(_EQUAL * mine.drop, _BETTER)
             if usual and not likely(other.variant, others):
@@ -247,3 +244,9 @@ class Selection:
             if other.score > mine.score + margin:
                 near.append(other)
         return Choice(mine, tuple(near), self._odds_of(one, others))
+
+
+def _agrees(one: Evidence) -> bool:
+    """Whether what its coefficients and its shape tell of the same may be of one thing."""
+    agrees = one.variant.hypothesis.agrees
+    return agrees is None or agrees(one.coefficients, one.variant.shape)
