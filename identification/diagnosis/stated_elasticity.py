@@ -216,7 +216,7 @@ class _Links:
         h, N = self.scene.period, self.scene.motion.samples
         V, m = K.shape
         load = self.torque_on(self.scene.motion)[self.at].T
-        each = np.minimum(np.arange(N) // self.held, len(self.inertia) - 1)
+        each = np.arange(N) // self.held
         inverse = np.linalg.inv(self.inertia)
         F = np.zeros((len(inverse), V, 2 * m, 2 * m))
         F[..., :m, m:] = np.eye(m)
@@ -224,18 +224,20 @@ class _Links:
         even = np.eye(2 * m) + F @ F * (h * h / 12)
         P = np.linalg.inv(even - F * (h / 2))
         A = P @ (even + F * (h / 2))
+        # Blocks of samples with one inertia: what drives a step is that of its end.
+        blocks = np.zeros((len(inverse) * self.held, 2 * m, 2))
         g = np.zeros((N, 2 * m))
         g[:, m:] = -(inverse[each] @ load[..., None])[..., 0]
-        mean, change = P * (h / 2), P @ F * (h * h / 12)
-        b = (mean[each[1:]] @ (g[1:] + g[:-1])[:, None, :, None]) - change[each[1:]] @ (g[1:] - g[:-1])[
-            :, None, :, None
-        ]
+        blocks[1:N] = np.stack([(g[1:] + g[:-1]) * (h / 2), (g[1:] - g[:-1]) * (h * h / 12)], axis=-1)
+        mean, change = np.moveaxis(blocks.reshape(len(inverse), 1, self.held, 2 * m, 2).swapaxes(2, 3), -1, 0)
+        b = P @ mean - (P @ F) @ change
         x = np.empty((N, V, 2 * m, 1))
         # The log does not tell how the links swing when it begins: they hang still on their springs.
         x[0, :, :m, 0], x[0, :, m:, 0] = -load[0] / K, -(load[1] - load[0]) / (h * K)
-        for t in range(N - 1):
-            np.matmul(A[each[t + 1]], x[t], out=x[t + 1])
-            x[t + 1] += b[t]
+        for t in range(1, N):
+            block, i = divmod(t, self.held)
+            np.matmul(A[block], x[t - 1], out=x[t])
+            x[t, ..., 0] += b[block, ..., i]
         for v in range(V):
             e, speed = x[:, v, :m, 0], x[:, v, m:, 0]
             pull = load + D[v] * speed + K[v] * e
