@@ -145,9 +145,8 @@ def _of_elasticity(found: Search) -> list[str]:
         at = found.bank.base.index(TOGETHER)
         part, std = found.values[TOGETHER], float(np.sqrt(found.covariance[at, at]))
         if part + _SURE * std < _ELASTIC:
-            notes.append(
-                f"the runs show {max(part, 0.0):.0%} of that torque: these drive trains are stiffer than stated"
-            )
+            shown = 100 * max(part, 0.0)
+            notes.append(f"the runs show {shown:.0f} % of that torque: these drive trains are stiffer than stated")
     return notes
 
 
