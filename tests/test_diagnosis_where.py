@@ -10,7 +10,8 @@ import pytest
 
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.views import View
-from identification.diagnosis.where import Where, led, located
+from identification.diagnosis.where import Where, late, led, located
+from identification.diagnosis.whitening import Colour
 
 
 def view(joint: int, variable: str, share: float) -> View:
@@ -61,3 +62,16 @@ def finding(variable: str) -> Any:
 def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
     found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable))
     assert (found.joint, found.variable) == (2, told)
+
+
+def test_a_jump_between_two_samples_may_come_late() -> None:
+    """By half a sample: a torque that jumps by 8 over two of them by 2, one that swings slowly by next to nothing."""
+    period, count = 0.01, 400
+    jump = np.where(np.arange(count) < count // 2, 0.0, 8.0)
+    slow = 8 * np.sin(2 * np.pi * 0.25 * period * np.arange(count))
+    scene = SimpleNamespace(period=period, torque=np.stack([jump, slow]), rate=lambda x: np.gradient(x, period))
+    run = SimpleNamespace(decimated=lambda x: x, kept=np.ones((2, count), dtype=bool))
+    colour = Colour((np.ones(1),), (1.0,))
+    found: Any = SimpleNamespace(bank=SimpleNamespace(runs=[run], scenes=[scene], colours=[[colour, colour]]))
+    assert late(found, 0, 0).max() == pytest.approx(2.0)
+    assert np.abs(late(found, 0, 1)).max() < 0.1

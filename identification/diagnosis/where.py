@@ -57,11 +57,11 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     rounded = [rounding(run, scene) for run, scene in zip(bank.runs, bank.scenes, strict=True)]
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        late = [_late(found, r, k) for r in everything]
+        doubtful = [late(found, r, k) for r in everything]
         if elastic:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
-            late = [np.hypot(one, swing) for one, swing in zip(late, swings, strict=True)]
-        lacks.append(lack_of_fit(bank.runs, white, k, number, late, _rounded(found, rounded, k)))
+            doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
+        lacks.append(lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, rounded, k)))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
@@ -77,7 +77,7 @@ def _rounded(found: Search, rounded: Sequence[Array], k: int) -> float:
     return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
 
 
-def _late(found: Search, r: int, k: int) -> Array:
+def late(found: Search, r: int, k: int) -> Array:
     """What the torque of a joint changes by in the time that samples do not tell, in white kept rows of a run."""
     bank = found.bank
     run, scene = bank.runs[r], bank.scenes[r]
