@@ -49,11 +49,13 @@ def standard_vector(model: Model, values: Values) -> Vector:
 
 def resolved_sets(model: Model) -> dict[str, dict[str, float]]:
     """The robot's parameter sets by name, each as values of all of ``model.parameters``."""
+    return {name: resolved(model, one.values) for name, one in model.robot.parameter_sets.items()}
+
+
+def resolved(model: Model, values: Values) -> dict[str, float]:
+    """Values of all of ``model.parameters`` [SI] by name; raises InputError as ``parameter_vector`` does."""
     names = [parameter.name for parameter in model.parameters]
-    return {
-        name: dict(zip(names, parameter_vector(model, one.values).tolist(), strict=True))
-        for name, one in model.robot.parameter_sets.items()
-    }
+    return dict(zip(names, parameter_vector(model, values).tolist(), strict=True))
 
 
 def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:

@@ -105,11 +105,10 @@ class Bank:
                 ]
             )
             if len(self.base) > len(regressors.names):
-                self._add_elasticity(scene)
+                self._add_elasticity(run, scene, self._joints[-1])
 
-    def _add_elasticity(self, scene: Scene) -> None:
+    def _add_elasticity(self, run: Prepared, scene: Scene, joints: Sequence[_Joint]) -> None:
         """The columns of the file's elastic drive trains, on joints on which they act."""
-        run, joints = self.runs[len(self._joints) - 1], self._joints[-1]
         numbers = range(len(scene.regressors.names), len(self.base))
         for number, column in zip(numbers, stated_elasticity.columns(scene), strict=True):
             for joint, row in zip(joints, column, strict=True):

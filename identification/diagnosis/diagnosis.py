@@ -20,7 +20,7 @@ from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.selection import Choice
-from identification.diagnosis.stated_elasticity import TOGETHER, names, stated
+from identification.diagnosis.stated_elasticity import TOGETHER, stated
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -133,10 +133,10 @@ def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
 
 def _of_elasticity(found: Search) -> list[str]:
     """What is to be told of drive trains that the file says are elastic."""
-    robot = found.bank.scenes[0].robot
-    where = on_joints(one.number for one in stated(robot))
-    if not names(robot):
+    trains = stated(found.bank.scenes[0].robot)
+    if not trains:
         return []
+    where = on_joints(one.number for one in trains)
     notes = [
         f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
         "stiffnesses; the rigid inverse dynamics, which plays the untouched runs, does not know it"

@@ -89,9 +89,9 @@ class EffectColumns:
     def _anywhere(self, q: Array) -> Array:
         """Positions of a run, and all that the robot's file allows."""
         lower, upper = self._site.joint.lower, self._site.joint.upper
-        return (
-            q if lower is None or upper is None else np.append(q, np.linspace(float(lower), float(upper), _STEPS_OVER))
-        )
+        if lower is None or upper is None:
+            return q
+        return np.append(q, np.linspace(float(lower), float(upper), _STEPS_OVER))
 
     def _signals(self, scene: Scene, warm_up_time: float | None) -> list[Array]:
         motion = scene.motion

@@ -16,8 +16,9 @@ import casadi
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.robot.description import Robot
 from generator.symbolic.model import Model
-from identification.diagnosis.perturbation import sensitivity
+from identification.diagnosis.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
@@ -66,10 +67,7 @@ class LinkSide:
     @cached_property
     def inertia(self) -> Array:
         """Of the links about the joint (N) [kg m2, kg]."""
-        motion = self.scene.motion
-        quicker = motion.qdd.copy()
-        quicker[self.k] += 1.0
-        result: Array = self.torque_on(Motion(motion.q, motion.qd, quicker))[self.k] - self.load
+        result: Array = self.torque_on(quicker(self.scene.motion, self.k))[self.k] - self.load
         return result
 
     def steps(self, train: Train, end: int) -> Iterator[Value]:
@@ -85,10 +83,7 @@ class LinkSide:
         given = np.tile(np.array(self._own(train))[:, None], self.scene.motion.samples)
         steps = _many_steps(self.scene.motion.samples)
         _, played = steps(list(self._start(train)), self.load[None], self.inertia[None], given)
-        moved = [np.zeros_like(self.scene.motion.q) for _ in range(3)]
-        for signal, x in zip(moved, np.asarray(played), strict=True):
-            signal[self.k] = x
-        return Motion(*moved)
+        return alone(self.scene.motion, self.k, np.asarray(played))
 
     def _own(self, train: Train) -> tuple[Value, Value, Value, Value]:
         """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
@@ -167,8 +162,8 @@ def rotor_inertia(scene: Scene, k: int) -> float:
     """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
     half of the base parameter that it is grouped in, 0 where the model has none.
     """
-    if (told := _told_rotor(scene, k)) is not None:
-        return told
+    if (known := _told_rotor(scene, k)) is not None:
+        return known
     model = scene.regressors.model
     name = f"Ia{model.robot.moving[k].number}"
     for title, terms in model.grouping.numeric().items():
@@ -178,15 +173,16 @@ def rotor_inertia(scene: Scene, k: int) -> float:
 
 
 def _told_rotor(scene: Scene, k: int) -> float | None:
-    model = scene.regressors.model
-    number = model.robot.moving[k].number
-    if f"Ia{number}" in scene.values:
-        return scene.values[f"Ia{number}"]
-    for one in model.robot.parameter_sets.values():
-        for name in (f"Ia{number}", f"Iam{number}"):
-            if name in one.values:
-                return one.values[name].value
-    return None
+    robot = scene.robot
+    number = robot.moving[k].number
+    fitted = scene.values.get(f"Ia{number}")
+    return told(robot, f"Ia{number}", f"Iam{number}") if fitted is None else fitted
+
+
+def told(robot: Robot, *names: str) -> float | None:
+    """What the first parameter set of the robot's file says that has one of the ``names``; None where none has."""
+    values = (one.values[name].value for one in robot.parameter_sets.values() for name in names if name in one.values)
+    return next(values, None)
 
 
 def _of_motor(model: Model, number: int) -> frozenset[str]:

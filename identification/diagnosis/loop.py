@@ -33,7 +33,10 @@ _ELASTIC = 3
 
 @dataclass(frozen=True)
 class Search:
-    """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place."""
+    """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
+
+    ``rounded`` (n x rows each) is what rounding of the positions makes of the runs' torques [N m, N].
+    """
 
     bank: Bank
     weighing: Weighing
@@ -43,6 +46,7 @@ class Search:
     offered: tuple[Hypothesis, ...]
     train: tuple[int, ...]
     validate: tuple[int, ...]
+    rounded: tuple[Array, ...]
 
     @property
     def start(self) -> dict[int, float]:
@@ -98,8 +102,8 @@ def search(
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
-        rounded = [rounding(run, scene) for run, scene in zip(runs, scenes, strict=True)]
-        bank.whiten(colours(bank, rounded if any(one.any() for one in rounded) else ()))
+        rounded = tuple(rounding(run, scene) for run, scene in zip(runs, scenes, strict=True))
+        bank.whiten(colours(bank, rounded))
         weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
@@ -110,7 +114,9 @@ def search(
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         if not acting.again or acting.near(before):
             break
-    return Search(bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate))
+    return Search(
+        bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
+    )
 
 
 def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:

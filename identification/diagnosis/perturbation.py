@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -33,19 +33,29 @@ def sensitivity(torque_on: Callable[[Motion], Array], motion: Motion, change: Mo
 
 def change_of(scene: Scene, k: int, x: Array) -> Motion:
     """Coordinate ``k`` moved by ``x`` (N), its speed and acceleration by the derivatives of ``x``."""
-    moved = [np.zeros_like(scene.motion.q) for _ in range(3)]
-    for signal in moved:
-        signal[k] = x
-        x = scene.rate(x)
-    return Motion(*moved)
+    speed = scene.rate(x)
+    return alone(scene.motion, k, (x, speed, scene.rate(speed)))
 
 
 def scaled(scene: Scene, k: int, factor: float) -> Motion:
     """The change that is ``factor`` times the motion of coordinate ``k``."""
-    moved = [np.zeros_like(scene.motion.q) for _ in range(3)]
-    for signal, x in zip(moved, (scene.motion.q, scene.motion.qd, scene.motion.qdd), strict=True):
-        signal[k] = factor * x[k]
+    return alone(scene.motion, k, [factor * x[k] for x in scene.motion.signals])
+
+
+def alone(motion: Motion, at: int | list[int], signals: Iterable[Array]) -> Motion:
+    """The change of a motion whose coordinates ``at`` alone have positions, speeds and accelerations."""
+    moved = []
+    for x in signals:
+        moved.append(np.zeros_like(motion.q))
+        moved[-1][at] = x
     return Motion(*moved)
+
+
+def quicker(motion: Motion, k: int) -> Motion:
+    """The motion with one more unit of acceleration of coordinate ``k``."""
+    qdd = motion.qdd.copy()
+    qdd[k] += 1.0
+    return Motion(motion.q, motion.qd, qdd)
 
 
 def _moved(motion: Motion, change: Motion, step: float) -> Motion:

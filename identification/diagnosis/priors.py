@@ -13,7 +13,7 @@ from generator.errors import InputError
 from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
-from generator.symbolic.parameter_sets import parameter_vector
+from generator.symbolic.parameter_sets import resolved
 from identification.diagnosis.normal import Prior
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ def prior_of(model: Model, name: str) -> Prior:
         problem = f"{model.robot.name} has no parameter set {name!r}"
         raise InputError(model.robot.place, problem, nearest(name, sets))
     given = _joined(model, sets[name].values)
-    values = dict(zip((one.name for one in model.parameters), parameter_vector(model, given).tolist(), strict=True))
+    values = resolved(model, given)
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
@@ -57,16 +57,16 @@ def prior_of(model: Model, name: str) -> Prior:
 
 def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
     """Values with those of the motor side (Iam, Fvm, ...) on the joints, of which the set has none."""
+    standard = {one.name for one in model.standard_parameters}
+    if any(name in model.grouping.numbers and name not in standard for name in given):
+        return dict(given)
     sides = {
         motor: f"{parameter.stem}{one.joint.number}"
         for one in motor_side(model.robot)
         if one.suffix
         for motor, parameter in zip(one.names, one.effect.parameters, strict=True)
     }
-    standard = {one.name for one in model.standard_parameters}
     moved = {motor: own for motor, own in sides.items() if motor in given and own in standard and own not in given}
-    if any(name in model.grouping.numbers and name not in standard for name in given):
-        return dict(given)
     return {moved.get(name, name): value for name, value in given.items()}
 
 

@@ -192,7 +192,7 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
     if joints != sorted(robot.flexible):
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
     notes = [
-        f"the drive train of joint {', '.join(map(str, one.joints))} is elastic in the flexible model; the rigid "
+        f"the drive train of {on_joints(one.joints)} is elastic in the flexible model; the rigid "
         "inverse dynamics, which plays the untouched runs, does not know it"
     ]
     if one.values.get("gap"):

@@ -92,9 +92,13 @@ class Selection:
         return self.choices(self._exchanged(chosen, None, _ROUNDS))
 
     def choices(self, chosen: Sequence[Variant]) -> list[Choice]:
-        """Those that pass beside each other, with what may stand in their places."""
-        standing = self._agreeing(chosen)
-        return [self._choice(one, [other for other in standing if other is not one]) for one in standing]
+        """Those that pass beside each other, with what may stand in their places; none that tells the same twice and
+        not alike.
+        """
+        standing = self._standing(chosen)
+        found = [self._choice(one, [other for other in standing if other is not one]) for one in standing]
+        alike = [one for one in found if _agrees(one.evidence)]
+        return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike])
 
     def _common_start(self) -> list[Variant]:
         """Where far more is missing than one effect: all common ones together and the best balancer, then without those
@@ -112,14 +116,6 @@ class Selection:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
         chosen = self._standing(chosen)
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
-
-    def _agreeing(self, chosen: Sequence[Variant]) -> list[Variant]:
-        """Those that pass beside each other, without any that tells the same twice and not alike."""
-        standing = self._standing(chosen)
-        kept = [
-            one for one in standing if _agrees(self.weighing.of(one, [each for each in standing if each is not one]))
-        ]
-        return standing if len(kept) == len(standing) else self._agreeing(kept)
 
     def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other."""

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
-from identification.diagnosis.link_side import LinkSide, Train, rotor_inertia, without_drive_train
-from identification.diagnosis.perturbation import sensitivity
+from identification.diagnosis.link_side import LinkSide, Train, rotor_inertia, told, without_drive_train
+from identification.diagnosis.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
 
@@ -57,17 +57,15 @@ def stated(robot: Robot) -> list[Stated]:
     }
     found = []
     for k, joint in enumerate(robot.moving):
-        name = f"k{joint.number}"
-        told = [one.values[name].value for one in robot.parameter_sets.values() if name in one.values]
-        if joint.number in robot.flexible and told and told[0] > 0:
-            found.append(Stated(k, joint.number, told[0], gaps.get(joint.number, 0.0)))
+        stiffness = told(robot, f"k{joint.number}")
+        if joint.number in robot.flexible and stiffness is not None and stiffness > 0:
+            found.append(Stated(k, joint.number, stiffness, gaps.get(joint.number, 0.0)))
     return found
 
 
 def names(robot: Robot) -> tuple[str, ...]:
     """Of the columns: of all drive trains without a gap together, then of what they may differ in."""
-    trains = stated(robot)
-    plain, loose = [one for one in trains if not one.gap], [one for one in trains if one.gap]
+    plain, loose = _plain_and_loose(robot)
     together = [TOGETHER] if plain else []
     return (
         *together,
@@ -102,10 +100,15 @@ def columns(scene: Scene) -> Array:
     """Torques (c x n x N) [N m, N] of ``names`` along a scene, by its values."""
     if not any(scene.values.values()):
         return np.zeros((len(names(scene.robot)), *scene.motion.q.shape))
-    trains = stated(scene.robot)
-    plain, loose = [one for one in trains if not one.gap], [one for one in trains if one.gap]
+    plain, loose = _plain_and_loose(scene.robot)
     result = [*_together(scene, plain), *(each for one in loose for each in _loose(scene, one))]
     return np.stack(result) if result else np.empty((0, *scene.motion.q.shape))
+
+
+def _plain_and_loose(robot: Robot) -> tuple[list[Stated], list[Stated]]:
+    """The drive trains of the file without a gap, and those with one."""
+    trains = stated(robot)
+    return [one for one in trains if not one.gap], [one for one in trains if one.gap]
 
 
 def _together(scene: Scene, trains: Sequence[Stated]) -> Iterator[Array]:
@@ -185,9 +188,7 @@ class _Links:
         still = self.torque_on(motion)
         result = np.empty((motion.samples, len(self.at), len(self.at)))
         for j, k in enumerate(self.at):
-            quicker = motion.qdd.copy()
-            quicker[k] += 1.0
-            result[:, :, j] = (self.torque_on(Motion(motion.q, motion.qd, quicker)) - still)[self.at].T
+            result[:, :, j] = (self.torque_on(quicker(motion, k)) - still)[self.at].T
         # Values that hardly show may make too little inertia: nothing swings too fast for the samples.
         root = np.sqrt([one.stiffness for one in self.trains])
         scaled = (result + result.transpose(0, 2, 1)) / (2 * np.outer(root, root))
@@ -201,10 +202,7 @@ class _Links:
         M = np.mean(np.diagonal(self.inertia, axis1=1, axis2=2), axis=0)
         D = 2 * _DAMPING * damping * np.sqrt(K * M)
         for e in self._deflections(K, D):
-            moved = [np.zeros_like(self.scene.motion.q) for _ in range(3)]
-            for signal, x in zip(moved, e, strict=True):
-                signal[self.at] = x
-            yield sensitivity(self.torque_on, self.scene.motion, Motion(*moved))
+            yield sensitivity(self.torque_on, self.scene.motion, alone(self.scene.motion, self.at, e))
 
     def _deflections(self, K: Array, D: Array) -> Iterator[Array]:
         """Positions, speeds and accelerations (3 x m x N) of the links against the motors, for each of V combinations

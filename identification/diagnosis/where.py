@@ -14,7 +14,6 @@ from identification.diagnosis.finding import Finding
 from identification.diagnosis.hypothesis import ELASTIC
 from identification.diagnosis.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.loop import Search
-from identification.diagnosis.rounding import rounding
 from identification.diagnosis.views import View, strongest, views
 
 Array = NDArray[np.float64]
@@ -54,25 +53,24 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
     stiff = {column: x for column, x in weights.items() if column not in elastic}
     lacks, shown = [], {}
-    rounded = [rounding(run, scene) for run, scene in zip(bank.runs, bank.scenes, strict=True)]
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
         doubtful = [late(found, r, k) for r in everything]
         if elastic:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
             doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
-        lacks.append(lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, rounded, k)))
+        lacks.append(lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, k)))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
 
 
-def _rounded(found: Search, rounded: Sequence[Array], k: int) -> float:
+def _rounded(found: Search, k: int) -> float:
     """Mean square of the white rows of a joint that rounding of the positions makes."""
     bank = found.bank
     rows = [
         colours[k].white(one[k][None], run.kept[k])[0]
-        for colours, one, run in zip(bank.colours, rounded, bank.runs, strict=True)
+        for colours, one, run in zip(bank.colours, found.rounded, bank.runs, strict=True)
     ]
     return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
 
