@@ -57,8 +57,9 @@ class Case:
 def case(folder: Path, hidden: str) -> Case:
     """Three runs, the last one untouched, with a torque in them that the file does not know."""
     regressors, sources = recorded(folder, [hidden] * 3)
-    runs = [ready(one, regressors) for one in sources[:2]]
-    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2])))
+    *runs, last = (ready(one, regressors) for one in sources)
+    roles = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
+    found = diagnose(regressors, runs, roles, test=[last])
     after = mended(folder / "arm.yaml", found, None, folder / "out") if hidden == "stribeck" else None
     return Case(found, after, report(found, after))
 

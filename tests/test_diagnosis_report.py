@@ -56,6 +56,16 @@ def test_the_untouched_run_is_measured_against_noise(named: Case) -> None:
     assert one.relative_floor == pytest.approx(one.after.relative_to_mean * one.floor / rms(one.after))
 
 
+def test_the_steps_are_of_the_runs_that_test(named: Case) -> None:
+    steps = named.found.steps
+    assert steps.tested
+    assert steps.named == tuple(one.hypothesis.named for one in named.found.findings)
+    before, after = steps.sizes
+    assert before > 1.15
+    assert after == pytest.approx(1.0, abs=0.1)
+    assert "of the runs that test, as fits to the others predict them" in named.words
+
+
 def test_the_noise_floor_is_that_of_the_noise_made(named: Case) -> None:
     """The rms of what a first-order filter leaves of white noise, below the decimation's corner."""
     rate = 20.0

@@ -26,6 +26,7 @@ from identification.diagnosis.repair import repaired
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.testing import along
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -154,7 +155,7 @@ def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
     of, drift = two_links(tmp_path), Drift(-0.2, time=0.0)
     runs = [ready(logged(tmp_path, seed, drift, (2,)), of) for seed in (1, 2)]
     found = search(runs, (0,), (1,), of)
-    kept, gone = confirmed(found, [ready(logged(tmp_path, 3, drift), of)])
+    kept, gone = confirmed(found, along(found, [ready(logged(tmp_path, 3, drift), of)]))
     assert not gone
     ((drift_found, *_),) = [one.evidence.coefficients for one in kept.choices]
     assert "warm_rise" in kept.choices[0].evidence.variant.shape

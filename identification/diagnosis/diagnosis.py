@@ -21,6 +21,8 @@ from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.stated_elasticity import TOGETHER, stated
+from identification.diagnosis.steps import Steps, steps
+from identification.diagnosis.testing import along
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -45,8 +47,9 @@ class Diagnosis:
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
     ``runs`` are all runs in the order of ``roles`` (train, validate, test); ``found`` holds the columns of those that
-    are fitted or validate. ``residuals_before`` and ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted
-    and validating runs by the model of the search, all rows, as recorded.
+    are fitted or validate; ``steps`` is how near to the noise each finding comes. ``residuals_before`` and
+    ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs by the model of the search,
+    all rows, as recorded.
     """
 
     robot: Robot
@@ -59,6 +62,7 @@ class Diagnosis:
     roles: Roles
     runs: tuple[Prepared, ...]
     found: Search
+    steps: Steps
     residuals_before: tuple[Array, ...]
     residuals_after: tuple[Array, ...]
     notes: tuple[str, ...]
@@ -80,7 +84,9 @@ def diagnose(
     """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found, gone = confirmed(search(runs, train, validate, regressors, prior, told, dry), test)
+    found = search(runs, train, validate, regressors, prior, told, dry)
+    testing = along(found, test)
+    found, gone = confirmed(found, testing)
     told("looking where the residual is")
     first, last = (seen(found, weights) for weights in (found.start, found.weights))
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
@@ -102,6 +108,7 @@ def diagnose(
         roles,
         tuple(runs),
         found,
+        steps(found, testing),
         tuple(_residuals(found, found.start)),
         tuple(_residuals(found, found.weights)),
         tuple(notes),

@@ -17,27 +17,15 @@ _BAR = 38
 
 
 def render(subject: Subject) -> Markup | None:
-    search = subject.found.found
-    if not search.choices:
+    steps = subject.found.steps
+    if not steps.named:
         return None
-    order = sorted(search.choices, key=lambda one: -one.evidence.drop)
-    every = search.weighing.all
-    columns: list[int] = []
-    levels = [every.misfit(columns, every.solution(columns)[0])]
-    names = ["model before"]
-    for one in order:
-        variant = one.evidence.variant
-        columns += variant.columns
-        levels.append(every.misfit(columns, every.solution(columns)[0]))
-        names.append(variant.hypothesis.named)
-    sizes = np.sqrt(np.array(levels) / max(every.rows, 1))
-    steps = np.diff(sizes)
     data = {
         "type": "waterfall",
         "orientation": "h",
-        "y": [*names, "model after"],
-        "x": numbers([sizes[0], *steps, 0.0]),
-        "measure": ["absolute", *["relative"] * len(steps), "total"],
+        "y": ["model before", *steps.named, "model after"],
+        "x": numbers([steps.sizes[0], *np.diff(steps.sizes), 0.0]),
+        "measure": ["absolute", *["relative"] * len(steps.named), "total"],
         "decreasing": {"marker": {"color": ESTIMATED}},
         "increasing": {"marker": {"color": RESIDUAL}},
         "totals": {"marker": {"color": MEASURED}},
@@ -54,8 +42,9 @@ def render(subject: Subject) -> Markup | None:
         "shapes": [noise],
         "annotations": [{**place, "text": "noise", "showarrow": False}],
     }
+    whose = "test, as fits to the others predict them" if steps.tested else "are fitted and validate"
     text = (
-        "White residual, all joints together, of the runs that are fitted and that validate: as the model was, then"
-        " with one finding after the other, parameters fitted anew each time. 1 is noise alone."
+        f"White residual, all joints together, of the runs that {whose}: with the model as it was, then with one"
+        " finding after the other, parameters fitted anew each time. 1 is noise alone."
     )
-    return join(element("p", text), chart([data], layout, TITLE, height=120 + _BAR * (len(names) + 1)))
+    return join(element("p", text), chart([data], layout, TITLE, height=120 + _BAR * (len(steps.named) + 2)))
