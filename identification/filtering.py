@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 _ORDER, _RIPPLE, _CORNER = 8, 0.05, 0.8
 #: Largest factor of one stage; MATLAB's manual asks for several beyond it.
 _LARGEST = 13
+#: Weights of a first derivative by the differences of samples 1, 2, 3 and 4 before and after: exact to degree 8.
+_FLAT = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
 #: What an interior end may leave of a transient.
 _FORGOTTEN = 1e-14
 
@@ -48,6 +50,24 @@ def derivative(x: Array, period: float) -> Array:
     result[..., 1:-1] = (x[..., 2:] - x[..., :-2]) / 2
     result[..., 0], result[..., -1] = x[..., 1] - x[..., 0], x[..., -1] - x[..., -2]
     result /= period
+    return result
+
+
+def flat_derivative(x: Array, period: float) -> Array:
+    """Central differences over nine samples, as ``derivative`` at the four of each end.
+
+    They pass 0.99 of a fifth of the sampling rate, where ``derivative`` passes 0.76: an acceleration that lacks what
+    its torque has looks like an elastic drive train.
+    """
+    result = derivative(x, period)
+    count = x.shape[-1]
+    reach = len(_FLAT)
+    if count > 2 * reach:
+        inner = sum(
+            weight * (x[..., reach + n : count - reach + n] - x[..., reach - n : count - reach - n])
+            for n, weight in enumerate(_FLAT, 1)
+        )
+        result[..., reach:-reach] = inner / period
     return result
 
 

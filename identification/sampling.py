@@ -6,7 +6,7 @@ with so much of its neighbours that the filter has forgotten where the part ends
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,12 +54,17 @@ class Sampled:
         return self.run.start + self.run.period * numbers
 
 
-def sampled(run: Run, recipe: Recipe, regressors: Regressors) -> Sampled:
-    """The motion of a run by the recipe's filters (report eq. 46); raises InputError where the run is too short."""
+def sampled(
+    run: Run, recipe: Recipe, regressors: Regressors, rate: Callable[[Array, float], Array] = derivative
+) -> Sampled:
+    """The motion of a run by the recipe's filters (report eq. 46), its speeds by ``rate`` of positions and period.
+
+    Raises InputError where the run is too short.
+    """
     filters = recipe.at(run.rate)
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
-    qd = derivative(q, run.period)
-    qdd = derivative(qd, run.period)
+    qd = rate(q, run.period)
+    qdd = rate(qd, run.period)
     inner = slice(filters.first, run.samples - filters.last)
     slow = recipe.standstills(regressors.model.robot)
     still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= slow[k])

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import signal
 
-from identification.filtering import Stage, decimated, derivative, kept_indices, smoothed, stages
+from identification.filtering import Stage, decimated, derivative, flat_derivative, kept_indices, smoothed, stages
 
 Array = NDArray[np.float64]
 
@@ -50,6 +50,18 @@ def test_central_differences_are_exact_on_parabolas_inside() -> None:
     assert np.allclose(found[:, 1:-1], np.stack([6 * t - 1, 5 + 0 * t])[:, 1:-1])
     assert found[0, 0] == pytest.approx((x[0, 1] - x[0, 0]) / 0.01)
     assert found[0, -1] == pytest.approx((x[0, -1] - x[0, -2]) / 0.01)
+
+
+def test_flat_differences_keep_a_fifth_of_the_sampling_rate() -> None:
+    t = np.arange(400) / 100
+    for part, least in ((0.1, 0.9999), (0.2, 0.993)):
+        omega = 2 * np.pi * part * 100
+        x, xd = np.sin(omega * t), omega * np.cos(omega * t)
+        flat, plain = (rate(x, 0.01)[4:-4] @ xd[4:-4] / (xd[4:-4] @ xd[4:-4]) for rate in (flat_derivative, derivative))
+        assert plain < least < flat <= 1
+    x = np.stack([t**2, 5 * t])
+    assert flat_derivative(x, 0.01)[:, 1:-1] == pytest.approx(np.stack([2 * t, 5 + 0 * t])[:, 1:-1])
+    assert flat_derivative(x[:, :8], 0.01) == pytest.approx(derivative(x[:, :8], 0.01))
 
 
 @pytest.mark.parametrize("factor", [1, 2, 7, 10, 13, 20, 26, 100, 1000])

@@ -13,6 +13,7 @@ from generator.errors import InputError
 from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.stated_elasticity import stated
+from identification.filtering import flat_derivative
 from identification.observation import Regressors
 from identification.recipe import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
@@ -111,7 +112,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
     filtering = replace(changed, dropped_first=None, dropped_last=None)
     filters_of(run, filtering)
-    one = sampled(run, filtering, regressors)
+    one = sampled(run, filtering, regressors, flat_derivative)
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual

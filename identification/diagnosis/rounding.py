@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.perturbation import sensitivity
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
-from identification.filtering import derivative, smoothed
+from identification.filtering import flat_derivative, smoothed
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
@@ -49,8 +49,8 @@ def rounding(run: Prepared, scene: Scene) -> Array:
         return result
     error = np.random.default_rng(0).uniform(-0.5, 0.5, one.run.q.shape) * step[:, None]
     q = smoothed(error, one.filters.order, one.filters.cutoff, one.run.rate)
-    qd = derivative(q, one.run.period)
+    qd = flat_derivative(q, one.run.period)
     first = one.filters.first
-    change = Motion(q, qd, derivative(qd, one.run.period)).part(first, first + one.motion.samples)
+    change = Motion(q, qd, flat_derivative(qd, one.run.period)).part(first, first + one.motion.samples)
     torque = sensitivity(lambda motion: scene.torque_of(scene.values, motion), scene.motion, change)
     return np.asarray(np.sqrt(times) * run.decimated(torque))

@@ -14,6 +14,7 @@ from generator.effects.effect import Column
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from identification.corrections import warming_up
+from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
 
@@ -167,8 +168,8 @@ class Scene:
         return 0.0 if self.beside is None else self.beside.coefficients.get(name, 0.0)
 
     def rate(self, x: Array) -> Array:
-        """Time derivative of signals with samples along the last axis, central differences."""
-        return np.gradient(x, self.period, axis=-1)
+        """Time derivative of signals with samples along the last axis, as the motion's speeds are."""
+        return flat_derivative(x, self.period)
 
 
 def _accelerates(column: Column) -> bool:
