@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+import sympy
+
 from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
-    return (at.on_joint(at.q - at.values["neutral"]),)
+    way = at.q - at.values["neutral"]
+    return at.on_joint(way), at.on_joint(way**3)
+
+
+def _energy(at: Site) -> tuple[sympy.Expr, ...]:
+    neutral = at.values["neutral"]
+    return at.q * (at.q / 2 - neutral), ((at.q - neutral) ** 4 - neutral**4) / 4
 
 
 EFFECT = Effect(
     id="cable_spring",
     title="cable spring",
-    parameters=(LinearParameter("kc", ("N m/rad", "N/m"), "stiffness of hoses and cables", 0.0),),
+    parameters=(
+        LinearParameter("kc", ("N m/rad", "N/m"), "stiffness of hoses and cables", 0.0),
+        LinearParameter("kch", ("N m/rad3", "N/m3"), "how it hardens with the cube of the way", 0.0, refines=True),
+    ),
     columns=_columns,
-    potential_energy=lambda at: (at.q * (at.q / 2 - at.values["neutral"]),),
+    potential_energy=_energy,
     shapes=(
         Shape(
             "neutral",
@@ -27,8 +38,8 @@ EFFECT = Effect(
     ),
     needs=("q",),
     on_link=True,
-    sign_convention="the motor supplies kc (q - neutral) against the pull",
-    assumptions="linear, massless, without friction of its own",
-    source="Hooke's law",
+    sign_convention="the motor supplies kc (q - neutral) + kch (q - neutral)^3 against the pull",
+    assumptions="massless, without friction of its own; hardens alike both ways",
+    source="Hooke's law; the cubic term of Duffing 1918",
     rank=65,
 )

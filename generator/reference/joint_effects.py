@@ -27,9 +27,9 @@ LAWS: Mapping[str, Law] = {
     "offset": Law(("Off",), lambda at: (Decimal(1),), loads=True),
     "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), loads=True),
     "cable_spring": Law(
-        ("kc",),
-        lambda at: (at.q - at.shape["neutral"],),
-        potential=lambda at: (((at.q - at.shape["neutral"]) ** 2 - at.shape["neutral"] ** 2) / 2,),
+        ("kc", "kch"),
+        lambda at: tuple((at.q - at.shape["neutral"]) ** n for n in (1, 3)),
+        potential=lambda at: tuple(((at.q - at.shape["neutral"]) ** n - at.shape["neutral"] ** n) / n for n in (2, 4)),
         loads=True,
     ),
     **friction.LAWS,

@@ -33,6 +33,8 @@ _FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
 _COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
 _WRIST = ("coupled_rotor",)
 BALANCERS = ("gas_balancer", "spring_balancer")
+#: What pulls a link to where it rests.
+SPRINGS = (*BALANCERS, "cable_spring", "joint_spring")
 #: What lets the link come after the motor, or the log after both.
 _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
 #: Laws are never exact: least part of what others explain on the same joint, and where they are alike: friction of the
@@ -170,7 +172,7 @@ class Weighing:
         used = len(x)
         tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
         p = min(1.0, tries * float(chi2.sf(drop, max(used, 1))))
-        bic = drop - used * np.log(self.normal.rows) - 2 * np.log(tries)
+        bic = drop - (used + variant.hypothesis.free) * np.log(self.normal.rows) - 2 * np.log(tries)
         rows = int(self._rows[list(variant.joints)].sum())
         size = float(np.sqrt(drop / max(rows, 1)))
         one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
@@ -287,7 +289,7 @@ def likely(variant: Variant, others: Sequence[Variant]) -> bool:
     """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer."""
     effect = variant.hypothesis.effect
     if effect in BALANCERS:
-        return not any(other.hypothesis.effect in BALANCERS for other in others)
+        return variant.hypothesis.usual and not any(other.hypothesis.effect in BALANCERS for other in others)
     return common(variant) or effect in _WRIST
 
 

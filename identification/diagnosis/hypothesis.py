@@ -104,7 +104,8 @@ class Hypothesis:
     there is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
-    coefficients in use and a shape, which tell the same twice, may be of one thing.
+    coefficients in use and a shape, which tell the same twice, may be of one thing. ``usual`` is false where robots
+    have such an effect on another joint.
     """
 
     effect: str
@@ -126,6 +127,12 @@ class Hypothesis:
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
+    usual: bool = True
+
+    @property
+    def free(self) -> int:
+        """How many of the shapes' values are fitted to the runs."""
+        return sum(one.free for one in self.shapes)
 
     @property
     def named(self) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import (
     BALANCERS,
+    SPRINGS,
     Evidence,
     Weighing,
     columns_of,
@@ -235,7 +236,8 @@ class Selection:
             if key_of(other.variant) == key_of(one) or not self._sound(other, others) or not _agrees(other):
                 continue
             margin = -max(_EQUAL * mine.drop, _BETTER)
-            if usual and not likely(other.variant, others):
+            springs = {one.hypothesis.effect, other.variant.hypothesis.effect} <= set(SPRINGS)
+            if usual and not likely(other.variant, others) and not springs:
                 margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
                 near.append(other)

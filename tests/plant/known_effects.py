@@ -36,18 +36,19 @@ class Entry:
 
 @dataclass(frozen=True)
 class _Units:
-    """Of a joint: position, speed, torque, torque per speed, per position, inertia."""
+    """Of a joint: position, speed, torque, torque per speed, per position, per its cube, inertia."""
 
     position: str
     speed: str
     torque: str
     viscous: str
     stiffness: str
+    hardening: str
     inertia: str
 
 
-_TURNING = _Units("rad", "rad/s", "N m", "N m s/rad", "N m/rad", "kg m2")
-_SLIDING = _Units("m", "m/s", "N", "N s/m", "N/m", "kg")
+_TURNING = _Units("rad", "rad/s", "N m", "N m s/rad", "N m/rad", "N m/rad3", "kg m2")
+_SLIDING = _Units("m", "m/s", "N", "N s/m", "N/m", "N/m3", "kg")
 
 
 def entry(effect: Effect, robot: Robot) -> Entry | None:
@@ -122,7 +123,8 @@ def _quadratic(effect: Effect, robot: Robot, units: _Units) -> Entry:
 
 def _cable(effect: Effect, robot: Robot, units: _Units) -> Entry:
     shape = {"neutral": f"{effect.value('rest', robot)!r} {units.position}"}
-    return Entry("cable_spring", effect.joint, shape, {"kc": (effect.amount(robot), units.stiffness)})
+    linear = {"kc": (effect.amount(robot), units.stiffness), "kch": (0.0, units.hardening)}
+    return Entry("cable_spring", effect.joint, shape, linear)
 
 
 def _position(effect: Effect, robot: Robot, units: _Units) -> Entry:

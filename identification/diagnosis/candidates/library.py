@@ -18,6 +18,8 @@ from identification.diagnosis.scene import Scene
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
+#: The same part that the joint which carries the arm has at least, though its balancer takes some of it.
+_CARRIES = 0.3
 #: Part of the swing of the joint's whole torque that it must be.
 _FELT = 0.01
 #: Part of a whole warming up that the runs must show.
@@ -59,6 +61,12 @@ def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
     if any(not shape.tried and shape.default is None for shape in effect.shapes):
         return False
     return not (effect.observables and any(library()[one].observables for one in there))
+
+
+def _shoulder(scenes: Sequence[Scene]) -> int | None:
+    """The first joint that carries a good part of the weight: what a balancer holds up, None where none does."""
+    swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
+    return next((k for k, one in enumerate(swing) if one > _CARRIES * swing.max()), None)
 
 
 def _weighty(scenes: Sequence[Scene]) -> list[bool]:
@@ -120,6 +128,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
             variable=_variable(effect),
             would_show=_would_show(effect),
             tries=tries,
+            usual=effect.observables is None or k == _shoulder(scenes),
         )
     ]
 
