@@ -14,7 +14,7 @@ from generator.robot.description import Robot as Described
 from generator.robot.readers import read
 from identification.dataset import Run as Recorded
 from identification.diagnosis.scene import Scene
-from identification.filtering import decimated, kept_indices
+from identification.filtering import decimated, flat_derivative, kept_indices
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sampling import sampled
@@ -48,7 +48,9 @@ class Known:
             if block is not None:
                 others |= {f"{stem}{j + 1}": column for j, column in enumerate(block.T)}
         recorded = Recorded("run", Place("run"), 0.0, 1 / run.rate, run.q.T, run.tau.T, by_motors=True, others=others)
-        one = sampled(recorded, Recipe().changed(cutoff=CUTOFF, factor=1, standstill=0.0), self.regressors)
+        one = sampled(
+            recorded, Recipe().changed(cutoff=CUTOFF, factor=1, standstill=0.0), self.regressors, flat_derivative
+        )
         return Scene(one, self.regressors, self.values)
 
 

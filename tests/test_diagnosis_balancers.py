@@ -42,6 +42,15 @@ def test_a_balancer_is_looked_for_where_bodies_weigh(tmp_path: Path) -> None:
     assert {joint for effect, joint in found if effect == "spring_balancer"} == {3}
 
 
+@pytest.mark.parametrize(("balanced", "usual"), [(True, set()), (False, {2})])
+def test_a_balancer_is_usual_on_the_shoulder_alone(balanced: bool, usual: set[int], tmp_path: Path) -> None:
+    robot = ROBOTS[HEAVY] if balanced else replace(ROBOTS[HEAVY], own=())
+    scene, _, _ = played(known(robot, tmp_path), Effect("offset", 1, 0.0), WAY)
+    found = [one for one in library.hypotheses([scene]) if one.effect in BALANCERS]
+    assert {one.joint for one in found} == usual | {3}
+    assert {one.joint for one in found if one.usual} == usual
+
+
 def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> None:
     """Along the run it may have: the robot file refuses one that the joint's limits do not allow."""
     arm = known(ROBOTS[HEAVY], tmp_path)

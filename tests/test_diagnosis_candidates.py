@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy
+from scipy.ndimage import binary_erosion
 
 from generator.discovery import modules
 from generator.robot.description import EffectUse, ParameterSet, ParameterValue, Signals
@@ -142,6 +143,8 @@ class Found:
 def test_what_is_large_is_exact_about_what_was_found(case: str, robots: Callable[[str], Known]) -> None:
     name, effect, candidate, joint, key, value = LARGE[case]
     scene, truth, kept = played(robots(name), effect, WAY)
+    # A joint of a late log stands in other rows than the logged one.
+    kept = binary_erosion(kept, np.ones((1, 5)))
     (hypothesis,) = offered([scene], candidate, joint)
     _, first = fitted(hypothesis.columns(scene, {}), truth, kept, scene)
     near = replace(scene, beside=Found({key: 0.9 * value}))
