@@ -53,6 +53,19 @@ def regressors(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
     return Regressors(read(path))
 
 
+@pytest.mark.parametrize("told", ["", "      kch1: 0 N m/rad3\n"])
+def test_what_a_set_does_not_tell_of_an_effect_is_nearly_zero(told: str, tmp_path: Path) -> None:
+    """Where it only refines what the set tells: cables of which the stiffness is known hardly harden."""
+    cable = "  - {effect: cable_spring, joint: 1, values: {neutral: 0.1 rad}}\n"
+    path = tmp_path / "arm.yaml"
+    path.write_text(ARM.replace("parameters:\n", f"{cable}parameters:\n") + f"      kc1: 40 N m/rad\n{told}")
+    of = Regressors(read(path))
+    prior = prior_of(of.model, "drawing")
+    at = of.names.index("kch1")
+    assert prior.mean[at] == 0
+    assert prior.precision[at, at] ** -0.5 == pytest.approx(0.05 * 40, rel=1e-5)
+
+
 def linear_map(regressors: Regressors) -> Array:
     """Base parameters per standard parameter, from torques of an independent Newton-Euler along random motions."""
     robot = regressors.model.robot

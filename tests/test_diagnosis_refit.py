@@ -113,6 +113,16 @@ def test_the_refit_finds_the_truth_and_the_file_keeps_it(case: Case, fitted: Ref
     assert set(resolved_sets(Regressors(robot).model)["diagnosed"]) >= set(fitted.values)
 
 
+@pytest.mark.parametrize("near", [False, True])
+def test_what_the_runs_do_not_ask_for_stays_zero(near: bool, case: Case, fitted: Refit) -> None:
+    of = case.regressors
+    prior = Prior(np.array(list(fitted.values.values())), np.eye(len(of.names))) if near else None
+    found = refit([case.sampled(k, of) for k in (0, 1)], of, prior, zero=["Fd1"])
+    assert found.values["Fd1"] == found.std["Fd1"] == 0
+    assert float(found.parameter_set.values["Fd1"].value) == 0
+    assert found.values["Fc1"] > fitted.values["Fc1"]
+
+
 def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:
     player, notes = compiled(case.new, case.folder / "generated", case.regressors)
     assert not notes

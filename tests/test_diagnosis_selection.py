@@ -200,7 +200,7 @@ def test_an_order_that_is_no_whole_number_is_another_effect(order: float, named:
 
 def rippling(q: Array, points: tuple[float, ...]) -> Hypothesis:
     """Cosine and sine of a whole order of positions q (RUNS x COUNT)."""
-    shape = ShapeRange("order", "1", min(points), max(points), points=points, whole=True, exact=True)
+    shape = ShapeRange("order", "1", 1.0, max(points), points=points, whole=True, exact=True)
 
     def columns(scene: Any, given: Mapping[str, float]) -> Array:
         phase = given["order"] * q[scene.number]

@@ -26,7 +26,7 @@ from identification.diagnosis.repair import repaired
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.testing import along
+from identification.diagnosis.trial import along
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.recipe import Recipe

@@ -32,7 +32,7 @@ EFFECT = Effect(
             "rad",
             "position where nothing pulls",
             prismatic="m",
-            tried=(-2.0, -1.0, 0.0, 1.0, 2.0),
+            tried=(-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0),
             relative="position",
         ),
     ),

@@ -16,7 +16,7 @@ from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import key_of
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice, Selection
-from identification.diagnosis.testing import Testing
+from identification.diagnosis.trial import Trial
 
 #: Least |d|^2 at which the testing runs tell anything of a finding.
 _TOLD = 9.0
@@ -24,16 +24,16 @@ _TOLD = 9.0
 _NEVER = 3.0
 
 
-def confirmed(found: Search, testing: Testing | None) -> tuple[Search, tuple[Choice, ...]]:
-    """The search without the choices that ``testing`` contradicts, and those; the most contradicted goes first.
+def confirmed(found: Search, trial: Trial | None) -> tuple[Search, tuple[Choice, ...]]:
+    """The search without the choices that ``trial`` contradicts, and those; the most contradicted goes first.
 
     What passed only beside one that is taken back goes too.
     """
-    if testing is None:
+    if trial is None:
         return found, ()
     staying = [one.evidence.variant for one in found.choices]
     while staying:
-        short, worst = min(((_short(testing, staying, one), one) for one in staying), key=lambda pair: pair[0])
+        short, worst = min(((_short(trial, staying, one), one) for one in staying), key=lambda pair: pair[0])
         if short >= 0:
             break
         staying.remove(worst)
@@ -50,17 +50,17 @@ def confirmed(found: Search, testing: Testing | None) -> tuple[Search, tuple[Cho
     return found.keeping(told), gone
 
 
-def _short(testing: Testing, staying: Sequence[Variant], one: Variant) -> float:
+def _short(trial: Trial, staying: Sequence[Variant], one: Variant) -> float:
     """By how many standard deviations the testing runs contradict a finding beside the others, negative; else 0."""
-    theta, C = testing.fitted(staying)
-    fewer, _ = testing.fitted([other for other in staying if other is not one])
-    d = (theta - fewer) @ testing.columns
+    theta, C = trial.fitted(staying)
+    fewer, _ = trial.fitted([other for other in staying if other is not one])
+    d = (theta - fewer) @ trial.columns
     size = float(d @ d)
     if size < _TOLD:
         return 0.0
-    left = testing.left(theta)
+    left = trial.left(theta)
     gained = size + float(2 * left @ d)
-    along = testing.columns @ d
+    along = trial.columns @ d
     variance = 4 * (float(np.mean(left**2)) * size + float(along @ C @ along))
     if gained >= 0 or gained >= size - _NEVER * np.sqrt(variance):
         return 0.0

@@ -22,7 +22,7 @@ from identification.diagnosis.roles import Roles
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.stated_elasticity import TOGETHER, stated
 from identification.diagnosis.steps import Steps, steps
-from identification.diagnosis.testing import along
+from identification.diagnosis.trial import along
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -85,8 +85,8 @@ def diagnose(
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
     found = search(runs, train, validate, regressors, prior, told, dry)
-    testing = along(found, test)
-    found, gone = confirmed(found, testing)
+    trial = along(found, test)
+    found, gone = confirmed(found, trial)
     told("looking where the residual is")
     first, last = (seen(found, weights) for weights in (found.start, found.weights))
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
@@ -108,7 +108,7 @@ def diagnose(
         roles,
         tuple(runs),
         found,
-        steps(found, testing),
+        steps(found, trial),
         tuple(_residuals(found, found.start)),
         tuple(_residuals(found, found.weights)),
         tuple(notes),

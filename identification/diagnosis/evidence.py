@@ -286,7 +286,7 @@ def common(variant: Variant) -> bool:
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer."""
+    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place."""
     effect = variant.hypothesis.effect
     if effect in BALANCERS:
         return variant.hypothesis.usual and not any(other.hypothesis.effect in BALANCERS for other in others)

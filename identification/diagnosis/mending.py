@@ -69,7 +69,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
         more = {key: value for one in additions for key, value in one.parameters.items()}
-        fit = refit(_sampled(found.roles.known, regressors), regressors, known, more, _description(found.findings))
+        said, unused = _description(found.findings), _unused(found.findings)
+        fit = refit(_sampled(found.roles.known, regressors), regressors, known, more, said, unused)
         if prior is None:
             values = refit(_sampled(found.roles.known, old_regressors), old_regressors).values
         else:
@@ -103,6 +104,13 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
 def _addition(one: Finding) -> Addition:
     values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
     return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
+
+
+def _unused(found: Sequence[Finding]) -> list[str]:
+    """Coefficients that would refine what was found, for which the runs do not ask."""
+    return [
+        c.name for one in found for c in one.hypothesis.coefficients if c.refines and not one.parameters[c.name].std
+    ]
 
 
 def _description(found: Sequence[Finding]) -> str:

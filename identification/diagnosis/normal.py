@@ -50,6 +50,10 @@ class Prior:
         whole[len(self.mean) :, len(self.mean) :] = more
         return Prior(np.append(self.mean, np.zeros(count)), whole)
 
+    def only(self, kept: NDArray[np.int64]) -> Prior:
+        """Of some of the parameters by number, the others being as they are known."""
+        return Prior(self.mean[kept], self.precision[np.ix_(kept, kept)])
+
     def products(self, rows: Sequence[int], columns: Sequence[int], torque: int) -> Array:
         """The prior's part of products of columns by number, that of the torque being ``torque``."""
         p = len(self.mean)

@@ -9,7 +9,7 @@ import numpy as np
 from identification.diagnosis.scene import Scene
 
 #: Lowest order: slower ones are shared with everything that depends on the position.
-_LOWEST = 5
+LOWEST = 5
 #: Peaks that are returned, and neighbours that a peak is compared with.
 _PEAKS, _NEIGHBOURS = 4, 10
 #: Samples of a run that are looked at.
@@ -18,7 +18,7 @@ _SAMPLES = 8000
 
 def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ...]:
     """The whole orders up to ``last`` with the clearest peaks in the residual of coordinate k over its position."""
-    orders = np.arange(_LOWEST, last + 1)
+    orders = np.arange(LOWEST, last + 1)
     power = np.zeros(len(orders))
     for scene in scenes:
         step = max(1, scene.motion.samples // _SAMPLES)
@@ -30,7 +30,7 @@ def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ..
             continue
         e = (e - np.average(e, weights=way)) * way
         turn = np.exp(1j * q)
-        phase = turn**_LOWEST
+        phase = turn**LOWEST
         for i in range(len(orders)):
             power[i] += abs(phase @ e) ** 2
             phase = phase * turn

@@ -55,7 +55,7 @@ def quicker(motion: Motion, k: int) -> Motion:
     """The motion with one more unit of acceleration of coordinate ``k``."""
     qdd = motion.qdd.copy()
     qdd[k] += 1.0
-    return Motion(motion.q, motion.qd, qdd)
+    return replace(motion, qdd=qdd)
 
 
 def _moved(motion: Motion, change: Motion, step: float) -> Motion:

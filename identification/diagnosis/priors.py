@@ -8,9 +8,9 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from generator.effects.library import motor_side
+from generator.effects.library import library, motor_side
 from generator.errors import InputError
-from generator.robot.description import ParameterValue
+from generator.robot.description import ParameterValue, Robot
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved
@@ -40,7 +40,7 @@ def prior_of(model: Model, name: str) -> Prior:
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
-    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()}
+    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()} | _refining(model.robot, given)
     keys = list(deviation)
     map_ = np.zeros((len(model.base_parameters), len(keys)))
     lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
@@ -68,6 +68,22 @@ def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, Para
     }
     moved = {motor: own for motor, own in sides.items() if motor in given and own in standard and own not in given}
     return {moved.get(name, name): value for name, value in given.items()}
+
+
+def _refining(robot: Robot, given: Mapping[str, ParameterValue]) -> dict[str, float]:
+    """Standard deviations of coefficients that refine an effect of which the set has the others: such as the set does
+    not tell are zero, to a part of the largest of those.
+    """
+    result = {}
+    for use in robot.effects:
+        parameters = library()[use.effect].parameters
+        for joint in use.joints:
+            values = {one: given.get(f"{one.stem}{joint}") for one in parameters}
+            largest = max((abs(one.value) for one in values.values() if one is not None), default=0.0)
+            for one, value in values.items():
+                if one.refines and (value is None or value.value == 0) and largest:
+                    result[f"{one.stem}{joint}"] = _UNTOLD * largest
+    return result
 
 
 def _deviation(one: ParameterValue, largest: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -49,10 +49,12 @@ def refit(
     prior: Prior | None = None,
     more: Mapping[str, float] | None = None,
     description: str = "",
+    zero: Collection[str] = (),
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
-    ``more`` are values of further parameters of the model, which go into the set as they are.
+    ``more`` are values of further parameters of the model, which go into the set as they are; ``zero`` are base
+    parameters that are none.
     """
     known = {
         one.run.payload.names()[stem]: value
@@ -61,11 +63,14 @@ def refit(
         for stem, value in one.run.payload.known.items()
     }
     payloads = [name for one in runs if one.run.payload is not None for name in one.run.payload.names().values()]
-    free = tuple(dict.fromkeys([*regressors.names, *(name for name in payloads if name not in known)]))
+    sought = [name not in zero for name in regressors.names]
+    known |= {name: 0.0 for name, one in zip(regressors.names, sought, strict=True) if not one}
+    free = tuple(dict.fromkeys(name for name in (*regressors.names, *payloads) if name not in known))
+    near = None if prior is None else prior.only(np.flatnonzero(sought))
 
     def fit(factors: tuple[Factor, ...]) -> Solution:
         solution = Problem(factors, free, known, weighted=True).solve()
-        return solution if prior is None else _near(prior, factors, solution)
+        return solution if near is None else _near(near, factors, solution)
 
     regressors, notes = under_own_load(runs, regressors, fit)
     solution = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))

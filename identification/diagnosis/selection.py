@@ -109,7 +109,7 @@ class Selection:
             return []
         offered: dict[Key, list[Variant]] = {}
         for one in self.weighing.bank.variants:
-            if common(one) or one.hypothesis.effect in BALANCERS:
+            if common(one) or (one.hypothesis.effect in BALANCERS and one.hypothesis.usual):
                 offered.setdefault(key_of(one), []).append(one)
         chosen = [shapes[0] for (effect, _), shapes in offered.items() if effect not in BALANCERS]
         balancers = [one for (effect, _), shapes in offered.items() if effect in BALANCERS for one in shapes]
@@ -198,9 +198,10 @@ class Selection:
         """Other hypotheses in the place of ``mine``, the best first.
 
         Where shapes are compared, those of the nearest rivals are refined too: on its grid alone the right one loses.
+        One spring may be another's special case, without any.
         """
         found = [one for one in self.weighing.evidence(others) if key_of(one.variant) != key_of(mine.variant)]
-        if not mine.variant.hypothesis.shapes:
+        if not mine.variant.hypothesis.shapes and mine.variant.hypothesis.effect not in SPRINGS:
             return found
         near = [one for one in found if one.drop > _RIVAL * mine.drop and one.variant.hypothesis.shapes]
         near = [one for one in near if one.variant.joints == mine.variant.joints][:_RIVALS]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import columns_of
 from identification.diagnosis.loop import Search
-from identification.diagnosis.testing import Testing
+from identification.diagnosis.normal import Normal
+from identification.diagnosis.trial import Trial
 
 
 @dataclass(frozen=True)
@@ -24,18 +27,22 @@ class Steps:
     tested: bool
 
 
-def steps(found: Search, testing: Testing | None) -> Steps:
+def steps(found: Search, trial: Trial | None) -> Steps:
     """Of the runs that test, or where there are none of those that are fitted and validate."""
     ranked = sorted(found.choices, key=lambda one: -one.evidence.drop)
     variants = [one.evidence.variant for one in ranked]
-    every = found.weighing.all
-    squares, rows = [], every.rows
-    for count in range(len(variants) + 1):
-        some = variants[:count]
-        if testing is None:
-            squares.append(every.misfit(columns_of(some), every.solution(columns_of(some))[0]))
-        else:
-            squares.append(float(np.sum(testing.left(testing.fitted(some)[0]) ** 2)))
-            rows = len(testing.torque)
-    sizes = tuple(np.sqrt(np.array(squares) / max(rows, 1)).tolist())
-    return Steps(tuple(one.hypothesis.named for one in variants), sizes, testing is not None)
+    partly = [variants[:count] for count in range(len(variants) + 1)]
+    sizes = _of_trial(trial, partly) if trial else _of_fit(found.weighing.all, partly)
+    return Steps(tuple(one.hypothesis.named for one in variants), sizes, trial is not None)
+
+
+def _of_trial(trial: Trial, partly: Sequence[Sequence[Variant]]) -> tuple[float, ...]:
+    """The rms of what fits to the other runs leave, in parts of the noise that those have in the mean."""
+    left = [trial.left(trial.fitted(variants)[0]) / trial.usual for variants in partly]
+    return tuple(float(np.sqrt(np.mean(e**2))) for e in left)
+
+
+def _of_fit(normal: Normal, partly: Sequence[Sequence[Variant]]) -> tuple[float, ...]:
+    columns = [columns_of(variants) for variants in partly]
+    squares = [normal.misfit(numbers, normal.solution(numbers)[0]) for numbers in columns]
+    return tuple(float(np.sqrt(one / max(normal.rows, 1))) for one in squares)

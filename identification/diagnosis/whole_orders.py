@@ -60,7 +60,7 @@ def nearest(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> 
     best = weighing.of(variant, others)
     for shape in exact:
         while (found := _beside(weighing, best.variant, shape, others)) is not None and round(found.step):
-            order = max(best.variant.shape[shape.name] + round(found.step), 1.0)
+            order = max(best.variant.shape[shape.name] + round(found.step), shape.low)
             moved = weighing.bank.add(variant.hypothesis, {**best.variant.shape, shape.name: order})
             if moved is None:
                 break

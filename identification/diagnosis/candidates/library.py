@@ -6,19 +6,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.effects.effect import Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
+from identification.diagnosis.evidence import BALANCERS
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.link_side import rotor_inertia
-from identification.diagnosis.orders import likely_orders
+from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene
+
+Array = NDArray[np.float64]
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
-#: The same part that the joint which carries the arm has at least, though its balancer takes some of it.
+#: The same part that the joint which carries the arm has at least though a balancer takes up most of it, and the axis
+#: below it has not where the base leans a little.
 _CARRIES = 0.3
 #: Part of the swing of the joint's whole torque that it must be.
 _FELT = 0.01
@@ -41,14 +46,16 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     robot = scenes[0].robot
+    swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
+    weighty, shoulders = _weighty(scenes, swing), _shoulders(swing)
     return [
         one
         for effect in library().values()
         for k, joint in enumerate(robot.moving)
         if any(scene.moves(k) for scene in scenes)
-        if _possible(effect, joint, robot) and (effect.observables is None or _weighty(scenes)[k])
+        if _possible(effect, joint, robot) and (effect.id not in BALANCERS or weighty[k])
         if "warmth" not in effect.needs or _warming(k, scenes)
-        for one in _hypothesis(effect, joint, k, scenes)
+        for one in _hypothesis(effect, joint, k, scenes, effect.id not in BALANCERS or k in shoulders)
     ]
 
 
@@ -63,15 +70,17 @@ def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
     return not (effect.observables and any(library()[one].observables for one in there))
 
 
-def _shoulder(scenes: Sequence[Scene]) -> int | None:
-    """The first joint that carries a good part of the weight: what a balancer holds up, None where none does."""
-    swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
-    return next((k for k, one in enumerate(swing) if one > _CARRIES * swing.max()), None)
+def _shoulders(swing: Array) -> set[int]:
+    """Joints that a balancer is expected on, by the swing of the weight's torque: the one that carries most, and the
+    first that carries much, of which a balancer that is not known may hide a part.
+    """
+    if not swing.any():
+        return set()
+    return {int(np.argmax(swing)), int(np.flatnonzero(swing > _CARRIES * swing.max())[0])}
 
 
-def _weighty(scenes: Sequence[Scene]) -> list[bool]:
+def _weighty(scenes: Sequence[Scene], swing: Array) -> list[bool]:
     """Whether the bodies' weight on a joint changes with the position: where a balancer makes sense."""
-    swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
     torque = np.max([np.ptp(scene.tau, axis=-1) for scene in scenes], axis=0)
     return [bool(one > _WEIGHT * swing.max() and one > _FELT * most) for one, most in zip(swing, torque, strict=True)]
 
@@ -87,7 +96,7 @@ def _told(k: int, scenes: Sequence[Scene]) -> bool:
     return any(scene.told(k) for scene in scenes)
 
 
-def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -> list[Hypothesis]:
+def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usual: bool) -> list[Hypothesis]:
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []
     if "warmth" in effect.needs and not _told(k, scenes):
@@ -104,7 +113,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
         tries *= shape.several or len(points)
         unit = shape.unit_on(joint)
         even = shape.relative == "position" or min(points) <= 0
-        found = ShapeRange(shape.name, unit, min(points), max(points), log=not even, points=points)
+        low = LOWEST if shape.several else min(points)
+        found = ShapeRange(shape.name, unit, low, max(points), log=not even, points=points)
         shapes.append(replace(found, whole=shape.whole, exact=shape.exact))
     coefficients = tuple(
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
@@ -128,7 +138,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene]) -
             variable=_variable(effect),
             would_show=_would_show(effect),
             tries=tries,
-            usual=effect.observables is None or k == _shoulder(scenes),
+            usual=usual,
         )
     ]
 

@@ -45,6 +45,6 @@ def render(subject: Subject) -> Markup | None:
     whose = "test, as fits to the others predict them" if steps.tested else "are fitted and validate"
     text = (
         f"White residual, all joints together, of the runs that {whose}: with the model as it was, then with one"
-        " finding after the other, parameters fitted anew each time. 1 is noise alone."
+        " finding after the other, parameters fitted anew each time. 1 is the noise of the fitted and validating runs."
     )
     return join(element("p", text), chart([data], layout, TITLE, height=120 + _BAR * (len(steps.named) + 2)))

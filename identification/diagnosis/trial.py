@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.evidence import key_of
+from identification.diagnosis.evidence import columns_of, key_of
 from identification.diagnosis.loop import Search
+from identification.diagnosis.normal import Normal
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
@@ -22,21 +23,24 @@ _PLAIN = Colour((np.ones(1),), (1.0,))
 
 
 @dataclass(frozen=True)
-class Testing:
+class Trial:
     """White ``columns`` (c x N) of the testing runs, those of the base and of what was found, and ``torque`` (N).
 
-    ``places`` tells the columns of each hypothesis, by its effect and joint; -1 where they make no torque.
+    ``normal`` is of the runs that fit and validate. ``usual`` (N) is how much of the noise that a row is white by, that
+    of the noisiest run, all of them have in the mean. ``places`` tells the columns of each hypothesis, by its effect
+    and joint; -1 where they make no torque.
     """
 
-    found: Search
+    normal: Normal
     columns: Array
     torque: Array
+    usual: Array
     places: dict[tuple[str, int], tuple[int, ...]]
 
     def fitted(self, variants: Sequence[Variant]) -> tuple[Array, Array]:
         """Values of the columns as the other runs fit them (c), 0 without a variant; their covariance (c x c)."""
-        solution, covariance = self.found.weighing.all.solution([n for one in variants for n in one.columns])
-        base = range(len(self.found.bank.base))
+        solution, covariance = self.normal.solution(columns_of(variants))
+        base = range(self.normal.base)
         at = np.array([*base, *(self.places[key_of(one)][i] for one in variants for i in one.used)])
         acts = at >= 0
         theta, C = np.zeros(len(self.columns)), np.zeros((len(self.columns),) * 2)
@@ -49,20 +53,21 @@ class Testing:
         return np.asarray(self.torque - theta @ self.columns)
 
 
-def along(found: Search, test: Sequence[Prepared]) -> Testing | None:
+def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
     """Joints that the other runs show, white by the noisiest of them.
 
-    None without runs or findings, and where what was found is impossible along a run: a testing run may lack what the
+    None without rows or findings, and where what was found is impossible along a run: a testing run may lack what the
     others have, such as a temperature.
     """
     if not (found.choices and test):
         return None
-    usual = found.bank.scenes[0]
-    bank = Bank(test, [Scene(run.sampled, usual.regressors, usual.values, usual.beside) for run in test])
+    like = found.bank.scenes[0]
+    bank = Bank(test, [Scene(run.sampled, like.regressors, like.values, like.beside) for run in test])
     shown = np.sum([found.bank.rows(r) for r in (*found.train, *found.validate)], axis=0) > 0
+    of_joint = list(zip(*found.bank.colours, strict=True))
     noisiest = [
         max(mine, key=lambda one: one.deviations[-1]) if seen else _PLAIN
-        for mine, seen in zip(zip(*found.bank.colours, strict=True), shown, strict=True)
+        for mine, seen in zip(of_joint, shown, strict=True)
     ]
     places: dict[tuple[str, int], tuple[int, ...]] = {}
     for one in found.choices:
@@ -72,12 +77,16 @@ def along(found: Search, test: Sequence[Prepared]) -> Testing | None:
             return None
         places[key_of(variant)] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
     bank.whiten([noisiest for _ in test])
-    blocks = [np.empty((bank.count + 1, 0))]
+    blocks, usual = [np.empty((bank.count + 1, 0))], [np.empty(0)]
     for r in range(len(test)):
         for k in np.flatnonzero(shown):
             numbers, white = bank.white(r, int(k))
             block = np.zeros((bank.count + 1, white.shape[1]))
             block[[*numbers, bank.count]] = white
             blocks.append(block)
+            mean = np.sqrt(np.mean([one.deviations[-1] ** 2 for one in of_joint[k]]))
+            usual.append(np.full(white.shape[1], mean / noisiest[k].deviations[-1]))
     rows = np.concatenate(blocks, axis=1)
-    return Testing(found, rows[:-1], rows[-1], places)
+    if not rows.shape[1]:
+        return None
+    return Trial(found.weighing.all, rows[:-1], rows[-1], np.concatenate(usual), places)
