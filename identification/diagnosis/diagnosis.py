@@ -20,7 +20,7 @@ from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.selection import Choice
-from identification.diagnosis.stated_elasticity import TOGETHER, stated
+from identification.diagnosis.stated_elasticity import TOGETHER, names_of_backlash, stated
 from identification.diagnosis.steps import Steps, steps
 from identification.diagnosis.trial import along
 from identification.diagnosis.where import Where, led, located, seen
@@ -90,7 +90,8 @@ def diagnose(
     told("looking where the residual is")
     first, last = (seen(found, weights) for weights in (found.start, found.weights))
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
-    open_ = [] if dry else [lack for lack in last.lack if _large(lack, before)]
+    bounces = _bounces(found)
+    open_ = [] if dry else [lack for lack in last.lack if _large(lack, before, bounces.get(lack.joint, 0.0))]
     after = located(last, open_)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
     named = findings(found, firm=not open_)
@@ -121,13 +122,29 @@ def _invisible(found: Search) -> tuple[Hypothesis, ...]:
     return tuple(one for one in found.weighing.invisible() if (one.effect, one.joint) not in chosen)
 
 
-def _large(lack: Lack, before: Where) -> bool:
-    """Whether what a joint's model lacks is more than noise, and not small beside what was explained there."""
+def _bounces(found: Search) -> dict[int, float]:
+    """By the joint's number, the rms of the file's backlash beside the noise's, of which no file tells all: how a link
+    bounces the smallest error changes.
+    """
+    bank, result = found.bank, {}
+    for one in stated(bank.scenes[0].robot):
+        if one.gap:
+            numbers = [bank.base.index(name) for name in names_of_backlash(one.number)]
+            weights = {number: found.weights[number] for number in numbers}
+            both = [[bank.residual(r, one.k, some) for some in ({}, weights)] for r in range(len(bank.runs))]
+            result[one.number] = float(np.sqrt(np.mean(np.concatenate([a - b for a, b in both]) ** 2)))
+    return result
+
+
+def _large(lack: Lack, before: Where, bounces: float) -> bool:
+    """Whether what a joint's model lacks is more than noise, and not small beside what was explained there, or beside
+    what the file explains by a link that ``bounces``.
+    """
     if lack.burst is not None:
         return True
     least = _SMALL if lack.repeats else _SMALL_APERIODIC
     first = next(one.size for one in before.lack if one.joint == lack.joint)
-    explained = float(np.sqrt(max(first**2 - lack.size**2, 0.0)))
+    explained = float(np.sqrt(max(first**2 - lack.size**2, 0.0) + bounces**2))
     return lack.p < _CHANCE and lack.size > max(least, _PART * explained)
 
 

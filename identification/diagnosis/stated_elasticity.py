@@ -70,8 +70,13 @@ def names(robot: Robot) -> tuple[str, ...]:
     return (
         *together,
         *(f"{what}{one.number}" for one in plain for what in ("stiffness", "damping")),
-        *(f"{what}{one.number}" for one in loose for what in ("backlash", "stiffness", "damping", "gap")),
+        *(name for one in loose for name in names_of_backlash(one.number)),
     )
+
+
+def names_of_backlash(number: int) -> tuple[str, ...]:
+    """Those of ``names`` that are of a drive train with a gap."""
+    return tuple(f"{what}{number}" for what in ("backlash", "stiffness", "damping", "gap"))
 
 
 def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float]:
