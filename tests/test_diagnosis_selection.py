@@ -303,6 +303,8 @@ def test_a_refinement_is_taken_where_the_runs_ask_for_it() -> None:
     (both,) = search(data.bank(0.5 * first + 0.3 * second, offered))
     assert [one.name for one in plain.evidence.variant.coefficients] == ["c"]
     assert [one.name for one in both.evidence.variant.coefficients] == ["c", "c2"]
+    for other in search(data.bank(0.2 * first + 0.5 * second, offered)):
+        assert [one.name for one in other.evidence.variant.coefficients] == ["c"]
 
 
 def test_without_what_makes_it_an_effect_is_another() -> None:

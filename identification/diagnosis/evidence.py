@@ -49,6 +49,8 @@ _VISIBLE = 1e-4
 _UNLIKE = 0.25
 #: What shows an effect that makes no torque along the runs.
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
+#: Part of what an effect explains that it explains without what refines it.
+_MAIN = 0.5
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
@@ -196,14 +198,15 @@ class Weighing:
         return replace(one, passes=True)
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
-        """Without coefficients that only refine, where they explain no more than chance."""
+        """Without coefficients that only refine, where they explain chance, or more than what they refine."""
         drop, variant, x = found
         kept = [i for i, one in enumerate(variant.coefficients) if not one.refines]
         if len(kept) == len(x):
             return found
         plain = variant.only(kept)
         values, less = self.beside(plain, others)
-        return found if chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA else (less, plain, values)
+        refined = chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA and less > _MAIN * drop
+        return found if refined else (less, plain, values)
 
     def _itself(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
         """Whether the essential coefficients explain beyond chance, and a part of it, what the others do not."""
