@@ -126,11 +126,11 @@ def _bounces(found: Search) -> dict[int, float]:
     """By the joint's number, the rms of the file's backlash beside the noise's, of which no file tells all: how a link
     bounces the smallest error changes.
     """
-    bank, result = found.bank, {}
+    bank, values, result = found.bank, found.weights, {}
     for one in stated(bank.scenes[0].robot):
         if one.gap:
             numbers = [bank.base.index(name) for name in names_of_backlash(one.number)]
-            weights = {number: found.weights[number] for number in numbers}
+            weights = {number: values[number] for number in numbers}
             both = [[bank.residual(r, one.k, some) for some in ({}, weights)] for r in range(len(bank.runs))]
             result[one.number] = float(np.sqrt(np.mean(np.concatenate([a - b for a, b in both]) ** 2)))
     return result

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
-from identification.diagnosis.evidence import Evidence
+from identification.diagnosis.evidence import Evidence, columns_of
 from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
@@ -131,7 +131,7 @@ class Finding:
 
 def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
     """The choices of a search, the one with the most evidence first; all tentative where not ``firm``."""
-    columns = [number for one in found.choices for number in one.evidence.variant.columns]
+    columns = columns_of([one.evidence.variant for one in found.choices])
     solution, _ = found.weighing.normal.solution(columns)
     std, shape_std = deviations(found, columns, solution)
     place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}

@@ -12,7 +12,7 @@ from identification.diagnosis import stated_elasticity
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
-from identification.diagnosis.evidence import Weighing
+from identification.diagnosis.evidence import Weighing, columns_of
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
@@ -58,11 +58,11 @@ class Search:
         """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
         not look like something that the model lacks.
         """
-        return self._fitted([number for one in self.choices for number in one.evidence.variant.columns])
+        return self._fitted(columns_of([one.evidence.variant for one in self.choices]))
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
-        columns = [number for one in choices for number in one.evidence.variant.columns]
+        columns = columns_of([one.evidence.variant for one in choices])
         solution, covariance = self.weighing.normal.solution(columns)
         values = _values(self.bank, solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
@@ -108,7 +108,7 @@ def search(
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
-        columns = [number for one in chosen for number in one.columns]
+        columns = columns_of(chosen)
         solution, covariance = weighing.normal.solution(columns)
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
