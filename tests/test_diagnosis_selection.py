@@ -346,17 +346,6 @@ def test_what_differs_between_runs_does_not_pass_validation() -> None:
     assert Selection(weighing).search() == []
 
 
-def test_runs_that_disagree_on_the_amplitude_are_told() -> None:
-    data = Data(11)
-    column = data.column()
-    offered = [fixed("right", column)]
-    same = Weighing(data.bank(0.5 * column, offered), TRAIN, VALIDATE, None)
-    amplitudes = np.array([1.0, 0.1, 0.55])
-    other = Weighing(data.bank(amplitudes[:, None] * column, offered), TRAIN, VALIDATE, None)
-    assert same.homogeneous(same.bank.variants[0], [])
-    assert not other.homogeneous(other.bank.variants[0], [])
-
-
 def test_physical_bounds_refuse_a_name() -> None:
     """Friction that pushes is none."""
     data = Data(12)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis.confirmation import confirmed
-from identification.diagnosis.evidence import key_of
+from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.finding import Finding, findings
+from identification.diagnosis.homogeneity import disagreements
 from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.loop import Search, search
@@ -92,9 +93,11 @@ def diagnose(
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
     bounces = _bounces(found)
     open_ = [] if dry else [lack for lack in last.lack if _large(lack, before, bounces.get(lack.joint, 0.0))]
+    disagreeing = disagreements(found)
+    open_ = open_ or _doubtful(found, last, disagreeing)
     after = located(last, open_)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
-    named = findings(found, firm=not open_)
+    named = findings(found, not open_, disagreeing)
     if named:
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
@@ -148,6 +151,12 @@ def _large(lack: Lack, before: Where, bounces: float) -> bool:
     return lack.p < _CHANCE and lack.size > max(least, _PART * explained)
 
 
+def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:
+    """Of the joints on which findings act of whose amplitude the runs disagree."""
+    variants = [one.evidence.variant for one in found.choices]
+    return [last.lack[k] for one in variants if key_of(one) in disagreeing for k in one.joints]
+
+
 def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
     bank = found.bank
     return [
@@ -189,6 +198,6 @@ def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
         for why, names in unlike.items()
     ]
     for one in found:
-        if not one.homogeneous:
-            notes.append(f"{one.hypothesis.named} differs between the runs: it drifts, or is chance")
+        if one.disagreement:
+            notes.append(f"{one.hypothesis.named} {one.disagreement}: it drifts, or something else makes it")
     return notes

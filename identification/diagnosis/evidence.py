@@ -20,6 +20,8 @@ from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import Normal, Prior, bounded
 
 Array = NDArray[np.float64]
+#: Effect and joint.
+Key = tuple[str, int]
 #: Drop of the sum of squares, variant, coefficients.
 _Found = tuple[float, Variant, Array]
 
@@ -45,8 +47,6 @@ _SECOND = 0.5
 _OF_SPEED = ("qd", "time since reversal")
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
-#: Part of an effect by which runs may differ beyond chance: laws wander.
-_UNLIKE = 0.25
 #: What shows an effect that makes no torque along the runs.
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
@@ -84,7 +84,7 @@ class Weighing:
     """
 
     def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
-        self.bank, self._train, self._validate, self._prior = bank, tuple(train), tuple(validate), prior
+        self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._known_drops: dict[tuple[int, ...], list[float]] = {}
@@ -97,13 +97,13 @@ class Weighing:
             return
         self._seen = self.bank.count
         p = len(self.bank.base)
-        self.normal = Normal(self._gram(self._train), p, self._count(self._train), self._prior)
-        self._rows = np.sum([self.bank.rows(r) for r in self._train], axis=0)
+        self.normal = Normal(self._gram(self.train), p, self._count(self.train), self._prior)
+        self._rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
 
     @property
     def all(self) -> Normal:
         """Of the fitted and the validating runs."""
-        runs = (*self._train, *self._validate)
+        runs = (*self.train, *self.validate)
         return Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
 
     def _gram(self, runs: Sequence[int]) -> Array:
@@ -119,7 +119,7 @@ class Weighing:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
         S = self.normal.beside(columns_of(chosen))
         taken = {key_of(one) for one in chosen}
-        found: dict[tuple[str, int], list[_Found]] = {}
+        found: dict[Key, list[_Found]] = {}
         for variant in self.bank.variants:
             key = key_of(variant)
             if key not in taken:
@@ -242,37 +242,12 @@ class Weighing:
             ]
         return self._known_drops[key]
 
-    def homogeneous(self, variant: Variant, others: Sequence[Variant]) -> bool:
-        """Whether the runs agree on one amplitude: each run's own along the common one, within four deviations."""
-        chosen = [*columns_of(others), *variant.columns]
-        solution, _ = self.normal.solution(chosen)
-        theta = solution[-len(variant.columns) :]
-        amplitudes, variances = [], []
-        for r in self._train:
-            G = self.bank.grams[r]
-            at = list(variant.columns)
-            effect = G[:, at] @ theta
-            power = float(theta @ effect[at])
-            rest = np.zeros(len(G))
-            rest[[*range(self.normal.base), *chosen]] = -solution
-            rest[-1] = 1.0
-            if power <= 1.0:
-                continue
-            amplitudes.append(float(effect @ rest) / power)
-            variances.append(1 / power)
-        if len(amplitudes) < 2:
-            return True
-        weight = 1 / np.array(variances)
-        mean = float(weight @ amplitudes / weight.sum())
-        off = np.abs(np.array(amplitudes) - mean)
-        return bool(np.all(off < 4 * np.sqrt(variances) + _UNLIKE))
-
     def invisible(self) -> list[Hypothesis]:
         """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
         no torque along the runs.
         """
-        left: dict[tuple[str, int], list[float]] = {}
-        whose: dict[tuple[str, int], Hypothesis] = {}
+        left: dict[Key, list[float]] = {}
+        whose: dict[Key, Hypothesis] = {}
         for variant in self.bank.variants:
             key = key_of(variant)
             at = np.array(variant.columns) - self.normal.base
@@ -296,7 +271,7 @@ def likely(variant: Variant, others: Sequence[Variant]) -> bool:
     return common(variant) or effect in _WRIST
 
 
-def key_of(variant: Variant) -> tuple[str, int]:
+def key_of(variant: Variant) -> Key:
     return variant.hypothesis.effect, variant.hypothesis.joint
 
 

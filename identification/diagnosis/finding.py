@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
-from identification.diagnosis.evidence import Evidence, columns_of
+from identification.diagnosis.evidence import Evidence, Key, columns_of, key_of
 from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
@@ -92,7 +92,8 @@ class Finding:
     """An effect on ``joints`` that the model lacks: ``parameters`` and ``shape`` values by name.
 
     ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
-    ``shape_std`` are standard deviations of the shape values that were searched.
+    ``shape_std`` are standard deviations of the shape values that were searched. ``disagreement`` tells in words how
+    the runs disagree on its amplitude, if they do.
     """
 
     hypothesis: Hypothesis
@@ -104,7 +105,12 @@ class Finding:
     alternatives: tuple[Alternative, ...]
     amplitude: Mapping[int, float]
     shape_std: Mapping[str, float]
-    homogeneous: bool = True
+    disagreement: str = ""
+
+    @property
+    def homogeneous(self) -> bool:
+        """Whether one amplitude holds in all runs, and along each that repeats."""
+        return not self.disagreement
 
     @property
     def told(self) -> tuple[Told, ...]:
@@ -129,8 +135,11 @@ class Finding:
         return all(std <= _VAGUE * sizes[name] for name, std in self.shape_std.items())
 
 
-def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
-    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``."""
+def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tuple[Finding, ...]:
+    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``.
+
+    ``disagreements`` tell in words, by effect and joint, how the runs disagree on an amplitude.
+    """
     columns = columns_of([one.evidence.variant for one in found.choices])
     solution, _ = found.weighing.normal.solution(columns)
     std, shape_std = deviations(found, columns, solution)
@@ -155,7 +164,7 @@ def findings(found: Search, firm: bool) -> tuple[Finding, ...]:
                 alternatives,
                 _amplitude(found, one, solution[at]),
                 shape_std.get(id(one), {}),
-                _homogeneous(found, one),
+                disagreements.get(key_of(variant), ""),
             )
         )
     return tuple(sorted(result, key=lambda one: -one.evidence.drop))
@@ -195,10 +204,3 @@ def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
             power, rows = power + float(torque @ torque), rows + torque.size
         result[moving[j].number] = float(np.sqrt(power / max(rows, 1)))
     return result
-
-
-def _homogeneous(found: Search, one: Choice) -> bool:
-    """Whether one amplitude holds in all fitted runs: each run's own, beside the same others, within four std."""
-    variant = one.evidence.variant
-    others = [each.evidence.variant for each in found.choices if each is not one]
-    return found.weighing.homogeneous(variant, others)

@@ -15,6 +15,7 @@ from identification.diagnosis.evidence import (
     BALANCERS,
     SPRINGS,
     Evidence,
+    Key,
     Weighing,
     columns_of,
     common,
@@ -27,8 +28,6 @@ from identification.diagnosis.scaling import scales_all
 from identification.diagnosis.whole_orders import nearest, odds
 
 Array = NDArray[np.float64]
-#: Effect and joint.
-Key = tuple[str, int]
 
 #: What is unexplained, in parts of the noise, from which several effects must be missing.
 _GROSS = 20.0

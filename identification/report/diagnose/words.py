@@ -105,8 +105,8 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
         yield f"No other effect of the library would do in its place{' on any of them' if several else ''}."
-    if not one.homogeneous:
-        yield "Its size differs between the runs: it drifts, or is chance."
+    if one.disagreement:
+        yield f"Its size {one.disagreement}: it drifts, or something else makes it."
 
 
 def change(subject: Subject) -> Iterator[str]:

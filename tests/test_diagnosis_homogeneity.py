@@ -1,0 +1,59 @@
+"""Whether runs agree on the amplitude of what was found, on matrices."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from identification.diagnosis.evidence import Weighing
+from identification.diagnosis.homogeneity import ALONG, BETWEEN, disagreements
+from tests.matrices import bank, hypothesis, run, whitened
+
+Array = NDArray[np.float64]
+
+RUNS, PERIODS, ROWS = 3, 3, 400
+
+
+def found(amplitudes: Array, repeats: bool = True) -> Any:
+    """A search that took one effect, of these amplitudes by run and period, beside three base columns and noise."""
+    draw = np.random.default_rng(5)
+    W, column = (np.tile(draw.normal(size=(RUNS, k, ROWS)), PERIODS) for k in (3, 1))
+    tau = np.array([3.0, -1.0, 0.5]) @ W + np.repeat(amplitudes, ROWS, axis=-1) * column[:, 0]
+    tau += draw.normal(size=tau.shape)
+    one = bank([run(w, y, period=ROWS if repeats else 0) for w, y in zip(W, tau, strict=True)])
+    variant = one.add(hypothesis("right", lambda r, shape: column[r, 0]), {})
+    weighing = Weighing(whitened(one), range(RUNS), (), None)
+    choice = SimpleNamespace(evidence=SimpleNamespace(variant=variant))
+    return SimpleNamespace(choices=(choice,), bank=one, weighing=weighing, train=tuple(range(RUNS)))
+
+
+SAME = np.full((RUNS, PERIODS), 0.5)
+
+
+def test_one_amplitude_is_one() -> None:
+    assert disagreements(found(SAME)) == {}
+
+
+def test_laws_may_wander() -> None:
+    assert disagreements(found(SAME * [0.9, 1.0, 1.1])) == {}
+
+
+def test_runs_that_disagree_are_told() -> None:
+    assert disagreements(found(SAME * [[1.8], [0.2], [1.0]])) == {("right", 1): BETWEEN}
+
+
+def test_what_grows_in_every_run_is_told() -> None:
+    assert disagreements(found(SAME * [0.4, 1.0, 1.6])) == {("right", 1): ALONG}
+
+
+def test_where_nothing_repeats_only_runs_are_compared() -> None:
+    assert disagreements(found(SAME * [0.4, 1.0, 1.6], repeats=False)) == {}
+
+
+@pytest.mark.parametrize("amplitude", [0.02, 0.0])
+def test_what_is_within_the_noise_tells_nothing(amplitude: float) -> None:
+    assert disagreements(found(SAME * amplitude * np.array([0.0, 1.0, 2.0]))) == {}
