@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import unescape
 from pathlib import Path
@@ -21,6 +21,9 @@ from identification.diagnosis.roles import Roles
 from identification.observation import Regressors
 from identification.report.diagnose.report import report
 from tests.recorded import Array, Recorded, fourier
+
+#: A torque [N m] over the position [rad] and the speed [rad/s].
+Hidden = Callable[[Array, Array], Array]
 
 #: One link in a vertical plane.
 ARM = """\
@@ -56,7 +59,7 @@ class Case:
 
 def case(folder: Path, hidden: str) -> Case:
     """Three runs, the last one untouched, with a torque in them that the file does not know."""
-    regressors, sources = recorded(folder, [hidden] * 3)
+    regressors, sources = recorded(folder, [torque(hidden)] * 3)
     *runs, last = (ready(one, regressors) for one in sources)
     roles = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
     found = diagnose(regressors, runs, roles, test=[last])
@@ -64,15 +67,17 @@ def case(folder: Path, hidden: str) -> Case:
     return Case(found, after, report(found, after))
 
 
-def recorded(folder: Path, hidden: Sequence[str]) -> tuple[Regressors, list[str]]:
+def recorded(
+    folder: Path, hidden: Sequence[Hidden], arm: str = ARM, truth: Mapping[str, float] = TRUTH
+) -> tuple[Regressors, list[str]]:
     """The arm, and a run file for each torque that its file does not know."""
-    (folder / "arm.yaml").write_text(ARM)
+    (folder / "arm.yaml").write_text(arm)
     robot = read(folder / "arm.yaml")
     regressors, draw = Regressors(robot), np.random.default_rng(1)
     sources = []
     for seed, one in enumerate(hidden, 1):
         t, motion = fourier(robot, 40.0, 100.0, seed)
-        tau = regressors.torques(TRUTH, motion)[0] + torque(one, motion.qd[0])
+        tau = regressors.torques(truth, motion)[0] + one(motion.q[0], motion.qd[0])
         tau += lfilter([1], [1, -STAYS], NOISE * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
     return regressors, sources
@@ -85,11 +90,15 @@ def ready(source: str, regressors: Regressors) -> Prepared:
     return prepared(load(source, robot, recipe.columns), recipe, regressors)
 
 
-def torque(hidden: str, qd: Array) -> Array:
+def torque(hidden: str) -> Hidden:
     """What ``stribeck`` friction makes, and with ``asymmetry`` viscous friction that is larger one way."""
-    result = np.zeros_like(qd)
-    if "stribeck" in hidden:
-        result += 6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2))
-    if "asymmetry" in hidden:
-        result += 8.0 * np.maximum(qd, 0.0)
-    return np.asarray(result)
+
+    def of(q: Array, qd: Array) -> Array:
+        result = np.zeros_like(qd)
+        if "stribeck" in hidden:
+            result += 6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2))
+        if "asymmetry" in hidden:
+            result += 8.0 * np.maximum(qd, 0.0)
+        return np.asarray(result)
+
+    return of

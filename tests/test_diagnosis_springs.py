@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
-from scipy.signal import lfilter
 
-from generator.robot.readers import read
 from identification.diagnosis.diagnosis import NAMED, diagnose
 from identification.diagnosis.roles import Roles
-from identification.observation import Regressors
-from tests.diagnosed_arm import ARM, NOISE, STAYS, ready
-from tests.recorded import Recorded, fourier
+from tests.diagnosed_arm import ARM, ready, recorded
+from tests.recorded import Array
 
 #: Without weight or offset, of which a cable could be a part.
 BARE = ARM.replace("-9.81 m/s2", "0 m/s2").replace("  - {effect: offset, joint: 1}\n", "")
@@ -23,16 +19,10 @@ TRUTH, STIFFNESS = {"ZZ1": 9.0, "Fv1": 14.0, "Fc1": 9.0}, 12.0
 @pytest.mark.parametrize("hardening", [0.0, 12.0, 40.0])
 @pytest.mark.parametrize("neutral", [-0.2, 0.0, 0.1, 0.17, 0.28])
 def test_a_spring_is_told_by_rest_and_hardening(neutral: float, hardening: float, tmp_path: Path) -> None:
-    (tmp_path / "arm.yaml").write_text(BARE)
-    robot = read(tmp_path / "arm.yaml")
-    regressors, draw = Regressors(robot), np.random.default_rng(1)
-    sources = []
-    for seed in (1, 2):
-        t, motion = fourier(robot, 40.0, 100.0, seed)
-        way = motion.q[0] - neutral
-        tau = regressors.torques(TRUTH, motion)[0] + STIFFNESS * way + hardening * way**3
-        tau += lfilter([1], [1, -STAYS], NOISE * draw.normal(size=len(t)))
-        sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(tmp_path / f"{seed}.csv")))
+    def spring(q: Array, qd: Array) -> Array:
+        return STIFFNESS * (q - neutral) + hardening * (q - neutral) ** 3
+
+    regressors, sources = recorded(tmp_path, [spring] * 2, BARE, TRUTH)
     runs = [ready(source, regressors) for source in sources]
     found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
     assert found.verdict == NAMED

@@ -10,7 +10,7 @@ from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.untouched import Untouched, objections
 from identification.residuals import Residual
-from tests.diagnosed_arm import ready, recorded
+from tests.diagnosed_arm import ready, recorded, torque
 
 
 def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
@@ -51,7 +51,7 @@ def test_what_a_testing_run_contradicts_is_taken_back(
     fitted: str, last: str, named: set[str], back: str | None, tmp_path: Path
 ) -> None:
     """The run that tests lacks what the fitted ones have; what it has too stays."""
-    regressors, sources = recorded(tmp_path, [fitted, fitted, last])
+    regressors, sources = recorded(tmp_path, [torque(one) for one in (fitted, fitted, last)])
     *runs, test = (ready(one, regressors) for one in sources)
     who = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
     found = diagnose(regressors, runs, who, test=[test])

@@ -101,6 +101,8 @@ def diagnose(
     if named:
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
+    if named and not open_:
+        notes += _little([lack for lack in last.lack if lack.joint not in bounces])
     return Diagnosis(
         regressors.model.robot,
         FREE if prior is None else KNOWN,
@@ -145,10 +147,29 @@ def _large(lack: Lack, before: Where, bounces: float) -> bool:
     """
     if lack.burst is not None:
         return True
-    least = _SMALL if lack.repeats else _SMALL_APERIODIC
     first = next(one.size for one in before.lack if one.joint == lack.joint)
     explained = float(np.sqrt(max(first**2 - lack.size**2, 0.0) + bounces**2))
-    return lack.p < _CHANCE and lack.size > max(least, _PART * explained)
+    return lack.p < _CHANCE and lack.size > max(_told_from(lack), _PART * explained)
+
+
+def _little(lacks: Sequence[Lack]) -> list[str]:
+    """What is told of joints of ``lacks`` that keep more than noise, though little beside what was explained there."""
+    sizes = [
+        f"{one.size:.2g} times the noise on joint {one.joint}"
+        for one in lacks
+        if one.p < _CHANCE and one.size > _told_from(one)
+    ]
+    if not sizes:
+        return []
+    return [
+        f"more than noise is left, little beside what was explained there: {listed(sizes)}; a diagnosis of the new "
+        "robot file may show what it is"
+    ]
+
+
+def _told_from(lack: Lack) -> float:
+    """Size [parts of the noise] from which what a joint's model lacks is told from the noise."""
+    return _SMALL if lack.repeats else _SMALL_APERIODIC
 
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:

@@ -35,7 +35,8 @@ _GROSS = 20.0
 _BETTER, _EQUAL = 6.0, 0.01
 #: Part of the evidence by which a rare effect must be better than a common one.
 _RARE = 0.1
-_MOST, _ROUNDS = 18, 3
+#: Most effects that are not common, and rounds of exchange at the end.
+_MOST, _ROUNDS = 12, 3
 #: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have.
 _RIVALS, _RIVAL = 3, 0.4
 #: Hypotheses whose pairs are tried when single ones do not do.
@@ -70,7 +71,7 @@ class Selection:
         paired = False
         seen: set[frozenset[Key]] = set()
         refused: set[Key] = set()
-        while len(chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
+        while sum(not common(one) for one in chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
             offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
             offered.sort(key=lambda one: not likely(one.variant, chosen))
             whole = (self._whole(one, chosen) for one in offered if one.passes)

@@ -1,0 +1,46 @@
+"""What is left beside something large: it is named where its law is known, and told where it is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from identification.diagnosis.diagnosis import NAMED, Diagnosis, diagnose
+from identification.diagnosis.roles import Roles
+from tests.diagnosed_arm import ARM, Hidden, ready, recorded
+from tests.recorded import Array
+
+#: Of an arm whose Coulomb friction is not in its file.
+BARE = ARM.replace("  - {effect: coulomb_friction, joint: 1}\n", "")
+TRUTH = {"ZZ1": 9.0, "MX1": 11.0, "MY1": 0.6, "Fv1": 14.0, "Off1": 1.5}
+
+
+def diagnosed(folder: Path, hidden: Hidden) -> Diagnosis:
+    def with_friction(q: Array, qd: Array) -> Array:
+        return 25.0 * np.sign(qd) + hidden(q, qd)
+
+    regressors, sources = recorded(folder, [with_friction] * 2, BARE, TRUTH)
+    runs = [ready(source, regressors) for source in sources]
+    return diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
+
+
+def test_friction_is_named_beside_far_more_friction(tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, lambda q, qd: 6.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2)))
+    assert found.verdict == NAMED
+    told = {name: value for one in found.findings for name, value in one.parameters.items()}
+    assert set(told) == {"Fc1", "Fst1"}
+    for name, true in (("Fc1", 25.0), ("Fst1", 6.0)):
+        assert abs((told[name].value or 0.0) - true) < 3 * (told[name].std or 0.0)
+    assert not found.notes
+
+
+def test_what_has_no_name_is_told(tmp_path: Path) -> None:
+    def bumps(q: Array, qd: Array) -> Array:
+        return 5.0 * (np.exp(-(((q - 0.5) / 0.05) ** 2)) - np.exp(-(((q + 0.3) / 0.05) ** 2)))
+
+    found = diagnosed(tmp_path, bumps)
+    assert found.verdict == NAMED
+    assert [one.hypothesis.effect for one in found.findings] == ["coulomb_friction"]
+    (note,) = found.notes
+    assert "times the noise on joint 1; a diagnosis of the new robot file may show what it is" in note
