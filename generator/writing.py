@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -23,6 +23,13 @@ def replace(folder: Path, files: Mapping[str, bytes]) -> None:
             path = fresh / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
+
+
+def spare(source: Path, targets: Iterable[Path]) -> None:
+    """Raises InputError where one of ``targets``, which are to be written, is the file ``source`` that was read."""
+    for target in targets:
+        if os.path.exists(target) and os.path.samefile(source, target):
+            raise InputError(Place(str(target)), f"it would be written over {source}, which is read", "another --out")
 
 
 @contextmanager

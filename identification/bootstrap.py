@@ -7,7 +7,7 @@ rows of all joints.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from identification.least_squares import Problem, Solution
 from identification.observed import Observed
+from identification.sampling import Rows
 
 Array = NDArray[np.float64]
 
@@ -24,61 +25,68 @@ _BLOCKS, _LENGTH = 20, 1.0
 
 @dataclass
 class _Block:
-    """Normal equations of one stretch of time, in whitened parameters: ``G`` (p x p), ``g`` (p)."""
+    """Normal equations of one stretch of time, in whitened parameters: ``G`` (r x r), ``g`` (r)."""
 
     G: Array
     g: Array
 
 
-def bootstrapped(problem: Problem, solution: Solution, runs: Sequence[Observed], draws: int, seed: int = 1) -> Solution:
-    """The solution with the covariance of ``draws`` estimates from blocks drawn with replacement.
+def bootstrapped(
+    problem: Problem,
+    solution: Solution,
+    runs: Sequence[Observed],
+    draws: int,
+    rows: Callable[[Observed], Iterable[Rows]] = Observed.rows,
+    seed: int = 1,
+) -> Solution:
+    """The solution with the covariance of ``draws`` estimates from blocks drawn with replacement of the runs' ``rows``.
 
-    Blocks are a second long, shorter where the runs would have fewer than twenty. Hidden parameters stay so.
+    Blocks are a second long, shorter where the runs would have fewer than twenty. Hidden parameters stay so; what the
+    rows show of their sums is drawn with the others.
     """
-    seen = [name for name in problem.names if name not in solution.hidden]
-    whitening = _whitening(problem, solution, seen)
-    blocks = list(_blocks(solution, runs, seen, whitening).values())
+    whitening = _whitening(problem, solution)
+    blocks = list(_blocks(solution, runs, rows, whitening).values())
     count = len(blocks)
     G = np.array([one.G for one in blocks])
     g = np.array([one.g for one in blocks])
     random = np.random.default_rng(seed)
-    steps = np.empty((draws, len(seen)))
+    steps = np.empty((draws, whitening.shape[1]))
     for k in range(draws):
         times = np.bincount(random.integers(count, size=count), minlength=count).astype(float)
         steps[k] = np.linalg.lstsq(np.tensordot(times, G, 1), times @ g, rcond=1e-12)[0]
-    spread = whitening @ np.cov(steps, rowvar=False).reshape(len(seen), len(seen)) @ whitening.T
-    covariance = np.zeros_like(solution.covariance)
-    places = [problem.names.index(name) for name in seen]
-    covariance[np.ix_(places, places)] = spread
-    return replace(solution, covariance=covariance)
+    return replace(solution, covariance=whitening @ np.atleast_2d(np.cov(steps, rowvar=False)) @ whitening.T)
 
 
-def _whitening(problem: Problem, solution: Solution, seen: Sequence[str]) -> Array:
-    """T (p x p) with unit normal equations in the parameters T^-1 chi."""
-    R = np.concatenate([one.on(seen)[:, :-1] / solution.sigma[one.joint] for one in problem.factors])
+def _whitening(problem: Problem, solution: Solution) -> Array:
+    """T (p x r) with unit normal equations in the r steps that the rows show of the parameters, chi = T step."""
+    stacked = [one.on(problem.names)[:, :-1] / solution.sigma[one.joint] for one in problem.factors]
+    R = np.concatenate(stacked)
     size = np.linalg.norm(R, axis=0)
-    return np.asarray(np.linalg.inv(np.linalg.qr(R / size, mode="r")) / size[:, None], dtype=float)
+    scale = np.where(size > 0, size, 1.0)
+    _, s, Vt = np.linalg.svd(R / scale, full_matrices=False)
+    rank = min(solution.rank, len(s))
+    return np.asarray(Vt[:rank].T / s[:rank] / scale[:, None])
 
 
 def _blocks(
-    solution: Solution, runs: Sequence[Observed], seen: Sequence[str], whitening: Array
+    solution: Solution, runs: Sequence[Observed], rows: Callable[[Observed], Iterable[Rows]], whitening: Array
 ) -> dict[tuple[int, int], _Block]:
     """By run and number, all blocks of all runs."""
     duration = sum(run.sampled.motion.samples * run.sampled.run.period for run in runs)
     length = min(_LENGTH, duration / _BLOCKS)
-    place = {name: k for k, name in enumerate(seen)}
+    place = {name: k for k, name in enumerate(solution.names)}
+    rank = whitening.shape[1]
     values: Mapping[str, float] = solution.values
     result: dict[tuple[int, int], _Block] = {}
     for index, run in enumerate(runs):
-        for part in run.rows():
+        for part in rows(run):
             error = part.Y - part.W @ np.array([values[name] for name in part.names])
             mine = [k for k, name in enumerate(part.names) if name in place]
             Q = part.W[:, mine] @ whitening[[place[part.names[k]] for k in mine]] / solution.sigma[part.joint]
             numbers = ((part.t - run.sampled.run.start) / length).astype(int)
             for number in np.unique(numbers):
                 inside = numbers == number
-                key = index, int(number)
-                block = result.setdefault(key, _Block(np.zeros((len(seen),) * 2), np.zeros(len(seen))))
+                block = result.setdefault((index, int(number)), _Block(np.zeros((rank, rank)), np.zeros(rank)))
                 block.G += Q[inside].T @ Q[inside]
                 block.g += Q[inside].T @ (error[inside] / solution.sigma[part.joint])
     return result

@@ -28,8 +28,12 @@ Array = NDArray[np.float64]
 #: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; that link's
 #: length [m] and the ball's mass [kg] where nothing tells them.
 _PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
+#: Standard deviations beyond which a value is none of noise.
+_SHOWN = 3.0
 #: The solver loses its way where misfits of thousands stand beside small divergences, not where they are small numbers.
 _SCALE = 1e-6
+#: Part by which a body is made more than just possible.
+_ABOVE = 1e-6
 #: What possible bodies leave of the torques' spread [%], and in parts of what least squares leave, to doubt the data.
 _POOR, _POORER = 4.0, 2.0
 #: Radius of gyration [m] that a prior body has at least in every direction: none is a point.
@@ -65,6 +69,8 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     from identification.consistency import relative_to
 
     cp: Any = cvxpy
+    if not found.problem.names:
+        raise ValueError("no physically consistent parameters were sought: every value is given")
     model = found.regressors.model
     payloads = _payloads(found)
     names = [p.name for p in model.standard_parameters]
@@ -90,6 +96,10 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
     _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
+    for number in _bodies(found, prior):
+        _raise_to_possible(str(number), s)
+    for one in payloads:
+        _raise_to_possible(one.name, s)
     standard = {name: float(variable.value) for name, variable in s.items()}
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
@@ -118,6 +128,16 @@ def _solve(problem: Any, cp: Any) -> None:
         raise ValueError(f"no physically consistent parameters were found: {problem.status}")
 
 
+def _raise_to_possible(body: str, s: Mapping[str, Any]) -> None:
+    """What a body's second moments lack within the solver's accuracy is added to them."""
+    P = of_body(body, {name: float(one.value) for name, one in s.items()})
+    mass = max(P[3, 3], np.finfo(float).tiny)
+    lacking = -float(np.linalg.eigvalsh(P[:3, :3] - np.outer(P[:3, 3], P[:3, 3]) / mass).min())
+    if lacking > 0:
+        for stem in ("XX", "YY", "ZZ"):
+            s[f"{stem}{body}"].value += 2 * (1 + _ABOVE) * lacking
+
+
 def _payloads(found: Identification) -> list[Payload]:
     """The payloads of which anything is estimated."""
     by_name = {one.sampled.run.payload.name: one.sampled.run.payload for one in found.train if one.sampled.run.payload}
@@ -132,16 +152,20 @@ def _rows(found: Identification) -> Array:
 
 
 def _ball(found: Identification) -> Array:
-    """A ball of the size of the robot's links; its mass makes their median first moment at the longest link's end."""
+    """A ball of the size of the robot's links. Its mass is the median of those that slides show, and of those that make
+    first moments at the longest link's end.
+    """
     robot, values = found.robot, found.full.solution.values
     lengths = [abs(float(length.value)) for length in robot.lengths if length.unit == "m"]
     size = max(lengths, default=0.0) or _LENGTH
-    moments = [
-        abs(values[p.name])
+    arms = {"kg": 1.0, "kg m": size}
+    masses = [
+        abs(values[p.name]) / arms[p.unit]
         for p in found.regressors.model.base_parameters
-        if p.unit == "kg m" and p.name not in found.full.solution.hidden and p.name in values
+        if p.unit in arms and p.name in values and abs(values[p.name]) > _SHOWN * found.full.solution.std(p.name)
+        if values[p.name]
     ]
-    mass = float(np.median(moments)) / size if moments else _MASS
+    mass = float(np.median(masses)) if masses else _MASS
     return uniform_bar(mass, (0, 0, 0), (0, 0, 0), _PART * size * np.sqrt(5))
 
 

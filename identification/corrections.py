@@ -1,4 +1,4 @@
-"""From what was recorded to what was true, as section ``signals`` of the robot file says (docs/robot_file.md)."""
+"""Between what is recorded and what is true, as section ``signals`` of the robot file says (docs/robot_file.md)."""
 
 from __future__ import annotations
 
@@ -22,6 +22,12 @@ def true_positions(q: Array, robot: Robot) -> Array:
     """Recorded joint positions (n x N) [rad, m] with their offsets."""
     offset = robot.signals.position_offset
     return q + _column(offset) if offset else q
+
+
+def recorded_positions(q: Array, robot: Robot) -> Array:
+    """What ``true_positions`` makes joint positions (n x N) [rad, m] of."""
+    offset = robot.signals.position_offset
+    return q - _column(offset) if offset else q
 
 
 def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> Array | None:
@@ -84,6 +90,23 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     if signals.torque_delay:
         motor = _earlier(motor, signals.torque_delay, period)
     return np.asarray(N.T @ motor, dtype=float)
+
+
+def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array) -> Array:
+    """What ``true_torques`` makes torques of the motors (n x N) [N m, N] of, with the ``warmth`` (N) of all drives."""
+    signals, drives = robot.signals, robot.drives
+    result = motor.copy()
+    for k, part in enumerate(drives.torque_drift if drives is not None else ()):
+        result[k] /= 1 + float(part) * warmth
+    if signals.torque_gain:
+        result /= _column(signals.torque_gain)
+    return _earlier(result, [-delay for delay in signals.torque_delay], period) if signals.torque_delay else result
+
+
+def recorded_links(q: Array, robot: Robot, period: float) -> Array:
+    """What ``true_links`` makes link-side positions (n x N) [rad, m] of."""
+    delays = robot.signals.link_delay
+    return _earlier(q, [-delay for delay in delays], period) if delays else q
 
 
 def saturated(tau: Array, robot: Robot) -> NDArray[np.bool_] | None:

@@ -19,7 +19,7 @@ from generator.robot.description import Robot
 from identification import checks, corrections, readers, sidecar
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
-from identification.sidecar import Payload
+from identification.sidecar import Payload, Sidecar
 from identification.signals import (
     EFFORTS,
     FURTHER,
@@ -41,12 +41,12 @@ _PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
 class Run:
     """One run of n joints and N samples, samples along the last axis.
 
-    ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``unusable``
-    marks samples whose effort was cut off. ``by_motors`` tells that both were recorded on the motor side and brought
-    over by the file's ratios. ``warmth`` of the drives (n x N) is there where the robot file says it.
-    ``others`` are the file's further columns of known meaning by name (N each). ``began`` are the time ``t`` and the
-    temperatures with which the recording began that the run is a part of, the run's own where they are not given.
-    ``notes`` tell every repair.
+    ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``empty`` tells
+    that the run is known to carry no payload. ``unusable`` marks samples whose effort was cut off. ``by_motors`` tells
+    that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of the drives (n x N) is
+    there where the robot file says it. ``others`` are the file's further columns of known meaning by name (N each).
+    ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a part of, the
+    run's own where they are not given. ``notes`` tell every repair.
     """
 
     name: str
@@ -56,6 +56,7 @@ class Run:
     q: Array
     tau: Array
     payload: Payload | None = None
+    empty: bool = False
     unusable: NDArray[np.bool_] | None = None
     by_motors: bool = False
     warmth: Array | None = None
@@ -118,7 +119,7 @@ def load(
     recording = renamed(recording, beside.columns)
     began = {name: float(values[0]) for name, values in recording.columns.items() if len(values)}
     recording, first = _part(recording, source, start, end)
-    return _run(source, recording, robot, beside.payload, _Beginning(first, began), efforts, resting)
+    return _run(source, recording, robot, beside, _Beginning(first, began), efforts, resting)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -171,7 +172,7 @@ def _run(
     source: str,
     recording: Recording,
     robot: Robot,
-    payload: Payload | None,
+    beside: Sidecar,
     beginning: _Beginning,
     efforts: Sequence[str],
     resting: bool,
@@ -215,7 +216,8 @@ def _run(
         ticks.period,
         q,
         tau,
-        payload,
+        beside.payload,
+        beside.empty,
         unusable,
         by_motors=at.stem == "qm" and effort.stem != "tau",
         others=others,

@@ -102,16 +102,16 @@ def drive_gains(
     ``payload`` is that of loaded runs whose sidecar tells none; at least one of its values must be known.
     ``payload_std`` are standard deviations of known values by stem [SI].
 
-    Raises InputError for runs without currents, loaded ones without a payload, and where the known values of the
-    payload show in no torque.
+    Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, and where the known
+    values of the payload show in no torque.
     """
     recipe = recipe or recipes.recipe_of(robot.name)
     N = coupling(robot)
     as_current = with_unit_constants(robot)
     runs = [_run(source, as_current, recipe) for source in (*empty, *loaded)]
-    runs = [replace(run, payload=None) for run in runs[: len(empty)]] + [
-        _carrying(run, payload) for run in runs[len(empty) :]
-    ]
+    for run in runs[: len(empty)]:
+        _check_empty(run)
+    runs = runs[: len(empty)] + [_carrying(run, payload) for run in runs[len(empty) :]]
     stds = dict(payload_std or {})
     _check_known(runs[len(empty) :], stds)
     regressors = regressors or Regressors(robot)
@@ -160,7 +160,14 @@ def _run(source: str, robot: Robot, recipe: Recipe) -> Run:
     return run
 
 
+def _check_empty(run: Run) -> None:
+    if run.payload is not None:
+        raise InputError(run.place, f"payload {run.payload.name} is on a run that counts as empty", "a run without any")
+
+
 def _carrying(run: Run, payload: Payload | None) -> Run:
+    if run.empty:
+        raise InputError(run.place, "no payload is on a run that counts as loaded", "a run with one")
     carried = run.payload or payload
     if carried is None:
         raise InputError(run.place, "nothing tells the payload of this run", "payload: {M: ... kg} in its sidecar")

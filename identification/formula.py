@@ -32,7 +32,9 @@ class Formula:
                 raise InputError(where, f"there is no column {name}", f"the columns of {self.text.content!r}")
         symbols = [sympy.Symbol(name, real=True) for name in names]
         function: Any = sympy.lambdify(symbols, self.expression, "numpy")
-        result = function(*(recording.columns[name] for name in names))
+        # What a division by zero makes is refused as any other number that is not finite.
+        with np.errstate(all="ignore"):
+            result = function(*(recording.columns[name] for name in names))
         return np.array(np.broadcast_to(np.asarray(result, dtype=float), (recording.rows,)))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of
-from identification.sampling import sampled
+from identification.sampling import Rows, sampled
 from identification.sidecar import Payload
 from identification.suspicion import suspect
 
@@ -114,17 +114,21 @@ def identify(
         trained, tried = (tuple(Observed(one.sampled, regressors) for one in runs) for runs in (trained, tried))
     notes += aside
     factors = _added(trained)
+    if not any(one.rows for one in factors):
+        slow = "no joint is ever faster than the standstill threshold"
+        raise InputError(trained[0].sampled.run.place, slow, "faster motion, or a smaller threshold")
     problem = _problem(factors, regressors, payloads, recipe, options)
     problem, aside = _separable(problem, _payloads(trained))
     notes += aside
+    rows: Callable[[Observed], Iterable[Rows]] = Observed.rows
     if options.robust:
         found = robust(problem, trained)
-        problem = found.problem
+        problem, rows = found.problem, found.rows
         notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
     tests = _added(tried)
     solution = problem.solve()
     if options.draws:
-        solution = bootstrapped(problem, solution, trained, options.draws)
+        solution = bootstrapped(problem, solution, trained, options.draws, rows)
     full = _estimate(problem, solution, factors, tests)
     notes += suspect(trained, regressors, full.train)
     reduced, solution = essential(problem, options.ratio, options.growth)
@@ -137,7 +141,7 @@ def identify(
 
 def _loaded(source: str, robot: Robot, recipe: Recipe, options: Options) -> Run:
     run = load(source, robot, recipe.columns)
-    return run if run.payload is not None else replace(run, payload=options.payload)
+    return run if run.payload is not None or run.empty else replace(run, payload=options.payload)
 
 
 def _observed(run: Run, recipe: Recipe, regressors: Regressors) -> Observed:
@@ -190,8 +194,8 @@ def _problem(
 def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Problem, list[str]]:
     """Without the payload's parameters that the last body's hide: they count as part of it."""
     notes = []
-    hidden = problem.solve().hidden
     for payload in payloads.values():
+        hidden = problem.solve().hidden
         mixed = [name for name in payload.names().values() if name in hidden]
         if mixed and any(name not in payload.names().values() for name in hidden):
             notes.append(

@@ -29,6 +29,9 @@ Array = NDArray[np.float64]
 RECIPE = Recipe()
 #: Relative standard deviation from which a stiffness is refused.
 LIMIT = 0.1
+#: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
+_STILL = 2e-3
+_STANDS = Value(None, np.inf, "s", refused="the joint stands still")
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,9 @@ def of_runs(
         kept[k] = rows = _rows(mine, k, joint)
         viscous = _viscous(joint, friction or {})
         name = f"k{joint.number}"
-        stiffness[name], latency[f"latency{joint.number}"], residuals[k] = _told(rows, joint, viscous)
+        stiffness[name], late, residuals[k] = _told(rows, joint, viscous)
+        still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
+        latency[f"latency{joint.number}"] = _STANDS if still or not np.isfinite(late.std) else late
         mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")

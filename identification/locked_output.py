@@ -16,7 +16,7 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
-from identification.essential import RATIO, essential
+from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, triangular
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.least_squares import Problem, Solution
@@ -98,7 +98,7 @@ def locked_output(
     factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()
-    reduced, best = essential(problem, ratio)
+    reduced, best = essential(problem, ratio, GROWTH)
     name = f"k{number}"
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
     if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:

@@ -76,6 +76,8 @@ def _json(path: Path) -> Any:
         raise InputError(Place(str(path)), f"cannot be read: {error.strerror}", "a results file") from None
     except UnicodeDecodeError:
         raise InputError(Place(str(path)), "not UTF-8", "a results file") from None
+    except RecursionError:
+        raise InputError(Place(str(path)), "not JSON: too many brackets within brackets", "a results file") from None
     except json.JSONDecodeError as error:
         place = Place(str(path), error.lineno, error.colno)
         raise InputError(place, f"not JSON: {error.msg}", "a results file") from None
@@ -93,7 +95,10 @@ def _number(value: Any, name: str, place: Place) -> float | None:
         return None
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(place, f"{name} has no value", "a number, or null where it is not known")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(place, f"{name} is too large", "a number of double precision") from None
 
 
 def _of_robot(source: str, name: str, wanted: str) -> Parameters:

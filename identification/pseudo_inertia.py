@@ -29,9 +29,9 @@ def basis() -> Matrix:
     return np.array([pseudo_inertia(unit) for unit in np.eye(len(INERTIAL))])
 
 
-def of_body(number: int, values: Mapping[str, float]) -> Matrix:
-    """P of the body whose parameters are called XX<number> ... M<number>."""
-    return pseudo_inertia([values[f"{stem}{number}"] for stem in INERTIAL])
+def of_body(name: int | str, values: Mapping[str, float]) -> Matrix:
+    """P of the body whose parameters are called XX<name> ... M<name>: a link's number, a payload's letters."""
+    return pseudo_inertia([values[f"{stem}{name}"] for stem in INERTIAL])
 
 
 def radii_of_gyration(P: Matrix) -> Matrix:

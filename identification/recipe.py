@@ -102,7 +102,11 @@ class Filters:
     @property
     def fewest(self) -> int:
         """Samples that a run needs at least."""
-        return self.first + self.last + max(30, 10 * self.factor)
+        needed, before = max(30, 10 * self.factor), 1
+        for stage in stages(self.factor):
+            needed = max(needed, before * stage.fewest)
+            before *= stage.factor
+        return self.first + self.last + needed
 
 
 def possible_factor(ratio: float) -> int:

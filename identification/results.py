@@ -171,16 +171,18 @@ def _payload_values(found: Identification) -> dict[str, Any]:
         payload = one.sampled.run.payload
         if payload is None:
             continue
-        result[payload.name] = {
-            name: {
-                "value": None if name in solution.hidden else solution.values[name],
-                "std": solution.std(name),
-                "relative_std_percent": solution.relative_std(name),
+        result[payload.name] = {}
+        for stem, name in payload.names().items():
+            given = stem in payload.known or name in found.options.fixed
+            # What is not estimated, and not given, is part of the last body's parameters.
+            told = given or (name in found.full.sought and name not in solution.hidden)
+            result[payload.name][name] = {
+                "value": solution.values[name] if told else None,
+                "std": solution.std(name) if told else math.inf,
+                "relative_std_percent": solution.relative_std(name) if told else math.inf,
                 "known": stem in payload.known,
                 "unit": UNITS[stem],
             }
-            for stem, name in payload.names().items()
-        }
     return result
 
 

@@ -31,10 +31,12 @@ def robot_of(text: str, file: str) -> Robot:
 
 
 def value_of(text: str, path: Path) -> str:
-    """What stands at ``path``, as it is written; raises KeyError where nothing does."""
+    """What stands at ``path``, as it is written but for quotes; raises KeyError where nothing does."""
     node = _find(text, path)
     if node is None:
         raise KeyError("/".join(map(str, path)))
+    if isinstance(node.value, str):
+        return node.value
     return text[node.start_mark.index : _end(text, node)]
 
 
@@ -51,13 +53,13 @@ def with_value(text: str, path: Path, value: str) -> str:
     """
     above, last = path[:-1], path[-1]
     if not above and _find(text, path) is None:
-        return _with_section(text, str(last), f" {value}")
+        return _with_section(text, str(last), f" {value}", value)
     node = _find(text, path)
     if node is not None:
         return text[: node.start_mark.index] + value + text[_end(text, node) :]
     table = _find(text, above)
     if table is None and len(above) == 1:
-        return _with_section(text, str(above[0]), f"\n  {last}: {value}")
+        return _with_section(text, str(above[0]), f"\n  {last}: {value}", f"{{{last}: {value}}}")
     if table is None or not isinstance(table.value, list):
         raise KeyError(f"{'/'.join(map(str, path))} has nothing above it")
     return _appended(text, table, f"{last}: {value}", "")
@@ -71,15 +73,20 @@ def with_item(text: str, section: str, item: str, comment: str = "") -> str:
     node = _find(text, (section,))
     above = f"  # {comment}\n" if comment else ""
     if node is None:
-        return _with_section(text, section, f"\n{above}  - {item}")
+        return _with_section(text, section, f"\n{above}  - {item}", f"[{item}]")
     if not node.value:
-        start, end = node.start_mark.index, _end(text, node)
-        return text[:start].rstrip() + f"\n{above}  - {item}" + text[end:]
+        start, end, root = node.start_mark.index, _end(text, node), _find(text, ())
+        if root.flow_style:
+            return text[:start] + f"[{item}]" + text[end:]
+        return text[:start].rstrip() + _indented(f"\n{above}  - {item}", root) + text[end:]
     return _appended(text, node, item if node.flow_style else f"- {item}", comment)
 
 
 def _appended(text: str, node: Any, entry: str, comment: str) -> str:
-    """One more entry of a list or table that has some."""
+    """One more entry of a list or table."""
+    if not node.value:
+        inside = node.start_mark.index + 1
+        return text[:inside] + entry + text[inside:]
     last = node.value[-1][1] if isinstance(node.value[-1], tuple) else node.value[-1]
     end = _end(text, last)
     if node.flow_style:
@@ -91,13 +98,21 @@ def _appended(text: str, node: Any, entry: str, comment: str) -> str:
     return text[:line] + f"\n{above}{indent}{entry}" + text[line:]
 
 
-def _with_section(text: str, name: str, content: str) -> str:
-    """A section of its own after those that come before it."""
+def _with_section(text: str, name: str, block: str, flow: str) -> str:
+    """A section of its own after those that come before it, in a file of braces the last one, its content ``flow``."""
+    root = _find(text, ())
+    if root.flow_style:
+        return _appended(text, root, f"{name}: {flow}", "")
     before = _SECTIONS[: _SECTIONS.index(name)]
     ends = [_end(text, node) for one in before if (node := _find(text, (one,))) is not None]
     line = text.find("\n", max(ends))
     head, tail = (text, "") if line < 0 else (text[:line], text[line + 1 :])
-    return f"{head}\n\n{name}:{content}\n{tail}"
+    return head + _indented(f"\n\n{name}:{block}\n", root) + tail
+
+
+def _indented(lines: str, root: Any) -> str:
+    """Lines of the whole file as far to the right as the others are."""
+    return re.sub(r"\n(?=[^\n])", "\n" + " " * root.start_mark.column, lines)
 
 
 def _find(text: str, path: Path) -> Any:

@@ -23,20 +23,29 @@ _SETTLED = 1e-3
 
 @dataclass(frozen=True)
 class Robust:
-    """The problem with its rows weighted, its solution, and how many of the rows count less than fully."""
+    """The problem with its rows weighted, its solution, and how many of the rows count less than fully.
+
+    Weights are those of residuals with the parameters ``values``, in parts of each joint's ``scale`` [N m, N].
+    """
 
     problem: Problem
     solution: Solution
     outliers: int
+    values: Mapping[str, float]
+    scale: Mapping[int, float]
+
+    def rows(self, run: Observed) -> Iterator[Rows]:
+        """The rows of a run times the roots of their weights."""
+        return iter(_weighted(run, self.values, self.scale)[1])
 
 
 def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
     """Iteratively reweighted least squares; a joint's scale is the median of its absolute residuals."""
     solution = problem.solve()
-    outliers = 0
+    outliers, at, scale = 0, solution.values, _scales(runs, solution.values)
     for _ in range(_ITERATIONS):
-        scale = _scales(runs, solution.values)
-        weighted = [_weighted(run, solution.values, scale) for run in runs]
+        at, scale = solution.values, _scales(runs, solution.values)
+        weighted = [_weighted(run, at, scale) for run in runs]
         outliers = sum(count for count, _ in weighted)
         problem = replace(problem, factors=added([f for _, parts in weighted for f in factors(iter(parts))]))
         previous, solution = solution, problem.solve()
@@ -47,7 +56,7 @@ def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
         ]
         if max(steps, default=0.0) < _SETTLED:
             break
-    return Robust(problem, solution, outliers)
+    return Robust(problem, solution, outliers, at, scale)
 
 
 def _errors(

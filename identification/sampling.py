@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.errors import InputError
 from identification.dataset import Run
 from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
 from identification.observation import Motion, Regressors, standing
@@ -59,10 +60,14 @@ def sampled(
 ) -> Sampled:
     """The motion of a run by the recipe's filters (report eq. 46), its speeds by ``rate`` of positions and period.
 
-    Raises InputError where the run is too short.
+    Raises InputError where the run is too short, and for a filter whose order is too high to be computed.
     """
     filters = recipe.at(run.rate)
-    q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    with np.errstate(all="ignore"):
+        q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    if not np.isfinite(q).all():
+        problem = f"a filter of order {filters.order} at {filters.cutoff:g} Hz cannot be computed"
+        raise InputError(run.place, problem, "a lower order")
     qd = rate(q, run.period)
     qdd = rate(qd, run.period)
     inner = slice(filters.first, run.samples - filters.last)

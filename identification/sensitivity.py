@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from generator.errors import InputError
 from identification.inverse_model import Identification, identify
 from identification.recipe import Recipe, possible_factor
 
@@ -23,8 +24,11 @@ class Variation:
     change: float
 
 
-def sensitivity(found: Identification, data: Sequence[str | Path]) -> list[Variation]:
-    """Half and twice the Butterworth's cut-off, half and twice the decimation's factor, on the first run's rate."""
+def sensitivity(found: Identification, data: Sequence[str | Path]) -> tuple[list[Variation], list[str]]:
+    """Half and twice the Butterworth's cut-off, half and twice the decimation's factor, on the first run's rate.
+
+    Also why some of them could not be tried: runs may be too short for them.
+    """
     filters = found.train[0].sampled.filters
     recipes: list[tuple[str, float, Recipe]] = []
     for part in (0.5, 2.0):
@@ -33,12 +37,19 @@ def sensitivity(found: Identification, data: Sequence[str | Path]) -> list[Varia
     for part in (0.5, 2.0):
         factor = possible_factor(part * filters.factor)
         recipes.append(("factor", float(factor), found.recipe.changed(cutoff=filters.cutoff, factor=factor)))
-    return [_variation(found, data, *one) for one in recipes]
+    tried, notes = [], []
+    for setting, value, recipe in recipes:
+        try:
+            tried += _variation(found, data, setting, value, recipe)
+        except InputError as error:
+            notes.append(f"{setting} {value:g} could not be tried: {error}")
+    return tried, notes
 
 
 def _variation(
     found: Identification, data: Sequence[str | Path], setting: str, value: float, recipe: Recipe
-) -> Variation:
+) -> list[Variation]:
+    """None where no parameter is compared."""
     options = replace(found.options, recipe=recipe, draws=0)
     other = identify(found.robot, data, options=options, regressors=found.regressors).full.solution
     own = found.full.solution
@@ -47,5 +58,5 @@ def _variation(
         for name in found.full.sought
         if name not in own.hidden and name not in other.hidden and own.std(name) > 0
     }
-    most = max(changes, key=changes.__getitem__)
-    return Variation(setting, value, most, changes[most])
+    most = max(changes, key=changes.__getitem__, default=None)
+    return [] if most is None else [Variation(setting, value, most, changes[most])]

@@ -43,12 +43,14 @@ class Payload:
 class Sidecar:
     """All that identification takes from a sidecar; ``robot`` and ``notes`` are empty where it does not say.
 
-    What a simulation was made of, under ``simulated``, is for people.
+    ``empty`` tells that it says there is no payload, which it may leave open. What a simulation was made of, under
+    ``simulated``, is for people.
     """
 
     robot: str = ""
     notes: str = ""
     payload: Payload | None = None
+    empty: bool = False
     columns: Mapping[str, Formula] = field(default_factory=dict)
 
 
@@ -63,10 +65,12 @@ def read(run: Path) -> Sidecar:
     file = str(path)
     root = yaml.read(text_of(path, file, "the sidecar of a run"), file)
     keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
+    payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(
         robot=fields.prose(keys.get("robot"), "robot"),
         notes=fields.prose(keys.get("notes"), "notes"),
-        payload=_payload(keys["payload"]) if "payload" in keys else None,
+        payload=payload,
+        empty="payload" in keys and payload is None,
         columns=formulas(keys.get("columns")),
     )
 

@@ -29,6 +29,8 @@ _DOUBTFUL, _REFUSED = 10.0, 50.0
 _BETTER = 20.0
 #: Samples that the fits are repeated on.
 _THINNED = 1500
+#: Rows a parameter that a joint must have for that.
+_FEWEST = 3
 
 
 def suspect(runs: Sequence[Observed], regressors: Regressors, residuals: Residuals) -> list[str]:
@@ -62,7 +64,7 @@ def _swapped(run: Observed, regressors: Regressors, bad: Sequence[int]) -> None:
     best, what = given.misfit(straight) - np.log(_BETTER), ""
     numbers = [joint.number for joint in regressors.model.robot.moving]
     for i, k in combinations(straight, 2):
-        if i not in bad and k not in bad:
+        if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue
         order = straight.copy()
         order[i], order[k] = k, i
@@ -88,6 +90,10 @@ class _Thinned:
             triangular(np.concatenate([W[:, rows], tau[:, rows]]).T)
             for W, rows in zip(regressors.base(motion), used, strict=True)
         ]
+
+    def shows(self, k: int) -> bool:
+        """Whether joint k has rows enough to doubt its columns."""
+        return bool(self._rows[k] > _FEWEST * len(self._structure[k]))
 
     def misfit(self, order: Sequence[int]) -> float:
         """Sum of the logarithms of the joints' residuals where joint k has the torques of joint ``order[k]``."""

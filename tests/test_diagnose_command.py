@@ -242,8 +242,7 @@ def test_the_robot_file_is_not_written_over(
     target = "three_axis.yaml" if out == "." else "out/three_axis.yaml"
     assert done.status == 2
     assert done.err.strip().splitlines()[-1] == (
-        f"error: {target}:1:1: the mended robot would be written over {robot}, the one that is diagnosed, "
-        "expected another --out"
+        f"error: {target}:1:1: it would be written over {robot}, which is read, expected another --out"
     )
     assert "reading" not in done.err
     # Nothing is written over the file without findings: the run that is missing is what stops it.

@@ -131,9 +131,10 @@ def coupling(robot: Robot) -> np.ndarray:
     return np.array([[float(one) for one in row] for row in robot.drives.coupling])
 
 
+@pytest.mark.parametrize("quote", ["", '"'])
 @pytest.mark.parametrize("convention", ["row", "as_printed", "direct"])
-def test_a_gears_ratio_scales_its_column_of_the_coupling(convention: str) -> None:
-    text = text_of("kr500").replace("convention: row", f"convention: {convention}")
+def test_a_gears_ratio_scales_its_column_of_the_coupling(convention: str, quote: str) -> None:
+    text = text_of("kr500").replace("convention: row", f"convention: {quote}{convention}{quote}")
     new = repaired(text, "x", [Addition(DRIVE, "gear_ratio", (5,), {"gear_ratio": 1.01})])
     expected = coupling(robot_of(text, "x")) * [1, 1, 1, 1, 1.01, 1]
     np.testing.assert_allclose(coupling(new.robot), expected, rtol=1e-12)
@@ -215,6 +216,33 @@ def test_the_layout_stays(layout: str, tmp_path: Path) -> None:
     twice = with_value(once, ("signals", "torque_delay"), "2 ms")
     assert float(robot_of(twice, "x").signals.torque_delay[0]) == 2e-3
     assert twice.replace("2 ms", "[1 ms]") == once
+
+
+SECTIONS = {
+    "braces": '{"name": "one", "gravity": DOWN, "joints": [ONE]}\n',
+    "braces with empty sections": '{name: one, gravity: DOWN, joints: [ONE], "effects": [], signals: {}, base: {}}\n',
+    "braces over lines": "{\n name: one,\n gravity: DOWN,\n joints: [ONE],\n effects: [{effect: offset, joint: 1}]}\n",
+    "all of it indented": "  name: one\n  gravity: DOWN\n  joints:\n    - ONE\n  # the end\n",
+    "indented, empty": "  name: one\n  gravity: DOWN\n  joints: [ONE]\n  effects: []\n  signals: {}\n",
+}
+
+
+@pytest.mark.parametrize("text", SECTIONS.values(), ids=SECTIONS)
+def test_sections_find_their_place_in_any_layout(text: str) -> None:
+    text = text.replace("DOWN", '["0 m/s2", "0 m/s2", "-9.81 m/s2"]')
+    text = text.replace("ONE", '{"j": 1, "sigma": 0, "alpha": 0, "d": 0, "theta": "q1", "r": 0}')
+    additions = [
+        Addition(EFFECT, "viscous_friction", (1,), evidence="why"),
+        Addition(SIGNAL, "torque_delay", (1,), {"torque_delay": 0.008}),
+        Addition(BASE, "base_tilt", (), {"tilt_x": 0.02}),
+        Addition(ELASTIC, "joint_elasticity", (1,), {}, {"k1": 1e4}),
+    ]
+    for count in range(1, len(additions) + 1):
+        robot = repaired(text, "x", additions[:count]).robot
+    assert ("viscous_friction", 1) in uses(robot)
+    assert [float(one) for one in robot.signals.torque_delay] == [0.008]
+    assert robot.flexible == (1,)
+    assert float(robot.base[2, 1]) == pytest.approx(np.sin(0.02))
 
 
 def test_a_value_in_nothing_is_refused() -> None:

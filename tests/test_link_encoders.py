@@ -73,6 +73,19 @@ def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -
         assert one.value == pytest.approx(LATENCY, abs=max(4 * one.std, 5e-5))
 
 
+def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) -> None:
+    path = Path(recorded(machine, RUN, tmp_path / "run.csv"))
+    names = path.read_text().splitlines()[0].split(",")
+    rows = np.loadtxt(path, delimiter=",", skiprows=1)
+    for name in ("q2", "qs2"):
+        rows[:, names.index(name)] = 0.3 + 1e-6 * np.random.default_rng(1).integers(0, 2, len(rows))
+    np.savetxt(path, rows, delimiter=",", header=",".join(names), comments="")
+    found = link_encoders(machine.robot, [str(path)])
+    assert found.latency["latency1"].value is not None
+    assert found.latency["latency2"].value is None
+    assert found.latency["latency2"].refused == "the joint stands still"
+
+
 def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path) -> None:
     run = recorded(machine, replace(RUN, further=(), link_delay=0.0, duration=10.0), tmp_path / "a.csv")
     with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):

@@ -16,11 +16,15 @@ from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.writing import spare
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
     from identification.excitation.results import Excitation
     from identification.observation import Regressors
+
+#: Rows that a motion may have.
+_MOST = 1e7
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -63,7 +67,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
-        from identification.excitation.results import save
+        from identification.excitation.results import BESIDE, RUN, save
         from identification.observation import Regressors
         from identification.report.excite.report import report
         from identification.report.page import REPORT
@@ -74,11 +78,12 @@ def run(arguments: argparse.Namespace) -> None:
     _check(arguments)
     path = find_robot(arguments.robot)
     robot = read(path)
+    folder = arguments.out or Path("excitation") / robot.name
+    spare(path, [folder / RUN, folder / BESIDE])
     _check_noise(arguments, robot)
     with stage(f"deriving the model of {path.stem}"):
         regressors = Regressors(robot)
     found = _designed(arguments, robot, regressors)
-    folder = arguments.out or Path("excitation") / robot.name
     files = save(found, folder, {REPORT: report(found)})
     print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")
@@ -101,6 +106,9 @@ def _check(arguments: argparse.Namespace) -> None:
     ):
         if not least <= count <= most:
             raise InputError(command_line(option), f"{count}", f"a whole number from {least} to {most}")
+    if not (samples := arguments.periods / arguments.frequency * arguments.rate) <= _MOST:
+        problem = f"{arguments.periods} periods of {1 / arguments.frequency:g} s make {samples:g} rows"
+        raise InputError(command_line("--periods"), problem, f"at most {_MOST:g}")
     fastest = arguments.frequency * arguments.harmonics
     if arguments.rate < 20 * fastest:
         raise InputError(

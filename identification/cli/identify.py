@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from identification.inverse_model import Identification, Options
     from identification.observation import Regressors
     from identification.recipe import Recipe
+    from identification.sensitivity import Variation
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -103,10 +104,11 @@ def run(arguments: argparse.Namespace) -> None:
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
     folder = arguments.out or Path("identified") / robot.name
-    variations = []
+    variations: list[Variation] = []
     if arguments.sensitivity:
         with stage("trying other filters"):
-            variations = sensitivity(found, arguments.data)
+            variations, untried = sensitivity(found, arguments.data)
+        found = replace(found, notes=(*found.notes, *untried))
     with stage("writing the report"):
         page = {REPORT: report(found, consistent, variations)}
     files = save(found, path, folder, consistent, variations, page)

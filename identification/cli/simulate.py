@@ -19,6 +19,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.writing import spare
 
 if TYPE_CHECKING:
     from identification.simulation.settings import Settings
@@ -80,18 +81,22 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         from identification.simulation.checks import check
         from identification.simulation.machine import compiled
-        from identification.simulation.run_file import save
+        from identification.simulation.run_file import save, written
         from identification.simulation.simulate import simulate
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
         raise InputError(command_line("counterpoise simulate"), f"{error.name} is not installed", extra) from None
 
     settings = _settings(arguments)
-    robot = read(find_robot(arguments.robot))
+    path = find_robot(arguments.robot)
+    robot = read(path)
     check(settings, robot)
     out = arguments.out or Path("simulated") / robot.name / f"{settings.trajectory}_{settings.seed}.csv"
     if out.suffix != ".csv":
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
+    played = (Path(value) for value in settings.trajectory_settings.values() if isinstance(value, str))
+    for source in (path, *(file for file in played if file.is_file())):
+        spare(source, written(out))
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):
             machine = stack.enter_context(compiled(robot))

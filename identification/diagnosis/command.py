@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from generator.cli.progress import stage
-from generator.errors import InputError, Place
+from generator.errors import InputError
 from generator.robot.description import Robot
-from generator.writing import replace, replacing
+from generator.writing import replace, replacing, spare
 from identification import recipe as recipes
 from identification.dataset import Run, load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
@@ -52,7 +51,7 @@ def diagnosed(
     used, before anything is looked for, and for a ``folder`` in which the mended robot would replace ``path``.
     """
     if not wanted.dry:
-        _keep(path, folder / f"{robot.name}.yaml")
+        spare(path, [folder / f"{robot.name}.yaml"])
     regressors = Regressors(robot)
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
@@ -69,6 +68,8 @@ def diagnosed(
         chosen = roles(fit, held, last, tested=not wanted.dry)
         whole = {run.name: run for run in (*fit, *held, *last)}
         runs = [ready(source) for source in (*chosen.train, *chosen.validate)]
+        if not any(run.kept.any() for run in runs[: len(chosen.train)]):
+            raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
         # What cannot be played at the end is refused now.
         tests = [ready(source) for source in chosen.test]
 
@@ -84,9 +85,3 @@ def diagnosed(
             replace(fresh, files)
     made = [] if new is None else [f"{robot.name}.yaml", GENERATED]
     return found, new, [*files, *made]
-
-
-def _keep(path: Path, mended: Path) -> None:
-    if os.path.exists(mended) and os.path.samefile(path, mended):
-        problem = f"the mended robot would be written over {path}, the one that is diagnosed"
-        raise InputError(Place(str(mended)), problem, "another --out")

@@ -71,7 +71,7 @@ def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]
         e, share = _between_periods(e, kept, run.period)
         left.append(stretches(e + rounded[r] if rounded else e, kept))
         shares += share * int(kept.sum()) / max(rows, 1)
-    return left, freedom * shares
+    return left, freedom * shares if rows else 1.0
 
 
 def _without_record(bank: Bank, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:

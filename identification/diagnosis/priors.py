@@ -90,7 +90,7 @@ def _deviation(one: ParameterValue, largest: float) -> float:
     """Standard deviation of a value; no part of zero tells one, and none at all would be no knowledge."""
     if one.relative_std is None or one.value == 0:
         return max(_UNTOLD * abs(one.value), _ZERO * largest)
-    return abs(one.value) * max(one.relative_std / 100, _KNOWN)
+    return abs(one.value) * min(max(one.relative_std / 100, _KNOWN), 1 / _KNOWN)
 
 
 def _precision(root: Array) -> Array:

@@ -46,7 +46,7 @@ def read(path: Path) -> Recording:
     if not complete and lines > 1:
         notes = (f"{file}:{lines}: the last line has no end and is left out, the file may be cut off there",)
         rows = lines - 2
-    if lines < 2:
+    if lines < 2 or rows == 0:
         return Recording(file, {name: np.empty(0) for name in layout.names}, digest(path), layout.place, notes)
     try:
         with path.open(encoding="utf-8-sig") as stream:

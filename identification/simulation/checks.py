@@ -76,6 +76,9 @@ def _check_numbers(settings: Settings) -> None:
         for value in values:
             if not 0 <= value < np.inf:
                 raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
+    for option, delay in (("--delay", settings.delay), ("--link-delay", settings.link_delay)):
+        if delay > settings.duration:
+            raise InputError(command_line(option), f"{delay:g} s", f"no more than the run, {settings.duration:g} s")
     for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
         if seed < 0:
             raise InputError(command_line(option), f"{seed}", "a whole number that is not negative")

@@ -74,7 +74,7 @@ class Loop:
         """
         settings, reference = self._settings, self._reference
         still = np.zeros(self._n)
-        for _ in range(round(_REST * settings.rate)):
+        for _ in range(max(1, round(_REST * settings.rate))):
             tau = self._sample(reference.q[0], still, None)
         if reference.locked:
             moving = self._machine.robot.moving
@@ -134,7 +134,8 @@ class Loop:
         return result
 
     def _frictions(self) -> dict[str, float]:
-        names = (f"{stem}{joint.number}" for stem in _FRICTIONS for joint in self._machine.robot.moving)
+        stems = (f"{stem}{joint.number}" for stem in _FRICTIONS for joint in self._machine.robot.moving)
+        names = (name for stem in stems for name in (stem, f"{stem}R"))
         values = {name: cascade.value_of(self._machine.module, self._model, name) for name in names}
         return {name: value for name, value in values.items() if value and value < _LOCK}
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from generator.errors import InputError, Place
 from generator.version import VERSION
+from generator.writing import replace
 from identification.sidecar import UNITS, Payload
 from identification.simulation.payload import whole
 from identification.simulation.simulate import Simulated
@@ -17,24 +19,23 @@ from identification.simulation.simulate import Simulated
 _DIGITS = 12
 
 
+def written(path: Path) -> tuple[Path, Path]:
+    """The files of a run that is saved as ``path``: itself and its sidecar."""
+    return path, path.with_suffix(".yaml")
+
+
 def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Path]:
-    """Writes the run's columns to ``path`` and the sidecar beside it; returns both paths.
+    """Writes the run's columns to ``path`` and the sidecar beside it, both or none; returns both paths.
 
     Raises InputError where they cannot be written.
     """
-    beside = path.with_suffix(".yaml")
+    files = written(path)
     values = np.stack(list(run.columns.values()), axis=1)
     row = ",".join([f"%.{_DIGITS}g"] * values.shape[1])
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("w", encoding="utf-8", newline="\n") as stream:
-            stream.write(",".join(run.columns) + "\n")
-            stream.writelines(row % tuple(one) + "\n" for one in values.tolist())
-        beside.write_text(_sidecar(run, robot, digest), encoding="utf-8")
-    except OSError as error:
-        place = Place(str(path))
-        raise InputError(place, f"it cannot be written ({error.strerror})", "a file that can be written") from None
-    return path, beside
+    rows = [",".join(run.columns), *(row % tuple(one) for one in values.tolist())]
+    texts = ("\n".join(rows) + "\n", _sidecar(run, robot, digest))
+    replace(path.parent, {file.name: text.encode() for file, text in zip(files, texts, strict=True)})
+    return files
 
 
 def _sidecar(run: Simulated, robot: str, digest: str) -> str:
@@ -85,4 +86,8 @@ def _table(about: Mapping[str, object]) -> list[str]:
 def _text(value: object) -> str:
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_text, value))}]"
-    return f"{value:.9g}" if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return f"{value:.9g}"
+    # Quoted as JSON, which YAML reads, where a plain word would be more than one.
+    plain = not isinstance(value, str) or re.fullmatch(r"[\w./-]+", value, re.ASCII)
+    return str(value) if plain else json.dumps(value, ensure_ascii=False)

@@ -10,6 +10,7 @@ import numpy as np
 
 from generator.cli.place import command_line
 from generator.errors import InputError
+from identification import corrections
 from identification.signals import WRENCH
 from identification.simulation import cascade
 from identification.simulation.checks import check, chosen, each, pose, trajectory_of
@@ -86,7 +87,7 @@ def noisy(run: Simulated, noise: Sequence[float], wrench_noise: Sequence[float] 
 
 
 def _columns(machine: Machine, model: Any, settings: Settings, reference: Reference, log: Log) -> dict[str, Array]:
-    """What is logged, without noise."""
+    """What is logged, without noise, and with what the robot's file says of its signals."""
     robot, kept = machine.robot, slice(None, None, settings.every)
     rows, n = log.q.shape
     numbers = [joint.number for joint in robot.moving]
@@ -95,13 +96,14 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     t: Array = settings.period * np.arange(rows, dtype=float)
     warmth = settings.warmth(t)
     drift = 1 + settings.constant_drift * warmth
-    effort = log.tau @ np.linalg.inv(N) / constants / drift[:, None]
+    motor = corrections.recorded_motor_torques(np.linalg.inv(N).T @ log.tau.T, robot, settings.period, warmth)
+    effort = motor.T / constants / drift[:, None]
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
     parts = {
-        "qm" if robot.drives else "q": log.q @ N.T,
+        "qm" if robot.drives else "q": corrections.recorded_positions(log.q.T, robot).T @ N.T,
         _effort(machine): effort,
         "qr": reference.q,
-        "qs": log.links[late],
+        "qs": corrections.recorded_links(log.links[late].T, robot, settings.period).T,
         "temp": np.tile((settings.temperature + settings.rise * warmth)[:, None], n),
     }
     columns: dict[str, Array] = {"t": t[kept]}

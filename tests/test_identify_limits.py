@@ -1,0 +1,133 @@
+"""What an identification tells where runs show little, and what it refuses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from generator.robot.readers import read
+from generator.symbolic.parameter_sets import resolved_sets
+from identification.consistent_fit import consistent_fit
+from identification.inverse_model import Options, identify
+from identification.observation import Motion, Regressors
+from identification.recipe import Recipe
+from identification.sensitivity import sensitivity
+from tests.commands import command
+from tests.recorded import TRUTH, Recorded, fourier, recorded, regressors, two_links
+
+PLAIN = Recipe(dynamics=4.0, standstill=0.0)
+
+#: Two slides and a wheel without a first moment.
+GANTRY = """\
+name: gantry
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1, limits: [-1 m, 1 m]}
+  - {j: 2, sigma: 1, alpha: pi/2, d: 0, theta: pi/2, r: q2, limits: [-1 m, 1 m]}
+  - {j: 3, sigma: 0, alpha: 0, d: 0, theta: q3, r: 0, limits: [-160 deg, 160 deg]}
+effects:
+  - {effect: viscous_friction, joints: all}
+  - {effect: coulomb_friction, joints: all}
+"""
+GANTRY_TRUTH = {"M1": 80.0, "M2R": 30.0, "ZZ3": 2.0, "Fv1": 100.0, "Fc1": 50.0, "Fv2": 60.0, "Fc2": 20.0}
+GANTRY_TRUTH |= {"Fv3": 5.0, "Fc3": 2.0}
+
+
+@pytest.fixture
+def links(tmp_path: Path) -> Regressors:
+    return two_links(tmp_path)
+
+
+def gantry(folder: Path, slow: float = 1.0) -> tuple[Regressors, Path]:
+    """Its slides pushed by something that the model lacks, the wheel ``slow``."""
+    (folder / "gantry.yaml").write_text(GANTRY)
+    of = Regressors(read(folder / "gantry.yaml"))
+    t, motion = fourier(of.model.robot, 20.0, 200.0)
+    scale = np.array([1.0, 1.0, slow])[:, None]
+    motion = Motion(motion.q * scale, motion.qd * scale, motion.qdd * scale)
+    truth = {name: GANTRY_TRUTH.get(name, 0.0) for name in of.names}
+    tau = of.torques(truth, motion)
+    tau[0] += 0.15 * tau[0].std() * np.sign(np.sin(7 * motion.q[0]))
+    tau += 0.01 * np.random.default_rng(3).normal(size=tau.shape)
+    columns = {f"{stem}{j + 1}": row for stem, rows in (("q", motion.q), ("tau", tau)) for j, row in enumerate(rows)}
+    return of, Recorded({"t": t, **columns}).save(folder / "run.csv")
+
+
+def test_bodies_of_which_nothing_is_known_do_not_weigh_on_those_that_slides_show(tmp_path: Path) -> None:
+    """A ball as heavy as the noise of first moments that are none would be a million times too light."""
+    of, run = gantry(tmp_path)
+    found = identify(of.model.robot, [run], options=Options(recipe=PLAIN), regressors=of)
+    possible = consistent_fit(found, None, 0.03)
+    assert possible.train.total.norm < 1.02 * found.full.train.total.norm
+    assert possible.base["M2R"] == pytest.approx(30.0, rel=0.01)
+
+
+def test_a_joint_that_hardly_moves_is_not_swapped_with_another(tmp_path: Path) -> None:
+    of, run = gantry(tmp_path, slow=0.005)
+    found = identify(of.model.robot, [run], options=Options(recipe=Recipe(dynamics=4.0)), regressors=of)
+    assert any("joint 3 is never faster than the standstill threshold" in note for note in found.notes)
+
+
+def test_runs_without_a_row_are_refused(links: Regressors, tmp_path: Path) -> None:
+    path = recorded(links, TRUTH).save(tmp_path / "a.csv")
+    with pytest.raises(InputError, match=r"a.csv:1:1: no joint is ever faster than the standstill threshold"):
+        identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0, standstill=100.0)), regressors=links)
+
+
+def test_runs_are_long_enough_for_every_stage_of_the_decimation(links: Regressors, tmp_path: Path) -> None:
+    """Factors of 20 and 14 have two stages, the second of which needs 25 rows of the first."""
+    for rate, factor in ((200.0, 20), (140.0, 14)):
+        recipe = Recipe(dynamics=4.0, factor=factor)
+        fewest = recipe.at(rate).fewest
+        run = recorded(links, TRUTH, rate=rate)
+        identify(links.model.robot, [run.rows(0, fewest).save(tmp_path / "b.csv")], options=Options(recipe))
+        with pytest.raises(InputError, match=rf"{fewest - 1} rows .* at least {fewest} for the filters"):
+            identify(links.model.robot, [run.rows(0, fewest - 1).save(tmp_path / "b.csv")], options=Options(recipe))
+
+
+def test_a_run_too_short_for_other_filters_is_identified_from_all_the_same(links: Regressors, tmp_path: Path) -> None:
+    path = recorded(links, TRUTH, duration=1.6, noise=0.01).save(tmp_path / "short.csv")
+    found = identify(links.model.robot, [path], options=Options(PLAIN), regressors=links)
+    tried, notes = sensitivity(found, [path])
+    assert tried
+    assert notes
+    assert all("could not be tried" in note for note in notes)
+
+
+def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    of = regressors("tilted_two_link")
+    run = recorded(of, resolved_sets(of.model)["example"]).save(tmp_path / "a.csv")
+    given = ("--fix", "*", "--prior", "example", "--sensitivity", "--out", tmp_path)
+    done = command("identify", "tilted_two_link", "--data", run, *given, capsys=capsys)
+    assert done.status == 0
+    assert "every value is given" in done.out
+
+
+@pytest.mark.parametrize("robust", [False, True])
+def test_blocks_tell_what_a_sum_of_hidden_parameters_owes_to_others(robust: bool, tmp_path: Path) -> None:
+    """A carriage that never turns back: Coulomb friction and offset are one, which leans on viscous friction."""
+    of = regressors("emps")
+    draw = np.random.default_rng(0)
+    t = np.arange(0, 20, 0.002)
+    w = 2 * np.pi * np.array([0.2, 0.5])
+    qd = 0.1 + 0.04 * np.sin(w[0] * t) + 0.02 * np.sin(w[1] * t + 1)
+    qdd = 0.04 * w[0] * np.cos(w[0] * t) + 0.02 * w[1] * np.cos(w[1] * t + 1)
+    q = 0.1 * t - 0.04 / w[0] * np.cos(w[0] * t) - 0.02 / w[1] * np.cos(w[1] * t + 1) - 1.0
+    clean = of.torques({"M1R": 95.0, "Fv1": 200.0, "Fc1": 20.0, "Off1": -3.0}, Motion(*(x[None] for x in (q, qd, qdd))))
+    found: list[float] = []
+    plain: list[float] = []
+    blocks: list[float] = []
+    for _ in range(12):
+        noisy = clean[0] + 5 * draw.normal(size=t.shape)
+        path = Recorded({"t": t, "q1": q, "tau1": noisy}).save(tmp_path / "run.csv")
+        for draws, into in ((0, plain), (300, blocks)):
+            solution = identify(of.model.robot, [path], (), Options(Recipe(), robust=robust, draws=draws), of).full
+            into.append(solution.solution.std("Fv1"))
+        found.append(solution.solution.values["Fv1"])
+    assert set(solution.solution.hidden) == {"Fc1", "Off1"}
+    scatter = float(np.std(found, ddof=1))
+    assert 0.6 < np.mean(plain) / scatter < 1.6
+    assert 0.6 < np.mean(blocks) / scatter < 1.6

@@ -1,0 +1,76 @@
+"""Which run carries which payload, and what of it the runs can tell."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from identification.drive_gains import drive_gains
+from identification.inverse_model import Options, identify
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from identification.results import document
+from identification.sidecar import UNITS, Payload
+from tests.recorded import TRUTH, Recorded, recorded, two_links
+
+PLAIN = Recipe(dynamics=4.0)
+#: Ten parameters of a point mass in the tool frame [SI], by its mass.
+POINT = {mass: [0.0] * 9 + [mass] for mass in (0.0, 0.5, 2.5)}
+
+
+@pytest.fixture
+def links(tmp_path: Path) -> Regressors:
+    return two_links(tmp_path)
+
+
+def carrying(links: Regressors, mass: float, path: Path, says: str) -> Path:
+    recorded(links, TRUTH, seed=round(10 * mass) + 1, payload=POINT[mass]).save(path)
+    path.with_suffix(".yaml").write_text(says)
+    return path
+
+
+def known(name: str, mass: float) -> str:
+    values = dict.fromkeys(UNITS, 0.0) | {"M": mass}
+    return f"payload: {{name: {name}, {', '.join(f'{k}: {x} {UNITS[k]}' for k, x in values.items())}}}\n"
+
+
+def test_a_run_that_says_it_carries_nothing_is_given_no_payload(links: Regressors, tmp_path: Path) -> None:
+    empty = carrying(links, 0.0, tmp_path / "empty.csv", "payload: none\n")
+    loaded = carrying(links, 2.5, tmp_path / "loaded.csv", "notes: of the day after\n")
+    payload = Payload("L", dict.fromkeys(UNITS, 0.0) | {"M": 2.5})
+    found = identify(links.model.robot, [empty, loaded], options=Options(PLAIN, payload=payload), regressors=links)
+    values = found.full.solution.values
+    assert {name: values[name] for name in TRUTH} == pytest.approx(TRUTH, rel=5e-3, abs=0.03)
+
+
+def test_of_two_payloads_one_is_told_from_the_other(links: Regressors, tmp_path: Path) -> None:
+    """Without an empty run the first counts as part of the last body; the other one's difference shows."""
+    first = carrying(links, 0.5, tmp_path / "first.csv", "payload: {name: A}\n")
+    second = carrying(links, 2.5, tmp_path / "second.csv", "payload: {name: B, MZ: 0 kg m}\n")
+    found = identify(links.model.robot, [first, second], options=Options(PLAIN), regressors=links)
+    assert [note[:10] for note in found.notes if "tells" in note] == ["payload A:"]
+    assert found.full.train.total.relative_to_mean < 0.2
+    # A point at the tool's origin, 0.4 m beyond the second joint.
+    assert found.full.solution.values["MX2"] == pytest.approx(TRUTH["MX2"] + 0.5 * 0.4, rel=0.01)
+    told = document(found)["payloads"]
+    assert all(one["value"] is None and np.isinf(one["std"]) for one in told["A"].values())
+    assert any(one["value"] is not None for one in told["B"].values())
+
+
+def test_gains_are_not_found_from_runs_in_the_wrong_places(links: Regressors, tmp_path: Path) -> None:
+    def current(path: Path) -> str:
+        run = recorded(links, TRUTH)
+        columns = {name.replace("tau", "i"): values for name, values in run.columns.items()}
+        return str(Recorded(columns).save(path))
+
+    empty, loaded = current(tmp_path / "empty.csv"), current(tmp_path / "loaded.csv")
+    (tmp_path / "empty.yaml").write_text("payload: none\n")
+    (tmp_path / "loaded.yaml").write_text(known("L", 2.5))
+    robot = links.model.robot
+    with pytest.raises(InputError, match=r"loaded.csv:1:1: payload L is on a run that counts as empty"):
+        drive_gains(robot, [loaded], [loaded], regressors=links)
+    with pytest.raises(InputError, match=r"empty.csv:1:1: no payload is on a run that counts as loaded"):
+        drive_gains(robot, [empty], [empty], Payload("L", {"M": 2.5}), regressors=links)
