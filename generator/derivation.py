@@ -7,10 +7,11 @@ from functools import cache
 
 import generator.quantities
 from generator.discovery import modules
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.quantities.quantity import Quantity
 from generator.robot.description import Robot
 from generator.symbolic.built_in import built_in
+from generator.symbolic.function import Function
 from generator.symbolic.model import Model
 from generator.verification import check_grouping
 
@@ -37,16 +38,23 @@ def derive(
     Raises InputError for effects that do not fit the robot, for a parameter set that does not, and GroupingMismatch
     if the check fails.
     """
-    model = Model(robot, plain) if parameter_set is None else built_in(robot, parameter_set, plain)
-    for name, quantity in quantities().items():
-        if (names is None or name in names) and quantity.applies(model):
-            try:
-                model.functions[name] = quantity.function(model)
-            except ZeroDivisionError:
-                place = robot.place if parameter_set is None else robot.parameter_sets[parameter_set].place
-                raise InputError(
-                    place, f"{name} divides by a parameter that is zero", "an inertia that moves"
-                ) from None
-    if check:
-        check_grouping(model)
+    chosen = robot.parameter_sets.get(parameter_set or "")
+    place = robot.place if chosen is None else chosen.place
+    try:
+        model = Model(robot, plain) if parameter_set is None else built_in(robot, parameter_set, plain)
+        for name, quantity in quantities().items():
+            if (names is None or name in names) and quantity.applies(model):
+                model.functions[name] = _function(quantity, model, place)
+        if check:
+            check_grouping(model)
+    except OverflowError:
+        raise InputError(place, "its numbers are too large or too small to compute with", "those of a robot") from None
     return model
+
+
+def _function(quantity: Quantity, model: Model, place: Place) -> Function:
+    try:
+        return quantity.function(model)
+    except ZeroDivisionError:
+        problem = f"{quantity.name} divides by a parameter that is zero"
+        raise InputError(place, problem, "an inertia that moves") from None

@@ -11,7 +11,9 @@ import pytest
 
 from generator.derivation import derive
 from generator.resources import find_robot
-from generator.robot.readers import read
+from generator.robot.content import robot_from
+from generator.robot.readers import read, yaml
+from generator.symbolic.built_in import built_in
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.parameter_sets import parameter_vector
@@ -87,3 +89,25 @@ def test_sets_that_cannot_be_built_in(
     assert (done.status, done.out) == (2, "")
     assert expected in done.err.splitlines()[-1]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["pendulum.yaml"]
+
+
+def test_joints_without_a_stiffness_are_rigid_also_where_the_file_gives_them_a_gap() -> None:
+    robot = robot_from(yaml.read(_ELASTIC, "x"))
+    assert built_in(robot, "one").elastic == (0,)
+    assert built_in(robot, "none").elastic == ()
+
+
+_ELASTIC = """\
+name: two
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: pi/2, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 0, alpha: 0, d: 0.5 m, theta: q2, r: 0}
+effects:
+  - {effect: rotor_inertia, joints: all}
+  - {effect: joint_elasticity, joint: 2, values: {gap: 1 mrad}}
+flexible: all
+parameters:
+  one: {values: {k1: 1e4 N m/rad, Iam1: 1 kg m2, Iam2: 1 kg m2, ZZ2: 1 kg m2}}
+  none: {values: {ZZ2: 1 kg m2}}
+"""

@@ -43,7 +43,8 @@ EFFECT = Effect(
     ),
     needs=("qd", "qdd"),
     sign_convention="the motor supplies Iar s'' + Fvr s' + Fcr sign(s'), s = q + ratio q_other, shared by equal power",
-    assumptions="gyroscopic terms of the rotor are neglected; sign(0) = 0",
+    assumptions="gyroscopic terms of the rotor are neglected; sign(0) = 0, also where other dry friction has a given "
+    "direction or a smooth stand-in: simulations do not stick by it",
     source="report section 2.3.1; Gautier and Briot 2012",
     rank=45,
 )

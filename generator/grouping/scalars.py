@@ -17,6 +17,8 @@ from sympy.polys.fields import field
 from generator.constants import exact_constant
 from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
 
+#: General angles up to which groupings are written in their half tangents; fractions in more of them have no end.
+_WRITTEN = 2
 #: Irrational constants are carried to sixty digits; what is smaller than this is zero.
 _NOTHING = Fraction(1, 10**40)
 
@@ -83,10 +85,14 @@ class Numbers:
         return Scalar(self._field(QQ(value.numerator, value.denominator)), value) if value else self.zero
 
     def cosine_sine(self, angle: sympy.Expr) -> tuple[Scalar, Scalar]:
-        """Cosine and sine of a constant angle: exact at quarter turns, else through the half angle's tangent."""
+        """Cosine and sine of a constant angle: exact at quarter turns, else through the half angle's tangent, or as
+        numbers where the robot has many such angles.
+        """
         if (2 * angle / sympy.pi).is_Integer:
             return self.integer(int(sympy.cos(angle))), self.integer(int(sympy.sin(angle)))
         positive, sign = _unsigned(angle)
+        if positive not in self._half_tangents:
+            return self.constant(sympy.cos(angle)), self.constant(sympy.sin(angle))
         t = self._generators[str(self._half_tangents[positive])]
         at = positive.subs(self._values)
         cosine = Scalar((1 - t**2) / (1 + t**2), exact_constant(sympy.cos(at)))
@@ -109,8 +115,9 @@ class Numbers:
     def _rational(self, expression: sympy.Expr) -> Any:
         if expression.is_Symbol:
             return self._generators[str(expression)]
-        if expression.is_Rational:
-            return self._field(QQ(int(expression.p), int(expression.q)))
+        if not expression.free_symbols:
+            value = exact_constant(expression)
+            return self._field(QQ(value.numerator, value.denominator))
         parts = [self._rational(argument) for argument in expression.args]
         if expression.is_Add:
             return sum(parts[1:], parts[0])
@@ -125,14 +132,16 @@ class Numbers:
 
 
 def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
-    """A symbol for tan(angle/2) of each constant angle of the geometry that is no quarter turn."""
+    """A symbol for tan(angle/2) of each constant angle of the geometry that is no quarter turn, of which no length can
+    have the name; none where there are too many.
+    """
     angles: dict[sympy.Expr, sympy.Symbol] = {}
     components = [*_constant_angles(robot)]
     for angle in components:
         if not (2 * angle / sympy.pi).is_Integer:
             positive, _ = _unsigned(angle)
-            angles.setdefault(positive, sympy.Symbol(f"tan_half_{len(angles)}"))
-    return angles
+            angles.setdefault(positive, sympy.Symbol(f"_tan_half_{len(angles)}"))
+    return angles if len(angles) <= _WRITTEN else {}
 
 
 def _constant_angles(robot: Robot) -> list[sympy.Expr]:

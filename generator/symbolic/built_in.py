@@ -5,13 +5,15 @@ Essential parameters (report eq. 47) make shorter equations this way: what is ze
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 import sympy
 
+from generator.effects.library import library
 from generator.errors import InputError
-from generator.robot.description import Length, ParameterSet, Robot
+from generator.robot.description import EffectUse, Length, ParameterSet, Robot
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import parameter_vector
@@ -29,12 +31,14 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
         expected = nearest(name, robot.parameter_sets) if robot.parameter_sets else "a robot with parameter sets"
         raise InputError(robot.place, f"no parameter set {name!r}", expected)
     chosen = robot.parameter_sets[name]
+    flexible = tuple(joint for joint in robot.flexible if f"k{joint}" in chosen.values)
     numeric = replace(
         robot,
         name=f"{robot.name}_{name}",
         description=f"{robot.description}; parameter set {name} built in",
         lengths=tuple(_number(length, chosen) for length in robot.lengths),
-        flexible=tuple(joint for joint in robot.flexible if f"k{joint}" in chosen.values),
+        flexible=flexible,
+        effects=tuple(use for one in robot.effects if (use := _possible(one, flexible)).joints),
         parameter_sets={},
     )
     model = Model(numeric)
@@ -44,6 +48,13 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
     vector = parameter_vector(model, values)
     constants = {p.name: Fraction(str(float(x))) for p, x in zip(model.all_parameters, vector, strict=True)}
     return Model(numeric, plain, constants)
+
+
+def _possible(use: EffectUse, flexible: Sequence[int]) -> EffectUse:
+    """Without the joints of an elastic drive train that is none."""
+    if "qe" not in library()[use.effect].needs:
+        return use
+    return replace(use, joints=tuple(joint for joint in use.joints if joint in flexible))
 
 
 def _number(length: Length, chosen: ParameterSet) -> Length:

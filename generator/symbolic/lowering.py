@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 
 import sympy
 
@@ -40,9 +39,9 @@ def lower(program: Program, expression: sympy.Expr, values: Mapping[sympy.Symbol
         return _quotient(program, expression, values)
     if isinstance(expression, sympy.Pow):
         exponent = expression.exp
-        if not exponent.is_Rational:
-            raise ValueError(f"only exact rational powers are emitted, got {expression}")
-        return program.power(arguments[0], Fraction(int(exponent.p), int(exponent.q)))
+        if exponent.free_symbols:
+            raise ValueError(f"only constant powers are emitted, got {expression}")
+        return program.power(arguments[0], exact_constant(exponent))
     if expression.func is sympy.tan:
         return program.function("sin", arguments[0]) / program.function("cos", arguments[0])
     name = _FUNCTIONS.get(expression.func)

@@ -545,13 +545,16 @@ void kr500_rigid_start(
     kr500_rigid_load rest;
     kr500_rigid_load loaded;
     kr500_real rate[6];
+    kr500_real elsewhere[6];
+    kr500_real moving[6];
 
     rest.prepared = prepared;
     rest.width = NULL;
     for (int i = 0; i < 6; ++i) {
         rest.tau[i] = R(0.0);
     }
-    /* Friction by load shows under a load alone: torques of the drives. */
+    /* Friction may be none at the start alone: by load it shows under torques of the drives, by
+       position or speed at others. */
     loaded = rest;
     for (int i = 0; i < 6; ++i) {
         loaded.tau[i] = R(1.0);
@@ -559,10 +562,12 @@ void kr500_rigid_start(
     for (int i = 0; i < 6; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
+        elsewhere[i] = q[i] + R(0.7);
+        moving[i] = R(1.0);
     }
     kr500_rigid_rates(qd, rate);
     for (int i = 0; i < 6; ++i) {
-        if ((kr500_rigid_rubs(&rest, q, qd, i) == 0) && (kr500_rigid_rubs(&loaded, q, qd, i) == 0)) {
+        if ((kr500_rigid_rubs(&rest, q, qd, i) == 0) && (kr500_rigid_rubs(&loaded, elsewhere, moving, i) == 0)) {
             state->contact[i] = KR500_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
@@ -1157,7 +1162,8 @@ void kr500_flexible_start(
     kr500_flexible_load rest;
     kr500_flexible_load loaded;
     kr500_real rate[12];
-    kr500_real wound[12];
+    kr500_real elsewhere[12];
+    kr500_real moving[12];
 
     rest.prepared = prepared;
     rest.width = NULL;
@@ -1165,7 +1171,8 @@ void kr500_flexible_start(
         rest.tau[i] = R(0.0);
         rest.tau_ext[i] = R(0.0);
     }
-    /* Friction by load shows under a load alone: torques of the drives, springs that are wound. */
+    /* Friction may be none at the start alone: by load it shows under torques of the drives and wound springs, by
+       position or speed at others. */
     loaded = rest;
     for (int i = 0; i < 6; ++i) {
         loaded.tau[i] = R(1.0);
@@ -1173,14 +1180,12 @@ void kr500_flexible_start(
     for (int i = 0; i < 12; ++i) {
         state->q[i] = q[i];
         state->qd[i] = qd[i];
-        wound[i] = q[i];
-    }
-    for (int i = 6; i < 12; ++i) {
-        wound[i] = q[i] + R(1.0);
+        elsewhere[i] = q[i] + R(0.7);
+        moving[i] = R(1.0);
     }
     kr500_flexible_rates(qd, rate);
     for (int i = 0; i < 12; ++i) {
-        if ((kr500_flexible_rubs(&rest, q, qd, i) == 0) && (kr500_flexible_rubs(&loaded, wound, qd, i) == 0)) {
+        if ((kr500_flexible_rubs(&rest, q, qd, i) == 0) && (kr500_flexible_rubs(&loaded, elsewhere, moving, i) == 0)) {
             state->contact[i] = KR500_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {

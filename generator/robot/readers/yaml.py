@@ -135,6 +135,8 @@ class _Builder:
         quoted = event.style is not None
         start, end = event.start_mark, event.end_mark
         width = end.column - start.column - (2 if quoted else 0)
+        if any("\ud800" <= character <= "\udfff" for character in event.value):
+            raise InputError(place, "half of a surrogate pair", "a character of Unicode")
         literal = start.line == end.line and width == len(event.value) and event.style in (None, "'", '"')
         inside = Place(self._file, place.line, place.column + quoted) if literal else None
         return Text(event.value, place, quoted, inside)
