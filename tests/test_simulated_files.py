@@ -1,0 +1,101 @@
+"""Simulated runs as files: read back, beside what they were made of, and as the robot's own signals would log them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.robot.readers import read
+from identification import readers, sidecar
+from identification.dataset import Run, load
+from identification.simulation.machine import Machine, compiled
+from identification.simulation.run_file import save
+from identification.simulation.simulate import simulate
+from tests.commands import command
+from tests.test_simulate import SHORT, Array, robot_text
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("simulate") / "two_links.yaml"
+    path.write_text(robot_text())
+    return path
+
+
+@pytest.fixture(scope="module")
+def machine(file: Path) -> Iterator[Machine]:
+    with compiled(read(file)) as made:
+        yield made
+
+
+def test_files_are_read_back_as_they_were(machine: Machine, tmp_path: Path) -> None:
+    run = simulate(machine, replace(SHORT, noise=(0.1,), largest=(5.0,)))
+    path, _ = save(run, "two_links", machine.robot.digest, tmp_path / "a.csv")
+    again = readers.read(path).columns
+    assert list(again) == list(run.columns)
+    for name, values in run.columns.items():
+        assert again[name] == pytest.approx(values, rel=1e-11, abs=1e-300)
+
+
+def test_the_sidecar_tells_any_file_that_was_played(machine: Machine, tmp_path: Path) -> None:
+    played = tmp_path / "a: [b] #.csv"
+    played.write_text("t,qr1,qr2\n0,0,0\n0.1,0,0\n0.2,0,0\n0.3,0,0\n")
+    run = simulate(machine, replace(SHORT, trajectory="played", trajectory_settings={"file": str(played)}))
+    path, beside = save(run, "two_links", machine.robot.digest, tmp_path / "c.csv")
+    assert sidecar.read(path).robot == "two_links"
+    assert str(played) in beside.read_text()
+
+
+def test_what_is_read_is_not_written_over(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot, run = tmp_path / "trajectory.yaml", tmp_path / "run.csv"
+    robot.write_text(file.read_text())
+    run.write_text("t,qr1,qr2\n0,0,0\n0.1,0,0\n")
+    before = robot.read_bytes(), run.read_bytes()
+    for words in (
+        ("simulate", robot, "--out", tmp_path / "trajectory.csv"),
+        ("excite", robot, "--out", tmp_path),
+        ("simulate", robot, "--trajectory", "played", "--set", f"file={run}", "--out", run),
+    ):
+        done = command(*words, capsys=capsys)
+        assert done.status == 2
+        assert "it would be written over" in done.err.splitlines()[-1]
+        assert (robot.read_bytes(), run.read_bytes()) == before
+
+
+@pytest.mark.parametrize(
+    "signals",
+    [
+        "position_offset: [2 deg, -1 deg]",
+        "torque_gain: [1.2, 0.9]",
+        "torque_delay: [4 ms, -2.5 ms]",
+        "link_delay: [3 ms, 1 ms]",
+    ],
+)
+def test_what_the_file_says_of_its_signals_is_in_the_log(
+    signals: str, machine: Machine, file: Path, tmp_path: Path
+) -> None:
+    """Read with the same robot file, it is what the robot without that section logs."""
+    path = tmp_path / "two_links.yaml"
+    path.write_text(file.read_text().replace("parameters:", f"signals: {{{signals}}}\nparameters:", 1))
+    with compiled(read(path)) as made:
+        run = simulate(made, SHORT)
+    other = simulate(machine, SHORT)
+    assert any(np.ptp(run.columns[name] - other.columns[name]) > 0 or name[0] == "q" for name in run.columns)
+    logged, expected = (
+        load(str(save(one, "two_links", "", tmp_path / f"{k}.csv")[0]), robot)
+        for k, (one, robot) in enumerate(((run, read(path)), (other, machine.robot)))
+    )
+    count = logged.samples
+    first = round((logged.start - expected.start) / expected.period)
+    inner = slice(20, count - 20)
+    for mine, its in ((logged.q, expected.q), (logged.tau, expected.tau), (links(logged), links(expected))):
+        its = its[:, first : first + count]
+        assert mine[:, inner] == pytest.approx(its[:, inner], abs=2e-3 * np.ptp(its))
+
+
+def links(run: Run) -> Array:
+    return np.stack([run.others["qs1"], run.others["qs2"]])
