@@ -25,9 +25,8 @@ class InputError(Exception):
     """
 
     def __init__(self, place: Place, problem: str, expected: str) -> None:
-        # Of one line even where a name in the file has several.
-        problem, expected = (" ".join(text.split()) for text in (problem, expected))
-        super().__init__(f"{place}: {problem}, expected {expected}")
+        # Of one line even where a name that it tells has several.
+        super().__init__(" ".join(f"{place}: {problem}, expected {expected}".splitlines()))
         self.place = place
         self.problem = problem
         self.expected = expected

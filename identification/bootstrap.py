@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.least_squares import Problem, Solution
+from identification.least_squares import RANK, Problem, Solution
 from identification.observed import Observed
 from identification.sampling import Rows
 
@@ -64,7 +64,7 @@ def _whitening(problem: Problem, solution: Solution) -> Array:
     size = np.linalg.norm(R, axis=0)
     scale = np.where(size > 0, size, 1.0)
     _, s, Vt = np.linalg.svd(R / scale, full_matrices=False)
-    rank = min(solution.rank, len(s))
+    rank = int((s > RANK * s[0]).sum())
     return np.asarray(Vt[:rank].T / s[:rank] / scale[:, None])
 
 

@@ -96,10 +96,9 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
     _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
-    for number in _bodies(found, prior):
-        _raise_to_possible(str(number), s)
-    for one in payloads:
-        _raise_to_possible(one.name, s)
+    bodies = [*(str(joint.number) for joint in found.robot.bodies), *(one.name for one in payloads)]
+    for body in bodies:
+        _raise_to_possible(body, {name: one for name, one in s.items() if name not in found.problem.fixed}, s)
     standard = {name: float(variable.value) for name, variable in s.items()}
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
@@ -128,14 +127,13 @@ def _solve(problem: Any, cp: Any) -> None:
         raise ValueError(f"no physically consistent parameters were found: {problem.status}")
 
 
-def _raise_to_possible(body: str, s: Mapping[str, Any]) -> None:
-    """What a body's second moments lack within the solver's accuracy is added to them."""
-    P = of_body(body, {name: float(one.value) for name, one in s.items()})
-    mass = max(P[3, 3], np.finfo(float).tiny)
-    lacking = -float(np.linalg.eigvalsh(P[:3, :3] - np.outer(P[:3, 3], P[:3, 3]) / mass).min())
+def _raise_to_possible(body: str, free: Mapping[str, Any], s: Mapping[str, Any]) -> None:
+    """What a body's pseudo-inertia lacks within the solver's accuracy is added to it, as far as it is ``free``."""
+    lacking = -float(np.linalg.eigvalsh(of_body(body, {name: float(one.value) for name, one in s.items()})).min())
     if lacking > 0:
-        for stem in ("XX", "YY", "ZZ"):
-            s[f"{stem}{body}"].value += 2 * (1 + _ABOVE) * lacking
+        for stem, part in (("XX", 2), ("YY", 2), ("ZZ", 2), ("M", 1)):
+            if (name := f"{stem}{body}") in free:
+                free[name].value += part * (1 + _ABOVE) * lacking
 
 
 def _payloads(found: Identification) -> list[Payload]:
@@ -163,7 +161,6 @@ def _ball(found: Identification) -> Array:
         abs(values[p.name]) / arms[p.unit]
         for p in found.regressors.model.base_parameters
         if p.unit in arms and p.name in values and abs(values[p.name]) > _SHOWN * found.full.solution.std(p.name)
-        if values[p.name]
     ]
     mass = float(np.median(masses)) if masses else _MASS
     return uniform_bar(mass, (0, 0, 0), (0, 0, 0), _PART * size * np.sqrt(5))

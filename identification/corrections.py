@@ -92,15 +92,17 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     return np.asarray(N.T @ motor, dtype=float)
 
 
-def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array) -> Array:
-    """What ``true_torques`` makes torques of the motors (n x N) [N m, N] of, with the ``warmth`` (N) of all drives."""
+def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
+    """What ``true_torques`` makes torques of the motors (n x N) [N m, N] of."""
     signals, drives = robot.signals, robot.drives
     result = motor.copy()
-    for k, part in enumerate(drives.torque_drift if drives is not None else ()):
-        result[k] /= 1 + float(part) * warmth
-    if signals.torque_gain:
-        result /= _column(signals.torque_gain)
-    return _earlier(result, [-delay for delay in signals.torque_delay], period) if signals.torque_delay else result
+    if signals.torque_delay:
+        result = _earlier(motor, [-delay for delay in signals.torque_delay], period)
+    if warmth is not None:
+        for k, part in enumerate(drives.torque_drift if drives is not None else ()):
+            if part:
+                result[k] /= 1 + float(part) * warmth[k]
+    return result / _column(signals.torque_gain) if signals.torque_gain else result
 
 
 def recorded_links(q: Array, robot: Robot, period: float) -> Array:
@@ -159,7 +161,7 @@ def _earlier(x: Array, delays: Sequence[sympy.Expr], period: float) -> Array:
     """Signals (n x N) that were recorded ``delays`` [s] late, at their own time, by a cubic spline; ends are held."""
     t = period * np.arange(x.shape[-1])
     rows = [
-        make_interp_spline(t, row)(np.clip(t + float(delay), t[0], t[-1])) if delay else row
+        make_interp_spline(t, row, min(3, len(t) - 1))(np.clip(t + float(delay), t[0], t[-1])) if delay else row
         for row, delay in zip(x, delays, strict=True)
     ]
     return np.stack(rows)

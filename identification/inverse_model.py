@@ -115,8 +115,8 @@ def identify(
     notes += aside
     factors = _added(trained)
     if not any(one.rows for one in factors):
-        slow = "no joint is ever faster than the standstill threshold"
-        raise InputError(trained[0].sampled.run.place, slow, "faster motion, or a smaller threshold")
+        slow = "no row is left: joints are never faster than the standstill threshold, or their efforts are cut off"
+        raise InputError(trained[0].sampled.run.place, slow, "faster motion, a smaller threshold, lower efforts")
     problem = _problem(factors, regressors, payloads, recipe, options)
     problem, aside = _separable(problem, _payloads(trained))
     notes += aside

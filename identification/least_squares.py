@@ -13,7 +13,7 @@ from identification.factors import Factor, triangular
 Array = NDArray[np.float64]
 
 #: Singular values of the scaled matrix below this part of the largest are zero.
-_RANK = 1e-8
+RANK = 1e-8
 #: Part of a parameter in a direction that no row shows, from which it is not identifiable.
 _INVOLVED = 1e-4
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
@@ -160,7 +160,7 @@ class _Solved:
             return cls(np.zeros(count), np.zeros((count, count)), silent, np.inf, np.inf, 0)
         U, s, Vt = np.linalg.svd(scaled, full_matrices=True)
         s = np.concatenate([s, np.zeros(count - len(s))])
-        seen = s > _RANK * s[0]
+        seen = s > RANK * s[0]
         rank = int(seen.sum())
         V, s_seen = Vt[:rank].T, s[:rank]
         chi = (V @ ((U[:, :rank].T @ z) / s_seen)) / scale
@@ -183,4 +183,4 @@ def _rank(R: Array) -> int:
     if not live.size:
         return 0
     s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)
-    return int((s > _RANK * s[0]).sum())
+    return int((s > RANK * s[0]).sum())

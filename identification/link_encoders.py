@@ -31,6 +31,7 @@ RECIPE = Recipe()
 LIMIT = 0.1
 #: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
 _STILL = 2e-3
+_UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
 
 
@@ -103,7 +104,7 @@ def of_runs(
         name = f"k{joint.number}"
         stiffness[name], late, residuals[k] = _told(rows, joint, viscous)
         still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
-        latency[f"latency{joint.number}"] = _STANDS if still or not np.isfinite(late.std) else late
+        latency[f"latency{joint.number}"] = _STANDS if still else late if np.isfinite(late.std) else _UNSEEN
         mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")

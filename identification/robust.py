@@ -42,7 +42,7 @@ class Robust:
 def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
     """Iteratively reweighted least squares; a joint's scale is the median of its absolute residuals."""
     solution = problem.solve()
-    outliers, at, scale = 0, solution.values, _scales(runs, solution.values)
+    outliers, at, scale = 0, solution.values, dict[int, float]()
     for _ in range(_ITERATIONS):
         at, scale = solution.values, _scales(runs, solution.values)
         weighted = [_weighted(run, at, scale) for run in runs]

@@ -20,7 +20,7 @@ EFFORTS = ("tau", "taum", "i")
 FURTHER = ("qs", "qd", "qr", "temp")
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 
-_NUMBERED = re.compile(r"([A-Za-z]+)([1-9]\d*)\Z")
+_NUMBERED = re.compile(r"([A-Za-z]+)(0|[1-9]\d*)\Z")
 
 
 class NoColumns(InputError):

@@ -83,3 +83,19 @@ def test_numbers_beyond_all_robots_are_refused() -> None:
     one = robot("one", [joint(1, REVOLUTE), joint(2, REVOLUTE, Integer(0), Integer(10) ** 200)])
     with pytest.raises(InputError, match="too large or too small to compute with"):
         derive(one)
+
+
+def test_named_angles_stay_named_beside_many_others() -> None:
+    """A user may change them, and the generated code with them."""
+    tilt = sympy.Symbol("tilt", real=True)
+    one = robot(
+        "one",
+        [joint(j, REVOLUTE, tilt if j == 3 else degrees(str(10 * j + 1)), Rational(1, 2)) for j in (1, 2, 3, 4)],
+        lengths=[Length("tilt", pi / 6, unit="rad")],
+    )
+    arm = subject(one, 1, ())
+    check_grouping(arm)
+    found = list(coefficients(one))
+    assert any(written.has(tilt) for written, _ in found)
+    for written, number in found:
+        assert float(written.subs(tilt, pi / 6)) == pytest.approx(number, rel=1e-12)

@@ -133,7 +133,7 @@ class Numbers:
 
 def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
     """A symbol for tan(angle/2) of each constant angle of the geometry that is no quarter turn, of which no length can
-    have the name; none where there are too many.
+    have the name; of named angles alone where there are too many.
     """
     angles: dict[sympy.Expr, sympy.Symbol] = {}
     components = [*_constant_angles(robot)]
@@ -141,7 +141,9 @@ def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
         if not (2 * angle / sympy.pi).is_Integer:
             positive, _ = _unsigned(angle)
             angles.setdefault(positive, sympy.Symbol(f"_tan_half_{len(angles)}"))
-    return angles if len(angles) <= _WRITTEN else {}
+    if len(angles) > _WRITTEN:
+        return {angle: symbol for angle, symbol in angles.items() if angle.free_symbols}
+    return angles
 
 
 def _constant_angles(robot: Robot) -> list[sympy.Expr]:

@@ -39,8 +39,8 @@ BALANCERS = ("gas_balancer", "spring_balancer")
 SPRINGS = (*BALANCERS, "cable_spring", "joint_spring")
 #: What lets the link come after the motor, or the log after both.
 _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
-#: Laws are never exact: least part of what others explain on the same joint, and where they are alike: friction of the
-#: speed, or behind the motor.
+#: Laws are never exact: least part of what others that are not common explain on the same joint, and where they are
+#: alike: friction of the speed, or behind the motor.
 _BESIDE, _ALIKE = 0.03, 0.15
 #: The same part of a balancer for a second one.
 _SECOND = 0.5

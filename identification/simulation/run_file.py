@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from generator.errors import InputError, Place
 from generator.version import VERSION
 from generator.writing import replace
 from identification.sidecar import UNITS, Payload
@@ -30,6 +31,9 @@ def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Pat
     Raises InputError where they cannot be written.
     """
     files = written(path)
+    for file in files:
+        if file.is_dir():
+            raise InputError(Place(str(file)), "it is a folder", "a file that can be written")
     values = np.stack(list(run.columns.values()), axis=1)
     row = ",".join([f"%.{_DIGITS}g"] * values.shape[1])
     rows = [",".join(run.columns), *(row % tuple(one) for one in values.tolist())]

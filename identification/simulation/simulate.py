@@ -96,7 +96,9 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     t: Array = settings.period * np.arange(rows, dtype=float)
     warmth = settings.warmth(t)
     drift = 1 + settings.constant_drift * warmth
-    motor = corrections.recorded_motor_torques(np.linalg.inv(N).T @ log.tau.T, robot, settings.period, warmth)
+    rises = {f"temp{number}": settings.rise * warmth for number in numbers} if "temp" in settings.further else {}
+    own = corrections.warmth(rises, t, robot, robot.place)
+    motor = corrections.recorded_motor_torques(np.linalg.inv(N).T @ log.tau.T, robot, settings.period, own)
     effort = motor.T / constants / drift[:, None]
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
     parts = {

@@ -517,7 +517,7 @@ static void kr270_rigid_located(
     }
 }
 
-/* Whether accelerations depend on the direction in which a surface slides. */
+/* Whether accelerations depend on the direction in which a surface slides, also where one is no number. */
 static int kr270_rigid_rubs(
     const kr270_rigid_load *load, const kr270_real q[6], const kr270_real qd[6], int surface)
 {
@@ -533,7 +533,7 @@ static int kr270_rigid_rubs(
     slipping[surface] = R(1.0);
     kr270_rigid_slide(load, slipping, q, qd, other_way);
     for (int i = 0; i < 6; ++i) {
-        rubs = ((other_way[i] < one_way[i]) || (other_way[i] > one_way[i])) ? 1 : rubs;
+        rubs = ((other_way[i] <= one_way[i]) && (other_way[i] >= one_way[i])) ? rubs : 1;
     }
     return rubs;
 }
@@ -567,7 +567,8 @@ void kr270_rigid_start(
     }
     kr270_rigid_rates(qd, rate);
     for (int i = 0; i < 6; ++i) {
-        if ((kr270_rigid_rubs(&rest, q, qd, i) == 0) && (kr270_rigid_rubs(&loaded, elsewhere, moving, i) == 0)) {
+        if ((kr270_rigid_rubs(&rest, q, qd, i) == 0) && (kr270_rigid_rubs(&loaded, q, moving, i) == 0)
+            && (kr270_rigid_rubs(&loaded, elsewhere, moving, i) == 0)) {
             state->contact[i] = KR270_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
@@ -1134,7 +1135,7 @@ static void kr270_flexible_located(
     }
 }
 
-/* Whether accelerations depend on the direction in which a surface slides. */
+/* Whether accelerations depend on the direction in which a surface slides, also where one is no number. */
 static int kr270_flexible_rubs(
     const kr270_flexible_load *load, const kr270_real q[12], const kr270_real qd[12], int surface)
 {
@@ -1150,7 +1151,7 @@ static int kr270_flexible_rubs(
     slipping[surface] = R(1.0);
     kr270_flexible_slide(load, slipping, q, qd, other_way);
     for (int i = 0; i < 12; ++i) {
-        rubs = ((other_way[i] < one_way[i]) || (other_way[i] > one_way[i])) ? 1 : rubs;
+        rubs = ((other_way[i] <= one_way[i]) && (other_way[i] >= one_way[i])) ? rubs : 1;
     }
     return rubs;
 }
@@ -1185,7 +1186,8 @@ void kr270_flexible_start(
     }
     kr270_flexible_rates(qd, rate);
     for (int i = 0; i < 12; ++i) {
-        if ((kr270_flexible_rubs(&rest, q, qd, i) == 0) && (kr270_flexible_rubs(&loaded, elsewhere, moving, i) == 0)) {
+        if ((kr270_flexible_rubs(&rest, q, qd, i) == 0) && (kr270_flexible_rubs(&loaded, q, moving, i) == 0)
+            && (kr270_flexible_rubs(&loaded, elsewhere, moving, i) == 0)) {
             state->contact[i] = KR270_CONTACT_FREE;
             state->direction[i] = R(0.0);
         } else if (rate[i] > R(0.0)) {
