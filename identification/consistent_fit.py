@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 #: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; that link's
 #: length [m] and the ball's mass [kg] where nothing tells them.
 _PART, _LENGTH, _MASS = 0.3, 1.0, 10.0
-#: Standard deviations beyond which a value is none of noise.
-_SHOWN = 3.0
+#: Part of the largest mass below which one is that of noise.
+_NONE = 1e-4
 #: The solver loses its way where misfits of thousands stand beside small divergences, not where they are small numbers.
 _SCALE = 1e-6
 #: Part by which a body is made more than just possible.
@@ -160,9 +160,10 @@ def _ball(found: Identification) -> Array:
     masses = [
         abs(values[p.name]) / arms[p.unit]
         for p in found.regressors.model.base_parameters
-        if p.unit in arms and p.name in values and abs(values[p.name]) > _SHOWN * found.full.solution.std(p.name)
+        if p.unit in arms and p.name in values and p.name not in found.full.solution.hidden
     ]
-    mass = float(np.median(masses)) if masses else _MASS
+    some = [one for one in masses if one > _NONE * max(masses)]
+    mass = float(np.median(some)) if some else _MASS
     return uniform_bar(mass, (0, 0, 0), (0, 0, 0), _PART * size * np.sqrt(5))
 
 
