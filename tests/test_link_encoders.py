@@ -21,8 +21,9 @@ from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import command
+from tests.recorded import Recorded
 from tests.test_real_runs import DATA as RECORDINGS
-from tests.test_simulate import MOTORS, robot_text
+from tests.test_simulate import MOTORS, N, robot_text
 
 DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
@@ -74,13 +75,11 @@ def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -
 
 
 def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) -> None:
-    path = Path(recorded(machine, RUN, tmp_path / "run.csv"))
-    names = path.read_text().splitlines()[0].split(",")
-    rows = np.loadtxt(path, delimiter=",", skiprows=1)
-    for name in ("q2", "qs2"):
-        rows[:, names.index(name)] = 0.3 + 1e-6 * np.random.default_rng(1).integers(0, 2, len(rows))
-    np.savetxt(path, rows, delimiter=",", header=",".join(names), comments="")
-    found = link_encoders(machine.robot, [str(path)])
+    columns = dict(simulate(machine, RUN).columns)
+    q = np.linalg.solve(N, np.stack([columns.pop("qm1"), columns.pop("qm2")]))
+    noise = 1e-6 * np.random.default_rng(1).normal(size=q.shape)
+    run = Recorded({**columns, "q1": q[0], "q2": 0.3 + noise[0], "qs2": 0.3 + noise[1]}).save(tmp_path / "run.csv")
+    found = link_encoders(machine.robot, [str(run)])
     assert found.latency["latency1"].value is not None
     assert found.latency["latency2"].value is None
     assert found.latency["latency2"].refused == "the joint stands still"
