@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -11,7 +13,9 @@ from hypothesis import HealthCheck, settings
 
 from generator.resources import robots
 from generator.robot.readers import read
+from identification.simulation.machine import Machine, compiled
 from tests.chains import every_effect, random_robot
+from tests.elastic_links import robot_text
 from tests.subject import Subject, subject
 
 FILES = {path.stem: path for path in robots()}
@@ -55,3 +59,18 @@ def robot_arm(request: pytest.FixtureRequest) -> Subject:
 
 def _robot(name: str) -> Subject:
     return _every_effect() if name == EVERY else _file(name)
+
+
+@pytest.fixture(scope="session")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The robot file of two elastic links, for modules without a ``file`` of their own."""
+    path = tmp_path_factory.mktemp("elastic_links") / "two_links.yaml"
+    path.write_text(robot_text())
+    return path
+
+
+@pytest.fixture(scope="session")
+def machine(file: Path) -> Iterator[Machine]:
+    """Their compiled simulation."""
+    with compiled(read(file)) as made:
+        yield made

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,26 +15,18 @@ from generator.robot.readers import read
 from identification.inverse_model import identify
 from identification.link_encoders import link_encoders
 from identification.recipe import Recipe
-from identification.simulation.machine import Machine, compiled
+from identification.simulation.machine import Machine
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import command
+from tests.elastic_links import MOTORS, N
 from tests.recorded import Recorded
 from tests.test_real_runs import DATA as RECORDINGS
-from tests.test_simulate import MOTORS, N, robot_text
 
 DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
-
-
-@pytest.fixture(scope="module")
-def machine(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Machine]:
-    path = tmp_path_factory.mktemp("links") / "two_links.yaml"
-    path.write_text(robot_text())
-    with compiled(read(path)) as made:
-        yield made
 
 
 def recorded(machine: Machine, settings: Settings, path: Path) -> str:

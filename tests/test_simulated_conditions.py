@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,28 +14,15 @@ from identification.inverse_model import Options, identify
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sidecar import Payload
-from identification.simulation.machine import Machine, compiled
+from identification.simulation.machine import Machine
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import command
 from tests.recorded import TRUTH
-from tests.test_simulate import columns, motors, robot_text
+from tests.test_simulate import columns, motors
 
 SHORT = Settings(duration=4.0)
-
-
-@pytest.fixture(scope="module")
-def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("conditions") / "two_links.yaml"
-    path.write_text(robot_text())
-    return path
-
-
-@pytest.fixture(scope="module")
-def machine(file: Path) -> Iterator[Machine]:
-    with compiled(read(file)) as made:
-        yield made
 
 
 @pytest.mark.parametrize("flexible", [False, True])

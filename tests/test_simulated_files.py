@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,20 +15,7 @@ from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.simulate import simulate
 from tests.commands import command
-from tests.test_simulate import SHORT, Array, robot_text
-
-
-@pytest.fixture(scope="module")
-def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("simulate") / "two_links.yaml"
-    path.write_text(robot_text())
-    return path
-
-
-@pytest.fixture(scope="module")
-def machine(file: Path) -> Iterator[Machine]:
-    with compiled(read(file)) as made:
-        yield made
+from tests.test_simulate import SHORT, Array
 
 
 def test_files_are_read_back_as_they_were(machine: Machine, tmp_path: Path) -> None:

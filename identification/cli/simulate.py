@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         from identification.simulation.checks import check
         from identification.simulation.machine import compiled
-        from identification.simulation.run_file import save, written
+        from identification.simulation.run_file import files_of, save
         from identification.simulation.simulate import simulate
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
@@ -96,7 +96,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
     played = (Path(value) for value in settings.trajectory_settings.values() if isinstance(value, str))
     for source in (path, *(file for file in played if file.is_file())):
-        spare(source, written(out))
+        spare(source, files_of(out))
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):
             machine = stack.enter_context(compiled(robot))

@@ -20,7 +20,7 @@ from identification.simulation.simulate import Simulated
 _DIGITS = 12
 
 
-def written(path: Path) -> tuple[Path, Path]:
+def files_of(path: Path) -> tuple[Path, Path]:
     """The files of a run that is saved as ``path``: itself and its sidecar."""
     return path, path.with_suffix(".yaml")
 
@@ -30,7 +30,7 @@ def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Pat
 
     Raises InputError where they cannot be written.
     """
-    files = written(path)
+    files = files_of(path)
     for file in files:
         if file.is_dir():
             raise InputError(Place(str(file)), "it is a folder", "a file that can be written")
