@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.homogeneity import ALONG, BETWEEN, disagreements
+from identification.diagnosis.loop import Search
+from identification.diagnosis.selection import Choice
 from tests.matrices import bank, hypothesis, run, whitened
 
 Array = NDArray[np.float64]
@@ -18,7 +17,7 @@ Array = NDArray[np.float64]
 RUNS, PERIODS, ROWS = 3, 3, 400
 
 
-def found(amplitudes: Array, repeats: bool = True) -> Any:
+def found(amplitudes: Array, repeats: bool = True) -> Search:
     """A search that took one effect, of these amplitudes by run and period, beside three base columns and noise."""
     draw = np.random.default_rng(5)
     W, column = (np.tile(draw.normal(size=(RUNS, k, ROWS)), PERIODS) for k in (3, 1))
@@ -27,8 +26,9 @@ def found(amplitudes: Array, repeats: bool = True) -> Any:
     one = bank([run(w, y, period=ROWS if repeats else 0) for w, y in zip(W, tau, strict=True)])
     variant = one.add(hypothesis("right", lambda r, shape: column[r, 0]), {})
     weighing = Weighing(whitened(one), range(RUNS), (), None)
-    choice = SimpleNamespace(evidence=SimpleNamespace(variant=variant))
-    return SimpleNamespace(choices=(choice,), bank=one, weighing=weighing, train=tuple(range(RUNS)))
+    assert variant is not None
+    train = tuple(range(RUNS))
+    return Search(one, weighing, (Choice(weighing.of(variant, [])),), {}, np.zeros((0, 0)), (), train, (), ())
 
 
 SAME = np.full((RUNS, PERIODS), 0.5)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.evidence import Key, columns_of, key_of
+from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.loop import Search
 
 Array = NDArray[np.float64]
@@ -29,10 +29,7 @@ def disagreements(found: Search) -> dict[Key, str]:
 
     Periods are compared by their number, over all runs that repeat.
     """
-    variants = [one.evidence.variant for one in found.choices]
-    columns = columns_of(variants)
-    solution, _ = found.weighing.normal.solution(columns)
-    weights = dict(zip([*range(len(found.bank.base)), *columns], solution.tolist(), strict=True))
+    variants, weights = [one.evidence.variant for one in found.choices], found.trained
     each = {key_of(one): [_periods(found.bank, r, one, weights) for r in found.train] for one in variants}
     return {key: how for key, runs in each.items() if (how := _disagreement(runs))}
 

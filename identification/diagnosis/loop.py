@@ -51,14 +51,23 @@ class Search:
     @property
     def start(self) -> dict[int, float]:
         """Values of the base columns without the choices, by number, fitted to all runs."""
-        return self._fitted(())
+        return self._fitted(self.weighing.all, ())
 
     @property
     def weights(self) -> dict[int, float]:
         """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
         not look like something that the model lacks.
         """
-        return self._fitted(columns_of([one.evidence.variant for one in self.choices]))
+        return self._fitted(self.weighing.all, self._columns)
+
+    @property
+    def trained(self) -> dict[int, float]:
+        """The same, fitted to the runs number ``train`` alone."""
+        return self._fitted(self.weighing.normal, self._columns)
+
+    @property
+    def _columns(self) -> list[int]:
+        return columns_of([one.evidence.variant for one in self.choices])
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
@@ -67,8 +76,8 @@ class Search:
         values = _values(self.bank, solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
-    def _fitted(self, columns: Sequence[int]) -> dict[int, float]:
-        solution, _ = self.weighing.all.solution(columns)
+    def _fitted(self, normal: Normal, columns: Sequence[int]) -> dict[int, float]:
+        solution, _ = normal.solution(columns)
         return dict(zip([*range(len(self.bank.base)), *columns], solution.tolist(), strict=True))
 
 
