@@ -10,16 +10,26 @@ from identification.diagnosis.scene import Scene
 
 #: Lowest order: slower ones are shared with everything that depends on the position.
 LOWEST = 5
-#: Peaks that are returned, and neighbours that a peak is compared with.
+#: Peaks that are returned, and the least distance to the neighbours that a peak is compared with.
 _PEAKS, _NEIGHBOURS = 4, 10
+#: Neighbours, and orders within which only one peak counts, in widths of a peak.
+_AROUND, _APART = 2.5, 0.5
 #: Samples of a run that are looked at.
 _SAMPLES = 8000
 
 
 def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ...]:
-    """The whole orders up to ``last`` with the clearest peaks in the residual of coordinate k over its position."""
+    """The whole orders up to ``last`` with the clearest peaks in the residual of coordinate k over its position.
+
+    Along a short way neighbouring orders look alike: a peak is as wide as the way is short.
+    """
+    longest = max(float(np.ptp(scene.motion.q[k])) for scene in scenes)
+    if not longest:
+        return ()
     orders = np.arange(LOWEST, last + 1)
     power = np.zeros(len(orders))
+    wide = 2 * np.pi / longest
+    near, apart = int(max(_NEIGHBOURS, _AROUND * wide)), int(max(2, _APART * wide))
     for scene in scenes:
         step = max(1, scene.motion.samples // _SAMPLES)
         q = scene.motion.q[k, ::step]
@@ -34,7 +44,7 @@ def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ..
         for i in range(len(orders)):
             power[i] += abs(phase @ e) ** 2
             phase = phase * turn
-    around = np.array([np.median(power[max(0, i - _NEIGHBOURS) : i + _NEIGHBOURS + 1]) for i in range(len(power))])
+    around = np.array([np.median(power[max(0, i - near) : i + near + 1]) for i in range(len(power))])
     peak = power / np.maximum(around, 1e-300)
-    top = [i for i in np.argsort(-peak) if peak[i] == peak[max(0, i - 2) : i + 3].max()]
+    top = [i for i in np.argsort(-peak) if peak[i] == peak[max(0, i - apart) : i + apart + 1].max()]
     return tuple(sorted(float(orders[i]) for i in top[:_PEAKS]))
