@@ -26,6 +26,8 @@ from generator.symbolic.model import Model
 from identification.effect_states import integrated
 
 Array = NDArray[np.float64]
+#: The coordinate whose torque jumps, and (coordinate, weight) of the speeds whose sum's sign it follows.
+Jump = tuple[int, tuple[tuple[int, float], ...]]
 
 #: The generated functions that identification calls.
 FUNCTIONS = ("regressor_packed", "payload_regressor", "inverse_dynamics", "inertia_matrix", "effect_rates")
@@ -136,8 +138,8 @@ class Regressors:
         return self._evaluated("inertia_matrix", Motion(q, still, still), parameters)
 
     @cached_property
-    def signs(self) -> tuple[tuple[int, tuple[tuple[int, float], ...]], ...]:
-        """Where a torque jumps: the joint's coordinate, and (coordinate, weight) of the speeds whose sum it follows."""
+    def signs(self) -> tuple[Jump, ...]:
+        """Where torques jump with the sign of a speed."""
         coordinate = {joint.number: k for k, joint in enumerate(self.model.robot.moving)}
         found = set()
         for instance in self.model.effects:
@@ -194,9 +196,7 @@ def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[in
     return tuple(sorted((k, float(speed.coeff(symbol))) for symbol, k in names.items() if speed.has(symbol)))
 
 
-def standing(
-    signs: Sequence[tuple[int, tuple[tuple[int, float], ...]]], qd: Array, thresholds: Array
-) -> NDArray[np.bool_]:
+def standing(signs: Sequence[Jump], qd: Array, thresholds: Array) -> NDArray[np.bool_]:
     """Samples (n x N) in which a joint's torque follows the sign of a speed below its threshold (n) [rad/s, m/s]."""
     result = np.zeros(qd.shape, dtype=bool)
     for joint, weights in signs:

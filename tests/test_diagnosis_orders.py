@@ -15,7 +15,7 @@ _SAMPLES, _STEP = 6000, 0.005
 
 
 def _scene(half: float, order: float, seed: int) -> Any:
-    """A joint that swings by ``half`` [rad] to either side, whose torque repeats with ``order`` beside what does not."""
+    """A joint that swings by ``half`` [rad] to either side; its torque repeats with ``order`` beside what does not."""
     rng = np.random.default_rng(seed)
     t = _STEP * np.arange(_SAMPLES)
     rates = 2 * np.pi * np.array([0.1, 0.17, 0.31])

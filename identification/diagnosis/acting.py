@@ -12,6 +12,7 @@ from generator.effects.library import library
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.hypothesis import BODY, EFFECT, Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
+from identification.observation import Jump
 
 Array = NDArray[np.float64]
 
@@ -31,6 +32,11 @@ class Acting:
         """By name."""
         names = [coefficient.name for one in self.variants for coefficient in one.coefficients]
         return dict(zip(names, self.values, strict=True))
+
+    @property
+    def jumps(self) -> tuple[Jump, ...]:
+        """Where a joint's torque jumps with a speed that is not its own."""
+        return tuple(jump for one in self.variants for jump in one.hypothesis.jumps)
 
     @property
     def again(self) -> bool:

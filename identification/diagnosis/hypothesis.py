@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from generator.review.words import listed, ranges
 from identification.diagnosis.scene import Scene
+from identification.observation import Jump
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
@@ -96,7 +97,8 @@ class Hypothesis:
 
     ``effect`` is an id of the generator's library, or of a correction of the robot file. ``columns(scene, shape)``
     returns k x n x N torques [N m, N] per unit of each coefficient at the recorded rate: what the *measured* torque
-    holds more than the model's says. ``shapes`` are searched, from ``starts`` if there are any instead of all
+    holds more than the model's says; ``jumps`` are where it jumps with a speed that is not the joint's own.
+    ``shapes`` are searched, from ``starts`` if there are any instead of all
     combinations of their grids; ``given`` are values that are known, in ``units`` (1 where not told); both are values
     of the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
@@ -128,6 +130,7 @@ class Hypothesis:
     recorded: bool = False
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
     usual: bool = True
+    jumps: tuple[Jump, ...] = ()
 
     @property
     def free(self) -> int:

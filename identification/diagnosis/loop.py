@@ -21,7 +21,7 @@ from identification.diagnosis.rounding import rounding
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Choice, Selection
 from identification.diagnosis.whitening import Colour, colour, stretches
-from identification.observation import Regressors
+from identification.observation import Jump, Regressors
 
 Array = NDArray[np.float64]
 
@@ -101,17 +101,19 @@ def search(
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
+    jumps: tuple[Jump, ...] = ()
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
-        scenes = [Scene(run.sampled, regressors, values, acting) for run in runs]
-        bank = Bank(runs, scenes)
+        clear = [run.without_standstill(jumps) for run in runs]
+        scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
+        bank = Bank(clear, scenes)
         offered = hypotheses([scenes[r] for r in train])
         for one in offered:
             for shape in one.variants:
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
-        rounded = tuple(rounding(run, scene) for run, scene in zip(runs, scenes, strict=True))
+        rounded = tuple(rounding(run, scene) for run, scene in zip(clear, scenes, strict=True))
         bank.whiten(colours(bank, rounded))
         weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")
@@ -121,7 +123,8 @@ def search(
         solution, covariance = weighing.normal.solution(columns)
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
-        if not acting.again or acting.near(before):
+        left_out, jumps = jumps, acting.jumps
+        if jumps == left_out and (not acting.again or acting.near(before)):
             break
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +15,7 @@ from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.stated_elasticity import stated
 from identification.filtering import flat_derivative
-from identification.observation import Regressors
+from identification.observation import Jump, Regressors
 from identification.recipe import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
@@ -71,12 +72,33 @@ class Prepared:
         factor = self.sampled.filters.factor
         return f"repeats after {self.repeats} samples, of which one in {factor} is looked at: periods are not compared"
 
+    def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
+        """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
+        standing = _settling(_at_rest(self.sampled.motion.qd, jumps), self.sampled.run.rate)
+        sampled = replace(self.sampled, left_out=self.sampled.left_out | standing)
+        kept = self.kept & (windowed(standing.astype(float), sampled.filters.factor) == 0)
+        return replace(self, sampled=sampled, kept=kept)
+
     def decimated(self, x: Array) -> Array:
         """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
 
         The window ends: what happens while a joint stands does not ring into the rows that are kept.
         """
         return windowed(x, self.sampled.filters.factor)
+
+
+def _at_rest(speed: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
+    """Samples (n x N) in which what a joint's torque jumps with nearly stands."""
+    result = np.zeros(speed.shape, dtype=bool)
+    for joint, weights in jumps:
+        along = sum(weight * speed[k] for k, weight in weights)
+        result[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
+    return result
+
+
+def _settling(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
+    """With the samples before and after in which friction is not yet what it will be."""
+    return np.stack([maximum_filter1d(row, 2 * round(_SETTLING * rate) + 1) for row in standing])
 
 
 def windowed(x: Array, factor: int) -> Array:
@@ -117,16 +139,13 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual
     standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
-    for joint, weights in regressors.signs:
-        along = sum(weight * speed[k] for k, weight in weights)
-        standing[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
+    standing |= _at_rest(speed, regressors.signs)
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * length) * run.rate
         standing[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
-    reach = round(_SETTLING * run.rate)
-    standing = np.stack([maximum_filter1d(row, 2 * reach + 1) for row in standing])
+    standing = _settling(standing, run.rate)
     tau = windowed(one.tau, factor)
     kept = windowed(standing.astype(float), factor) == 0
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]

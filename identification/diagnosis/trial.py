@@ -62,6 +62,8 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
     if not (found.choices and test):
         return None
     like = found.bank.scenes[0]
+    jumps = [jump for one in found.choices for jump in one.evidence.variant.hypothesis.jumps]
+    test = [run.without_standstill(jumps) for run in test]
     bank = Bank(test, [Scene(run.sampled, like.regressors, like.values, like.beside) for run in test])
     shown = np.sum([found.bank.rows(r) for r in (*found.train, *found.validate)], axis=0) > 0
     of_joint = list(zip(*found.bank.colours, strict=True))

@@ -53,6 +53,7 @@ def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[float]:
 
 
 def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypothesis:
+    own, its = robot.moving.index(joint), robot.moving.index(other)
     return Hypothesis(
         EFFECT.id,
         EFFECT.title,
@@ -68,6 +69,7 @@ def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypot
             "viscous_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
             "coulomb_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
         },
+        jumps=tuple((k, ((its, ratio), (own, 1.0))) for k in (its, own)),
     )
 
 
