@@ -12,12 +12,19 @@ from identification.diagnosis.acting import Acting
 from identification.diagnosis.addition import addition
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library, wrist
+from identification.diagnosis.diagnosis import NAMED, NOTHING, diagnose
+from identification.diagnosis.roles import Roles
+from tests import diagnosed_arm
 from tests.diagnosed import fitted, known, played
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
+from tests.recorded import Array
 
 HEAVY = "kr500_like"
+#: An arm without weight whose file states friction by load.
+LOADED = diagnosed_arm.ARM.replace("-9.81 m/s2", "0 m/s2") + "  - {effect: load_friction, joint: 1}\n"
+FRICTION, STIFFNESS = 0.15, 30.0
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
 
 
@@ -65,3 +72,22 @@ def test_a_hysteresis_begins_from_standing_still(tmp_path: Path) -> None:
             columns = one.columns(standing, one.variants[0])
             assert np.isfinite(columns).all()
             assert np.abs(columns).max() > 0.1
+
+
+@pytest.mark.parametrize("sprung", [False, True])
+def test_stated_friction_is_under_the_load_that_was_found(sprung: bool, tmp_path: Path) -> None:
+    """What pulls at the link loads its drive, whether the file knows it or not."""
+    stiffness = STIFFNESS if sprung else 0.0
+    truth = {name: diagnosed_arm.TRUTH[name] for name in ("ZZ1", "Fv1", "Fc1", "Off1")}
+
+    def hidden(q: Array, qd: Array) -> Array:
+        # Gradients over samples of 0.01 s are the accelerations that load the drive.
+        load = truth["ZZ1"] * np.gradient(qd, 0.01) + truth["Off1"] + stiffness * q
+        return np.asarray(stiffness * q + FRICTION * np.sign(qd) * np.abs(load))
+
+    regressors, sources = diagnosed_arm.recorded(tmp_path, [hidden] * 3, LOADED, truth)
+    runs = [diagnosed_arm.ready(source, regressors) for source in sources]
+    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    assert found.verdict == (NAMED if sprung else NOTHING)
+    assert [one.hypothesis.effect for one in found.findings] == ["joint_spring"] * sprung
+    assert found.found.values["Fl1"] == pytest.approx(FRICTION, rel=0.1)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis import stated_elasticity
+from identification.diagnosis import stated_elasticity, stated_load
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
@@ -96,7 +96,7 @@ class Bank:
         self._colours: list[list[Colour]] = []
         self.grams: list[Array] = []
         for run, scene in zip(runs, scenes, strict=True):
-            base = regressors.base(run.sampled.motion)
+            base, loaded = regressors.base(run.sampled.motion), stated_load.columns(scene)
             tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
                 [
@@ -104,6 +104,9 @@ class Bank:
                     for k, (names, W) in enumerate(zip(regressors.structure, base, strict=True))
                 ]
             )
+            for names, joint in zip(regressors.structure, self._joints[-1], strict=True):
+                for name in loaded.keys() & set(names):
+                    joint.rows[names.index(name)] = run.decimated(loaded[name])
             if len(self.base) > len(regressors.names):
                 self._add_elasticity(run, scene, self._joints[-1])
 

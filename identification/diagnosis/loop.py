@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 
 #: Times that columns which depend on the model are made anew with what was found.
 _PASSES = 3
-#: Times that the model is fitted before, where the file has elastic drive trains.
-_ELASTIC = 3
+#: Times that the model is fitted before, where columns of it depend on its values.
+_SETTLING = 5
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,8 @@ def search(
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         left_out, jumps = jumps, acting.jumps
-        if jumps == left_out and (not acting.again or acting.near(before)):
+        again = acting.again or (regressors.reads_load and bool(acting.variants))
+        if jumps == left_out and (not again or acting.near(before)):
             break
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
@@ -148,11 +149,17 @@ def first_values(
 ) -> dict[str, float]:
     """Base parameters of the model without anything new, each joint weighted by its own residual."""
     values: dict[str, float] = {}
-    # What the file's elastic drive trains do is linear about values that are near.
-    for _ in range(_ELASTIC if stated_elasticity.names(regressors.model.robot) else 1):
+    for _ in range(_SETTLING if _depends(regressors) else 1):
         bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
         values = _values(bank, _weighted(bank, train, prior))
     return values
+
+
+def _depends(regressors: Regressors) -> bool:
+    """Whether columns of the model depend on its values: by a load, or by elastic drive trains, of which what they do
+    is linear about values that are near.
+    """
+    return regressors.reads_load or bool(stated_elasticity.names(regressors.model.robot))
 
 
 def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
