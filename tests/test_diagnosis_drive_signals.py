@@ -3,17 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 import sympy
 
+from generator.robot.readers import read
+from identification.corrections import recorded_motor_torques
 from identification.diagnosis.candidates import current_limit, gear_ratio
+from identification.diagnosis.diagnosis import NAMED, diagnose
 from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.roles import Roles
 from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
+from identification.observation import Regressors
 from tests.diagnosed import known, played, with_robot
+from tests.diagnosed_arm import ready
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
+from tests.recorded import TRUTH, TWO_LINKS, Recorded
+from tests.recorded import fourier as trajectory
 
 JOINT = 2
 
@@ -48,3 +59,27 @@ def test_a_limit_is_one_of_the_recorded_current(scene: Scene) -> None:
     assert (gained.low, gained.high) == pytest.approx((plain.low / 0.9, plain.high / 0.9))
     columns = limit(stated).columns(stated, {"current_limit": gained.low})
     assert columns == pytest.approx(limit(scene).columns(scene, {"current_limit": plain.low}))
+
+
+@pytest.mark.parametrize("late", [1, 2])
+def test_a_motor_that_is_late_acts_on_all_joints_that_it_drives(late: int, tmp_path: Path) -> None:
+    """The file's delay is of the motor, of which a coupled drive shows a part on another joint."""
+    text = TWO_LINKS.replace("N21: 5", "N21: 60")
+    (tmp_path / "two_links.yaml").write_text(text)
+    delays = ", ".join("6 ms" if number == late else "0 ms" for number in (1, 2))
+    (tmp_path / "late.yaml").write_text(f"{text}signals: {{torque_delay: [{delays}]}}\n")
+    robot, true, draw = read(tmp_path / "two_links.yaml"), read(tmp_path / "late.yaml"), np.random.default_rng(1)
+    regressors, sources = Regressors(robot), []
+    for number in range(3):
+        t, motion = trajectory(robot, 40.0, 250.0, number)
+        motors = np.linalg.solve(coupling(robot).T, regressors.torques(TRUTH, motion))
+        motors = recorded_motor_torques(motors, true, 1 / 250, None) + 0.002 * draw.normal(size=motors.shape)
+        q = coupling(robot) @ motion.q
+        columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
+        sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
+    runs = [ready(source, regressors) for source in sources]
+    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    assert found.verdict == NAMED
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", late)
+    assert one.parameters[f"torque_delay{late}"].value == pytest.approx(0.006, rel=0.1)

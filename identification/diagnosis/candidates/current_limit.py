@@ -1,8 +1,9 @@
 """A drive that clips its current while the log holds what was asked for.
 
 What the log holds too much is what the recorded current is beyond the limit, to either side. By the model the
-coefficient is 1; less is a limit that gives way. Noise of the recorded current exceeds a limit as well, and is missing
-in the model: what is not clearly more than noise does not count.
+coefficient is 1; less is a limit that gives way a little. Noise of the recorded current exceeds a limit as well, and is
+missing in the model: what is not clearly more than noise does not count, and where much of it is the motion's own the
+coefficient is small.
 """
 
 from __future__ import annotations
@@ -23,10 +24,9 @@ Array = NDArray[np.float64]
 #: Parts of a run's samples that stay below the lowest and the highest limit that is tried.
 _LOWEST, _HIGHEST = 0.8, 0.999
 #: Of what exceeds the limit, the least part that must be missing.
-_LEAST = 0.5
-#: How many times the noise what exceeds the limit must be, in its rms; time [s] within which noise changes, the torque
-#: little; rms of normal noise over its median size.
-_CLEAR, _QUICK, _NORMAL = 3.0, 0.025, 1.4826
+_LEAST = 0.8
+#: How many times the noise what exceeds the limit must be, in its rms; rms of normal noise over its median size.
+_CLEAR, _NORMAL = 3.0, 1.4826
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -70,17 +70,13 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     current = _current(scene, k, scene.tau)
     limit = shape["current_limit"]
     excess = current - np.clip(current, -limit, limit)
-    over = excess[excess != 0]
-    if not over.size or np.sqrt(np.mean(over**2)) < _CLEAR * _noise(scene, k):
+    over = excess != 0
+    # Noise may be as slow as the motion is: it is all that the model leaves where nothing is clipped.
+    noise = _current(scene, k, scene.tau - scene.torque)[~over]
+    clear = _CLEAR * _NORMAL * np.median(np.abs(noise)) if noise.size else np.inf
+    if not over.any() or np.sqrt(np.mean(excess[over] ** 2)) < clear:
         excess = np.zeros_like(excess)
     return np.outer(coupling(scene.robot)[k] * _torque_per_recorded(scene, k), excess)[None]
-
-
-def _noise(scene: Scene, k: int) -> float:
-    """Of the recorded current [A], rms: by how what the model leaves changes quickly."""
-    left = _current(scene, k, scene.tau - scene.model_torque)
-    lag = max(1, round(_QUICK / scene.period))
-    return float(_NORMAL * np.median(np.abs(left[lag:] - left[:-lag])) / np.sqrt(2))
 
 
 def _current(scene: Scene, k: int, torque: Array) -> Array:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
+from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
@@ -18,7 +19,7 @@ _LONGEST = 0.1
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One delay of all torques, and one of each joint's own, without those that the robot's file states.
+    """One delay of all torques, and one of each motor's own, without those that the robot's file states.
 
     The coefficient is ``torque_delay`` of the file's signals; it is negative where positions come later than torques.
     """
@@ -60,10 +61,6 @@ def _name(joint: int | None) -> str:
 
 def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
     s = scene.found(_name(None if k is None else scene.robot.moving[k].number))
-    tau, t = scene.torque, scene.t
+    tau, t = scene.torque if k is None else supplied(scene.robot, k, scene.torque), scene.t
     late = np.stack([np.interp(t - s, t, row) - row for row in tau]) / s if s else -scene.rate(tau)
-    if k is None:
-        return late[None]
-    result = np.zeros((1, *late.shape))
-    result[0, k] = late[k]
-    return result
+    return late[None]
