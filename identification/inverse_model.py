@@ -215,11 +215,12 @@ def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], tes
 def _notes_on(one: Observed, robot: Robot) -> list[str]:
     notes = list(one.sampled.run.notes)
     name = one.sampled.run.name
-    for k in one.sampled.still:
-        notes.append(f"{name}: joint {robot.moving[k].number} stands still; its speed was taken as zero")
     for factor in one.factors:
-        if not factor.rows:
-            number = robot.moving[factor.joint].number
+        number, still = robot.moving[factor.joint].number, factor.joint in one.sampled.still
+        if still:
+            rows = "" if factor.rows else ", and its dry friction may be any: it has no rows"
+            notes.append(f"{name}: joint {number} stands still; its speed was taken as zero{rows}")
+        elif not factor.rows:
             notes.append(f"{name}: joint {number} is never faster than the standstill threshold; it has no rows")
     return notes
 

@@ -197,9 +197,9 @@ def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[in
 
 
 def standing(signs: Sequence[Jump], qd: Array, thresholds: Array) -> NDArray[np.bool_]:
-    """Samples (n x N) in which a joint's torque follows the sign of a speed below its threshold (n) [rad/s, m/s]."""
+    """Samples (n x N) in which a joint's torque follows the sign of a speed within its threshold (n) [rad/s, m/s]."""
     result = np.zeros(qd.shape, dtype=bool)
     for joint, weights in signs:
         speed = sum(weight * qd[k] for k, weight in weights)
-        result[joint] |= np.abs(speed) < thresholds[joint]
+        result[joint] |= np.abs(speed) <= thresholds[joint]
     return result

@@ -77,7 +77,6 @@ def sampled(
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
     motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
     left_out = standing(regressors.signs, motion.qd, slow)
-    left_out[list(still)] = False
     if run.unusable is not None:
         left_out |= run.unusable[:, inner]
     return Sampled(run, filters, motion, run.tau[:, inner], left_out, still)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from tests.plant.trajectories.fourier import fourier
 from tests.recorded import TRUTH, TWO_LINKS, Recorded
 from tests.recorded import fourier as fourier_of
 
+LONG = fourier(1, period=10.0, periods=2, before=2.0)
 #: Samples a second, and rms of the noise [N m] on joints whose torques are a few times as large.
 RATE, NOISE = 100.0, 0.67
 
@@ -54,3 +56,14 @@ def test_slow_noise_is_no_saturation(memory: float, seed: int, tmp_path: Path) -
     runs = [ready(source, regressors) for source in sources]
     found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
     assert "current_limit" not in [one.hypothesis.effect for one in found.findings]
+
+
+@pytest.mark.parametrize("samples", [1, 3])
+def test_a_sample_gone_wrong_is_no_saturation(samples: int, tmp_path: Path) -> None:
+    scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("offset", 1, 0.0), LONG)
+    (hypothesis,) = (one for one in current_limit.hypotheses([scene]) if one.joint == 1)
+    limit = hypothesis.shapes[0].high
+    wrong = scene.tau.copy()
+    wrong[0, 5000 : 5000 + samples] += 20 * np.abs(wrong[0]).max()
+    run = replace(scene, sampled=replace(scene.sampled, tau=wrong))
+    assert not hypothesis.columns(run, {"current_limit": limit})[:, :, 4990:5010].any()

@@ -39,6 +39,12 @@ def test_the_period_is_found(periods: float) -> None:
     assert period_of(series(int(periods * 750) + 1, 750), 0.002) == 750
 
 
+def test_a_drive_may_catch_up_at_first() -> None:
+    q = series(3000, 750)
+    q += 0.05 * np.exp(-np.arange(3000) / 50)
+    assert period_of(q, 0.002) == 750
+
+
 def test_noise_of_encoders_does_no_harm() -> None:
     found = period_of(series(3000, 750, noise=1e-4), 0.002)
     assert found == 750

@@ -184,10 +184,28 @@ def test_standing_joints_leave_parameters_unknown(links: Regressors, folder: Pat
     for name in solution.hidden:
         assert solution.std(name) == solution.relative_std(name) == float("inf")
         assert f"{name} cannot be identified: no motion in the data shows it alone" in found.notes
-        assert name not in found.essential.sought
-    assert any("joint 2 stands still" in note for note in found.notes)
+    assert {"Fv2", "Ia2", "Fc2", "Off2"}.isdisjoint(found.essential.sought)
+    assert any("joint 2 stands still" in note and "it has no rows" in note for note in found.notes)
     assert found.full.train.total.relative_to_mean < 2
     assert solution.values["Fv1"] == pytest.approx(TRUTH["Fv1"], rel=0.02)
+
+
+def test_a_joint_that_sticks_tells_nothing(links: Regressors, folder: Path) -> None:
+    """Its dry friction holds whatever it must, up to Fc."""
+    sources = []
+    for number, stuck in enumerate((None, 1, 1)):
+        t, motion = fourier(links.model.robot, 20.0, 200.0, number + 1)
+        moving = np.ones_like(motion.q)
+        if stuck is not None:
+            moving[stuck] = 0.0
+        held = Motion(motion.q * moving + 0.3 * (1 - moving), motion.qd * moving, motion.qdd * moving)
+        tau = links.torques(TRUTH, held) + 0.01 * np.random.default_rng(number).normal(size=moving.shape)
+        tau += 0.8 * TRUTH["Fc2"] * (1 - moving)
+        columns = {"t": t, "q1": held.q[0], "q2": held.q[1], "tau1": tau[0], "tau2": tau[1]}
+        sources.append(Recorded(columns).save(folder / f"sticks{number}.csv"))
+    solution = identify(links.model.robot, sources, options=Options(recipe=PLAIN), regressors=links).full.solution
+    for name in ("Off2", "MX2", "Fc2", "ZZ2"):
+        assert solution.values[name] == pytest.approx(TRUTH[name], abs=5 * solution.std(name) + 1e-3)
 
 
 def test_fixed_parameters_are_not_estimated(links: Regressors, noisy: Path) -> None:

@@ -11,16 +11,22 @@ Array = NDArray[np.float64]
 _SAME, _OTHER = 1e-5, 0.05
 #: Spread of a joint [rad, m] below which it stands; and in parts of the largest, below which it is held and trembles.
 _STANDING, _HELD = 1e-9, 1e-3
-#: Shortest period [s].
-_SHORTEST = 0.5
+#: Shortest period [s]; time [s] after the beginning in which a drive may still catch up with the motion, as a part of
+#: the record at most.
+_SHORTEST, _STARTING, _PART = 0.5, 1.0, 0.1
 
 
 def period_of(q: Array, period: float) -> int:
     """Samples after which positions q (n x N), sampled every ``period`` [s], repeat; 0 where they do not.
 
-    At least two whole periods must be there. A joint that hardly moves beside the others does not count: the steps of
-    its encoder do not repeat.
+    At least two whole periods must be there; the beginning need not repeat. A joint that hardly moves beside the others
+    does not count: the steps of its encoder do not repeat.
     """
+    beginning = int(min(_STARTING / period, _PART * q.shape[-1]))
+    return _period(q, period) or _period(q[:, beginning:], period)
+
+
+def _period(q: Array, period: float) -> int:
     moved = q - q.mean(axis=-1, keepdims=True)
     spread = moved.std(axis=-1)
     moving = spread > max(_STANDING, _HELD * spread.max())

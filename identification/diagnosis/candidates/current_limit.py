@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_opening
 
 from identification.corrections import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
@@ -25,6 +26,8 @@ Array = NDArray[np.float64]
 _LOWEST, _HIGHEST = 0.8, 0.999
 #: Of what exceeds the limit, the least part that must be missing.
 _LEAST = 0.8
+#: Time [s] for which a limit clips at least: what is shorter is a sample gone wrong.
+_LASTS = 0.02
 #: How many times the noise what exceeds the limit must be, in its rms; rms of normal noise over its median size.
 _CLEAR, _NORMAL = 3.0, 1.4826
 
@@ -69,7 +72,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     current = _current(scene, k, scene.tau)
     limit = shape["current_limit"]
-    excess = current - np.clip(current, -limit, limit)
+    excess = _lasting(current - np.clip(current, -limit, limit), scene.period)
     over = excess != 0
     # Noise may be as slow as the motion is: it is all that the model leaves where nothing is clipped.
     noise = _current(scene, k, scene.tau - scene.torque)[~over]
@@ -77,6 +80,12 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     if not over.any() or np.sqrt(np.mean(excess[over] ** 2)) < clear:
         excess = np.zeros_like(excess)
     return np.outer(coupling(scene.robot)[k] * _torque_per_recorded(scene, k), excess)[None]
+
+
+def _lasting(excess: Array, period: float) -> Array:
+    """Without stretches that are too short to be told from samples gone wrong."""
+    shortest = np.ones(max(2, round(_LASTS / period)), dtype=bool)
+    return np.where(binary_opening(excess != 0, shortest), excess, 0.0)
 
 
 def _current(scene: Scene, k: int, torque: Array) -> Array:
