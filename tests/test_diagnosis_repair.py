@@ -70,6 +70,20 @@ def test_an_effect_with_the_same_values_on_several_joints_is_one_entry() -> None
     assert len(effects_of(found.robot)) == len(effects_of(robot_of(text_of("kr500"), "x"))) + 5
 
 
+def test_the_same_number_in_another_unit_is_another_entry() -> None:
+    found = repair(
+        "scara",
+        *(Addition(EFFECT, "power_friction", (joint,), {"v": 1.0, "exponent": 2.0}) for joint in (1, 2, 3)),
+        *(Addition(EFFECT, "asymmetric_viscous", (joint,)) for joint in (1, 3)),
+    )
+    assert added(text_of("scara"), found.text) == [
+        "  - {effect: power_friction, joints: [1, 2], values: {v: 1 rad/s, exponent: 2}}",
+        "  - {effect: power_friction, joint: 3, values: {v: 1 m/s, exponent: 2}}",
+        "  - {effect: asymmetric_viscous, joints: [1, 3]}",
+    ]
+    assert effects_of(found.robot)
+
+
 def test_the_comment_tells_every_joint_of_an_effect_once() -> None:
     found = repair(
         "kr500",

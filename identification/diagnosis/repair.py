@@ -56,19 +56,22 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
     Raises InputError where the text is no robot file, before or after.
     """
     notes: list[str] = []
-    for one in _grouped(additions):
+    for one in _grouped(additions, robot_of(text, file)):
         text, said = _ADDING[one.kind](text, robot_of(text, file), one)
         notes += said
     return Repaired(text, robot_of(text, file), tuple(notes))
 
 
-def _grouped(additions: Sequence[Addition]) -> list[Addition]:
-    """Effects with the same values and evidence put together, in the order of their first."""
+def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
+    """Effects with the same values, units too, and evidence put together, in the order of their first."""
 
     def key(one: Addition) -> tuple[object, ...]:
         if one.kind != EFFECT:
             return one.kind, one.effect, one.joints
-        return one.kind, one.effect, one.evidence, *sorted((name, _number(value)) for name, value in one.values.items())
+        joint = robot.joints[one.joints[0] - 1]
+        units = {shape.name: shape.unit_on(joint) for shape in library()[one.effect].shapes}
+        values = sorted((name, _number(value), units.get(name, "")) for name, value in one.values.items())
+        return one.kind, one.effect, one.evidence, *values
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
