@@ -199,9 +199,25 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
         "inverse dynamics, which plays the untouched runs, does not know it"
     ]
     if one.values.get("gap"):
-        text, more = _add_effect(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
+        text, more = _add_gap(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
         notes += more
     return text, notes
+
+
+def _add_gap(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    """Into the entry that one joint has without a gap; from an entry of several joints into one of its own."""
+    (number,) = one.joints
+    for k, use in enumerate(robot.effects):
+        if use.effect != one.effect or number not in use.joints or "gap" in use.values:
+            continue
+        if use.joints == (number,):
+            values = _values(library()[one.effect], robot.joints[number - 1], one.values)
+            text = with_value(text, ("effects", k, "values"), f"{{{values}}}")
+            return text, [f"joint {number} has the effect {one.effect} already; its gap is written there"]
+        others = ", ".join(str(joint) for joint in use.joints if joint != number)
+        text = with_value(text, ("effects", k, "joints"), f"[{others}]")
+        robot = robot_of(text, robot.place.file)
+    return _add_effect(text, robot, one)
 
 
 def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
