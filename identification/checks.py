@@ -126,9 +126,8 @@ def _flat(x: Array) -> list[Stretch]:
 def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> list[Stretch]:
     """Where an effort stays at its largest or smallest value while the joints move: it is cut off there.
 
-    Nothing is taken as cut off where the robot is ``resting``.
-
-    Raises InputError for an effort that is the same in all rows, and for one that is cut off in more than a fifth.
+    Raises InputError for an effort that is the same in all rows, and, unless the robot is ``resting``, for one that is
+    cut off in more than a fifth.
     """
     result = []
     moves = np.concatenate([[False], np.any(np.diff(q, axis=-1) != 0, axis=0)])
@@ -136,10 +135,8 @@ def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> l
         x = found.values[k]
         if np.ptp(x) == 0:
             raise InputError(where(0, name), f"{name} is {x[0]:.6g} in all rows", "a measured signal")
-        if resting:
-            continue
         stretches = [one for one in _flat(x) if moves[one.start : one.end].mean() > 0.5]
-        if sum(one.end - one.start for one in stretches) > _MOST * len(x):
+        if not resting and sum(one.end - one.start for one in stretches) > _MOST * len(x):
             first = stretches[0]
             problem = f"{name} stays at {x[first.start]:.6g} from here, as in more than a fifth of all rows"
             raise InputError(where(first.start, name), problem, "a signal that is not cut off")

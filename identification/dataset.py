@@ -103,7 +103,7 @@ def load(
 
     ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
     what they make. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
-    ``resting`` says that the robot stands on purpose. What section ``signals`` of the robot file says is applied.
+    ``resting`` says that the robot may stand on purpose. What section ``signals`` of the robot file says is applied.
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """

@@ -143,7 +143,7 @@ def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) 
 
 
 def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
-    """[qdd qd sign(qd) q 1 Y], filtered and decimated alike (report eq. 71), without what is near a standstill.
+    """[qdd qd sign(qd) q 1 Y], filtered and decimated alike (report eq. 71), without what stands nearly or is cut off.
 
     A motor that sticks has any friction up to Fcm, most of all where k q is largest: k would come out too large.
     """
@@ -151,10 +151,13 @@ def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)
     columns = np.stack([qdd, qd, np.sign(qd), q, np.ones_like(q), run.tau[k] - removed])
-    inner = columns[:, filters.first : run.samples - filters.last]
+    within = slice(filters.first, run.samples - filters.last)
+    inner = columns[:, within]
     speed = np.abs(inner[1])
-    keep = kept_rows(speed < _STANDSTILL * speed.max(), filters.factor)
-    result: Array = decimated(inner, filters.factor)[:, keep].T
+    bad = speed < _STANDSTILL * speed.max()
+    if run.unusable is not None:
+        bad |= run.unusable[k, within]
+    result: Array = decimated(inner, filters.factor)[:, kept_rows(bad, filters.factor)].T
     return result
 
 

@@ -60,7 +60,8 @@ def sampled(
 ) -> Sampled:
     """The motion of a run by the recipe's filters (report eq. 46), its speeds by ``rate`` of positions and period.
 
-    Raises InputError where the run is too short, and for a filter whose order is too high to be computed.
+    Raises InputError where the run is too short, for a filter whose order is too high to be computed, and where the
+    model has no real torque along the motion.
     """
     filters = recipe.at(run.rate)
     with np.errstate(all="ignore"):
@@ -79,7 +80,36 @@ def sampled(
     left_out = standing(regressors.signs, motion.qd, slow)
     if run.unusable is not None:
         left_out |= run.unusable[:, inner]
-    return Sampled(run, filters, motion, run.tau[:, inner], left_out, still)
+    result = Sampled(run, filters, motion, run.tau[:, inner], left_out, still)
+    _defined(result, regressors)
+    return result
+
+
+def _defined(one: Sampled, regressors: Regressors) -> None:
+    with np.errstate(all="ignore"):
+        torques = regressors.torques({}, one.motion)
+    numbers = np.isfinite(torques).all(axis=0)
+    if not numbers.all():
+        first = int(np.argmin(numbers))
+        what = _without_value(one.motion.part(first, first + 1), regressors)
+        problem = f"{what} has no real value at {one.times[first]:g} s"
+        raise InputError(one.run.place, problem, "a model that is defined along the run's motion")
+
+
+def _without_value(motion: Motion, regressors: Regressors) -> str:
+    """The effect that has no value along a motion."""
+    with np.errstate(all="ignore"):
+        base = regressors.base(motion)
+    names = {
+        name
+        for own, columns in zip(regressors.structure, base, strict=True)
+        for name, column in zip(own, columns, strict=True)
+        if not np.isfinite(column).all()
+    }
+    guilty = [one for one in regressors.model.effects if names & {*one.names}]
+    # An effect that follows the load has no value where any other one has none.
+    first = min(guilty, key=lambda one: "load" in one.effect.needs, default=None)
+    return "the robot's model" if first is None else f"{first.effect.title} on joint {first.joint.number}"
 
 
 def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:

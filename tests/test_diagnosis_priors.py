@@ -10,9 +10,13 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.readers import read
+from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.priors import prior_of
+from identification.diagnosis.stated_elasticity import stated
 from identification.observation import Motion, Regressors
+from tests import diagnosed_arm
+from tests.diagnosed_arm import TRUTH, recorded, torque
 from tests.newton_euler import Arm
 
 Array = NDArray[np.float64]
@@ -150,6 +154,24 @@ def test_what_is_known_exactly_is_known_best(tmp_path: Path) -> None:
     found = prior_of(made.model, "drawing")
     std = {name: found.precision[k, k] ** -0.5 for k, name in enumerate(made.names) if found.known[k]}
     assert std == pytest.approx({"Fv1": 8e-4, "Fv2": 8e-3}, rel=1e-3)
+
+
+@pytest.mark.parametrize(("prior", "stiffness"), [(None, 1e5), ("a", 1e5), ("b", 3e4)])
+def test_the_prior_tells_what_no_base_parameter_holds_before_other_sets(
+    prior: str | None, stiffness: float, tmp_path: Path
+) -> None:
+    units = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "Fv": "N m s/rad", "Fc": "N m", "Of": "N m", "k1": "N m/rad"}
+    sets = ""
+    for name, k in (("a", 1e5), ("b", 3e4)):
+        values = (f"      {one}: {x} {units[one[:2]]}\n" for one, x in {**TRUTH, "k1": k}.items())
+        sets += f"  {name}:\n    values:\n{''.join(values)}"
+    text = f"{diagnosed_arm.ARM}flexible: [1]\nparameters:\n{sets}"
+    _, (source,) = recorded(tmp_path, [torque("")])
+    path = tmp_path / "arm.yaml"
+    path.write_text(text)
+    wanted = Request([source], prior=prior, dry=True)
+    found, _, _ = diagnosed(path, read(path), wanted, tmp_path / "out", lambda *about: {})
+    assert {one.stiffness for scene in found.found.bank.scenes for one in stated(scene.robot)} == {stiffness}
 
 
 def test_an_unknown_set_is_refused(regressors: Regressors) -> None:

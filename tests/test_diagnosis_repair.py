@@ -70,6 +70,20 @@ def test_an_effect_with_the_same_values_on_several_joints_is_one_entry() -> None
     assert len(effects_of(found.robot)) == len(effects_of(robot_of(text_of("kr500"), "x"))) + 5
 
 
+def test_the_same_number_in_another_unit_is_another_entry() -> None:
+    found = repair(
+        "scara",
+        *(Addition(EFFECT, "power_friction", (joint,), {"v": 1.0, "exponent": 2.0}) for joint in (1, 2, 3)),
+        *(Addition(EFFECT, "asymmetric_viscous", (joint,)) for joint in (1, 3)),
+    )
+    assert added(text_of("scara"), found.text) == [
+        "  - {effect: power_friction, joints: [1, 2], values: {v: 1 rad/s, exponent: 2}}",
+        "  - {effect: power_friction, joint: 3, values: {v: 1 m/s, exponent: 2}}",
+        "  - {effect: asymmetric_viscous, joints: [1, 3]}",
+    ]
+    assert effects_of(found.robot)
+
+
 def test_the_comment_tells_every_joint_of_an_effect_once() -> None:
     found = repair(
         "kr500",
@@ -174,6 +188,44 @@ def test_elastic_joints_and_backlash() -> None:
     names = {p.name for p in derive(more.robot, names=("flexible_regressor",), check=False).parameters}
     assert {"k1", "k2", "Iam1"} <= names
     assert repair("kr500", Addition(ELASTIC, "joint_elasticity", (2,), {}, {"k2": 1e6})).text == text_of("kr500")
+
+
+ELASTIC_ENTRIES = {
+    "braces": ("  - {effect: joint_elasticity, joint: 1}  # soft", 0),
+    "braces without values": ("  - {joints: [1], effect: joint_elasticity, values: {}}", 0),
+    "lines": ("  - effect: joint_elasticity  # soft\n    joint: 1\n  # the end", 0),
+    "several": ("  - {effect: joint_elasticity, joints: [2, 1, 3]}  # soft", 1),
+    "all of them": ("  - effect: joint_elasticity\n    joints: all  # soft", 1),
+    "among others": ("  - {effect: offset, joint: 1}\n  - {effect: joint_elasticity, joints: [1, 4]}", 1),
+}
+
+
+@pytest.mark.parametrize("entry", ELASTIC_ENTRIES)
+def test_a_gap_goes_into_the_elasticity_that_is_there(entry: str) -> None:
+    written, more = ELASTIC_ENTRIES[entry]
+    head, middle, tail = text_of("scara").partition("effects:\n")
+    text = with_value(f"{head}{middle}{written}\n{tail}", ("flexible",), "all")
+    before = robot_of(text, "x")
+    found = repaired(text, "x", [Addition(ELASTIC, "backlash", (1,), {"gap": 1e-3}, {"k1": 1e4}, "why")])
+    gaps = {
+        joint: [float(one.value) for one in use.values.values()]
+        for use in found.robot.effects
+        for joint in use.joints
+        if use.effect == "joint_elasticity"
+    }
+    assert gaps == {joint: [1e-3] if joint == 1 else [] for use, joint in uses(before) if use == "joint_elasticity"}
+    assert uses(found.robot) == uses(before)
+    assert len(found.robot.effects) == len(before.effects) + more
+    assert found.text.count("#") == text.count("#") + more
+    assert not any("the file's stays" in note for note in found.notes)
+    assert effects_of(found.robot)
+
+
+def test_a_gap_of_the_file_stays() -> None:
+    text = with_item(text_of("kr500"), "effects", "{effect: joint_elasticity, joint: 2, values: {gap: 1 mrad}}")
+    found = repaired(text, "x", [Addition(ELASTIC, "backlash", (2,), {"gap": 2e-3})])
+    assert found.text == text
+    assert "joint 2 has the effect joint_elasticity already; the file's stays" in found.notes
 
 
 def test_warm_friction_comes_with_a_word_on_the_warmth() -> None:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
+from identification.diagnosis.candidates import wrist
 from identification.diagnosis.diagnosis import NAMED, diagnose
 from identification.diagnosis.roles import Roles
+from identification.diagnosis.scene import Scene
 from identification.observation import Motion, Regressors
 from tests.diagnosed_arm import ready
 from tests.recorded import Array, Recorded
@@ -74,3 +76,25 @@ def test_a_rotor_that_stands_while_its_joints_move(seed: int, tmp_path: Path) ->
     assert (one.hypothesis.effect, one.hypothesis.joints) == ("coupled_rotor", (1, 2))
     assert one.parameters["Fcr2"].value == pytest.approx(FRICTION, rel=0.05)
     assert one.parameters["Fvr2"].value == pytest.approx(VISCOUS, rel=0.05)
+
+
+@pytest.mark.parametrize("fixed", [0, 2])
+def test_a_pair_is_offered_across_fixed_frames_and_not_across_branches(fixed: int, tmp_path: Path) -> None:
+    base, last = 1 + fixed, 2 + fixed
+    frames = [f"{{j: {j}, sigma: 2, alpha: 0, d: 0.1 m, theta: 0, r: 0}}" for j in range(2, last)]
+    joints = [
+        "{j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}",
+        *frames,
+        f"{{j: {last}, antecedent: {base}, sigma: 0, alpha: 0, d: 0.5 m, theta: q{last}, r: 0}}",
+        f"{{j: {last + 1}, antecedent: {base}, sigma: 0, alpha: pi/2, d: 0.2 m, theta: q{last + 1}, r: 0}}",
+    ]
+    lines = "".join(f"  - {joint}\n" for joint in joints)
+    (tmp_path / "branched.yaml").write_text(f"name: branched\ngravity: [0 m/s2, 0 m/s2, 0 m/s2]\njoints:\n{lines}")
+    regressors = Regressors(read(tmp_path / "branched.yaml"))
+    t, motion = _of_time(np.random.default_rng(1))
+    q = [*motion.q, motion.q[1]]
+    columns = {f"q{j}": x for j, x in zip((1, last, last + 1), q, strict=True)}
+    columns |= {f"tau{j}": np.cos(t) for j in (1, last, last + 1)}
+    run = ready(str(Recorded({"t": t, **columns}).save(tmp_path / "a.csv")), regressors)
+    found = wrist.hypotheses([Scene(run.sampled, regressors, {})])
+    assert {one.joints for one in found} == {(1, last)}

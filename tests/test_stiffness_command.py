@@ -58,6 +58,17 @@ def test_blocked_output_without_noise(tmp_path: Path) -> None:
     assert set(found.essential) == set(LOCKED)
 
 
+def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -> None:
+    path = Path(blocked(tmp_path / "a.csv", noise=0.0))
+    lines = path.read_text().splitlines()
+    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
+    columns = dict(zip(names, values, strict=True))
+    columns["tau2"] = np.minimum(columns["tau2"], np.quantile(columns["tau2"], 0.9))
+    found = locked_output(ROBOT, 2, [str(Recorded(columns).save(path))])
+    assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
+    assert any("tau2 is cut off for" in note for note in found.notes)
+
+
 def test_blocked_output_lies_within_its_stated_uncertainty(tmp_path: Path) -> None:
     def deviation(found: LockedOutput, name: str) -> float:
         one = found.values[name]

@@ -15,7 +15,7 @@ from identification.dataset import Run, load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
-from identification.diagnosis.priors import prior_of
+from identification.diagnosis.priors import preferring, prior_of
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import roles
 from identification.observation import Regressors
@@ -52,7 +52,7 @@ def diagnosed(
     """
     if not wanted.dry:
         spare(path, [folder / f"{robot.name}.yaml"])
-    regressors = Regressors(robot)
+    regressors = Regressors(robot if wanted.prior is None else preferring(robot, wanted.prior))
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
 

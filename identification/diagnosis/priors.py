@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import sympy
@@ -23,6 +24,15 @@ Array = NDArray[np.float64]
 _UNTOLD, _KNOWN, _ZERO = 0.05, 1e-4, 1e-3
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6
+
+
+def preferring(robot: Robot, name: str) -> Robot:
+    """The robot with the set ``name``, if it has one, before the others: what no base parameter holds is told by the
+    first set that has it.
+    """
+    sets = robot.parameter_sets
+    first = {name: sets[name]} if name in sets else {}
+    return replace(robot, parameter_sets={**first, **sets})
 
 
 def prior_of(model: Model, name: str) -> Prior:

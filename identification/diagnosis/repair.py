@@ -56,19 +56,22 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
     Raises InputError where the text is no robot file, before or after.
     """
     notes: list[str] = []
-    for one in _grouped(additions):
+    for one in _grouped(additions, robot_of(text, file)):
         text, said = _ADDING[one.kind](text, robot_of(text, file), one)
         notes += said
     return Repaired(text, robot_of(text, file), tuple(notes))
 
 
-def _grouped(additions: Sequence[Addition]) -> list[Addition]:
-    """Effects with the same values and evidence put together, in the order of their first."""
+def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
+    """Effects with the same values, units too, and evidence put together, in the order of their first."""
 
     def key(one: Addition) -> tuple[object, ...]:
         if one.kind != EFFECT:
             return one.kind, one.effect, one.joints
-        return one.kind, one.effect, one.evidence, *sorted((name, _number(value)) for name, value in one.values.items())
+        joint = robot.joints[one.joints[0] - 1]
+        units = {shape.name: shape.unit_on(joint) for shape in library()[one.effect].shapes}
+        values = sorted((name, _number(value), units.get(name, "")) for name, value in one.values.items())
+        return one.kind, one.effect, one.evidence, *values
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
@@ -196,9 +199,25 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
         "inverse dynamics, which plays the untouched runs, does not know it"
     ]
     if one.values.get("gap"):
-        text, more = _add_effect(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
+        text, more = _add_gap(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
         notes += more
     return text, notes
+
+
+def _add_gap(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    """Into the entry that one joint has without a gap; from an entry of several joints into one of its own."""
+    (number,) = one.joints
+    for k, use in enumerate(robot.effects):
+        if use.effect != one.effect or number not in use.joints or "gap" in use.values:
+            continue
+        if use.joints == (number,):
+            values = _values(library()[one.effect], robot.joints[number - 1], one.values)
+            text = with_value(text, ("effects", k, "values"), f"{{{values}}}")
+            return text, [f"joint {number} has the effect {one.effect} already; its gap is written there"]
+        others = ", ".join(str(joint) for joint in use.joints if joint != number)
+        text = with_value(text, ("effects", k, "joints"), f"[{others}]")
+        robot = robot_of(text, robot.place.file)
+    return _add_effect(text, robot, one)
 
 
 def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from generator.effects.coupled_rotor import EFFECT
 from generator.effects.effect import Site
-from generator.robot.description import Joint, Robot
+from generator.robot.description import FIXED, Joint, Robot
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
 
@@ -36,9 +36,17 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [
         _hypothesis(robot, joint, other, ratio)
         for other, joint in pairwise(robot.moving[-_WRIST:])
-        if joint.number not in taken and joint.antecedent == other.number
+        if joint.number not in taken and _moved_by(robot, joint) == other
         for ratio in _ratios(robot, joint, other)
     ]
+
+
+def _moved_by(robot: Robot, joint: Joint) -> Joint | None:
+    """The moving joint that carries another, by fixed frames if any; None for the base."""
+    carrier = robot.antecedent(joint)
+    while carrier is not None and carrier.sigma == FIXED:
+        carrier = robot.antecedent(carrier)
+    return carrier
 
 
 def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[float]:
