@@ -18,7 +18,7 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
-from identification.filtering import decimated, derivative, smoothed
+from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
@@ -31,6 +31,8 @@ RECIPE = Recipe()
 LIMIT = 0.1
 #: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
 _STILL = 2e-3
+#: What the filtered sign of a speed may be off one where the joint neither stands nor turns back.
+_ONE_WAY = 0.05
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
 
@@ -99,7 +101,7 @@ def of_runs(
         mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
         if not mine:
             continue
-        kept[k] = rows = _rows(mine, k, joint)
+        kept[k] = rows = _rows(mine, k, joint, float(recipe.standstills(robot)[k]))
         viscous = _viscous(joint, friction or {})
         name = f"k{joint.number}"
         stiffness[name], late, residuals[k] = _told(rows, joint, viscous)
@@ -115,7 +117,10 @@ def of_runs(
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
 
-def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> Rows:
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float) -> Rows:
+    """Without what is near a standstill [rad/s, m/s], of a joint that moves: what sticks hides from the twist any
+    torque up to its friction.
+    """
     parts = []
     for number, (run, filters) in enumerate(runs):
         q, qs, torque = (
@@ -128,6 +133,9 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint) -> Rows:
             own += [np.sin(q), np.cos(q)]
         inner = slice(filters.first, run.samples - filters.last)
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
+        if np.ptp(run.q[k]) >= _STILL:
+            moving = kept_rows(np.abs(qd[inner]) <= standstill, filters.factor)
+            columns = columns[:, moving & (np.abs(np.abs(columns[3]) - 1) < _ONE_WAY)]
         constants = np.zeros((len(runs), columns.shape[1]))
         constants[number] = 1.0
         parts.append(np.concatenate([columns, constants]))

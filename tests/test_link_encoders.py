@@ -15,12 +15,12 @@ from generator.robot.readers import read
 from identification.inverse_model import identify
 from identification.link_encoders import link_encoders
 from identification.recipe import Recipe
-from identification.simulation.machine import Machine
+from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import command
-from tests.elastic_links import MOTORS, N
+from tests.elastic_links import MOTORS, N, robot_text
 from tests.recorded import Recorded
 from tests.test_real_runs import DATA as RECORDINGS
 
@@ -74,6 +74,17 @@ def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) ->
     assert found.latency["latency1"].value is not None
     assert found.latency["latency2"].value is None
     assert found.latency["latency2"].refused == "the joint stands still"
+
+
+def test_friction_that_sticks_is_no_compliance(tmp_path: Path) -> None:
+    """Near a reversal a motor's friction hides any change of the load from the recorded torque."""
+    text = robot_text().replace("Fcm1: 9 N m", "Fcm1: 36 N m").replace("Fcm2: 4 N m", "Fcm2: 16 N m")
+    (tmp_path / "two_links.yaml").write_text(text)
+    with compiled(read(tmp_path / "two_links.yaml")) as rubbing:
+        run = recorded(rubbing, replace(RUN, noise=(0.01,), seed=1), tmp_path / "run.csv")
+        found = link_encoders(rubbing.robot, [run], MOTORS).stiffness
+    for name in ("k1", "k2"):
+        assert found[name].value == pytest.approx(MOTORS[name], rel=0.03)
 
 
 def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path) -> None:
