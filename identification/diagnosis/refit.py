@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
+from identification.colour import inflation
 from identification.diagnosis.normal import Normal, Prior
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
@@ -53,8 +55,8 @@ def refit(
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
-    ``more`` are values of further parameters of the model, which go into the set as they are; ``zero`` are base
-    parameters that are none.
+    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``more`` are values of
+    further parameters of the model, which go into the set as they are; ``zero`` are base parameters that are none.
     """
     known = {
         one.run.payload.names()[stem]: value
@@ -73,7 +75,9 @@ def refit(
         return solution if near is None else _near(near, factors, solution)
 
     regressors, notes = under_own_load(runs, regressors, fit)
-    solution = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))
+    observed = [Observed(one, regressors) for one in runs]
+    factors = added([factor for one in observed for factor in one.factors])
+    solution = _coloured(fit(factors), factors, observed)
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
@@ -144,6 +148,31 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
     return result
+
+
+def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[Observed]) -> Solution:
+    """The solution with the covariance that errors as coloured as the residuals leave, joint by joint."""
+    C, colours = solution.covariance, _colours(solution.values, observed)
+    more = np.zeros_like(C)
+    for one in factors:
+        R = one.on(solution.names)[:, :-1] / solution.sigma[one.joint]
+        more += (colours[one.joint] - 1) * R.T @ R
+    return replace(solution, covariance=C + C @ more @ C)
+
+
+def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[int, float]:
+    """By how much the colour of each joint's residuals inflates variances, each run's own by its power."""
+    power: dict[int, float] = defaultdict(float)
+    coloured: dict[int, float] = defaultdict(float)
+    for run in observed:
+        errors: dict[int, list[Array]] = defaultdict(list)
+        for one in run.rows():
+            errors[one.joint].append(one.Y - one.W @ [values[name] for name in one.names])
+        for joint, parts in errors.items():
+            e = np.concatenate(parts)
+            power[joint] += float(e @ e)
+            coloured[joint] += float(e @ e) * inflation(e)
+    return {joint: coloured[joint] / size if size else 1.0 for joint, size in power.items()}
 
 
 def _values(
