@@ -72,7 +72,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         said, unused = _description(found.findings), _unused(found.findings)
         fit = refit(_sampled(found.roles.known, regressors), regressors, known, more, said, unused)
         if prior is None:
-            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).values
+            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).written
         else:
             mean = prior_of(old_regressors.model, prior).mean.tolist()
             values = dict(zip(old_regressors.names, mean, strict=True))
@@ -81,7 +81,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
         before = _played(found.roles.test, Player(old_regressors), values)
-        after = _played(found.roles.test, player, fit.values)
+        after = _played(found.roles.test, player, fit.written)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
     elastic = {joint for one in additions if one.kind == ELASTIC for joint in one.joints}

@@ -35,7 +35,8 @@ _SAMPLES = 80
 class Refit:
     """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
 
-    ``regressors`` are those with the load that the parameters make.
+    What the runs do not show has an infinite standard deviation, a value that only serves their torques, and no place
+    in the set. ``regressors`` are those with the load that the parameters make.
     """
 
     values: Mapping[str, float]
@@ -43,6 +44,12 @@ class Refit:
     parameter_set: ParameterSet
     regressors: Regressors
     notes: tuple[str, ...]
+
+    @property
+    def written(self) -> dict[str, float]:
+        """The base parameters as the set tells them, 0 where it leaves them out: what the robot file plays with."""
+        told = self.parameter_set.values
+        return {name: told[name].value if name in told else 0.0 for name in self.values}
 
 
 def refit(
@@ -82,7 +89,7 @@ def refit(
     std = {name: solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
     if hidden:
-        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out")
+        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")
     names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
     how = "least squares" if prior is None else "least squares near what was known"
     written = ParameterSet(
