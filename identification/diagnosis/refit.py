@@ -56,14 +56,13 @@ def refit(
     runs: Sequence[Sampled],
     regressors: Regressors,
     prior: Prior | None = None,
-    more: Mapping[str, float] | None = None,
     description: str = "",
     zero: Collection[str] = (),
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
-    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``more`` are values of
-    further parameters of the model, which go into the set as they are; ``zero`` are base parameters that are none.
+    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``zero`` are base
+    parameters that are none.
     """
     known = {
         one.run.payload.names()[stem]: value
@@ -96,7 +95,7 @@ def refit(
         SET,
         description or "base parameters with what the diagnosis found",
         f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
-        _values(regressors, values, std, solution, more or {}),
+        _values(regressors, values, std, solution),
     )
     return Refit(values, std, written, regressors, tuple(notes))
 
@@ -187,7 +186,6 @@ def _values(
     values: Mapping[str, float],
     std: Mapping[str, float],
     solution: Solution,
-    more: Mapping[str, float],
 ) -> dict[str, ParameterValue]:
     result = {}
     for parameter in regressors.model.parameters:
@@ -195,6 +193,4 @@ def _values(
         if name in values and name not in solution.hidden:
             relative = 100 * std[name] / abs(values[name]) if values[name] else None
             result[name] = ParameterValue(values[name], parameter.unit, relative)
-        elif name in more:
-            result[name] = ParameterValue(more[name], parameter.unit, note="found with the effect, not refitted")
     return result
