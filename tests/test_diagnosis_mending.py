@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from generator.robot.readers import read
+from generator.symbolic.parameter_sets import resolved_sets
 from identification import recipe as recipes
 from identification.dataset import load
+from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, diagnose
 from identification.diagnosis.mending import Mended, mended
+from identification.diagnosis.played import Player, play
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.roles import roles
 from identification.observation import Regressors
@@ -20,6 +24,8 @@ from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
+from tests.recorded import TRUTH, Recorded, two_links
+from tests.recorded import fourier as sines
 
 ARM = ROBOTS["three_axis"]
 
@@ -71,3 +77,25 @@ def test_the_code_is_generated_and_the_gap_closes_on_the_untouched_run(case: tup
     assert now.norm < 0.6 * was.norm
     assert now.relative_to_mean < was.relative_to_mean
     assert not done.notes
+
+
+def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp_path: Path) -> None:
+    """Runs that each hold a joint show sums of two inertias alone, which the run that tests takes apart."""
+    of = two_links(tmp_path)
+    sources = []
+    for seed, held in enumerate(([0], [1], []), 1):
+        t, way = sines(of.model.robot, 40.0, 100.0, seed)
+        q, qd, qdd = way.signals
+        q[held], qd[held], qdd[held] = q[held, :1], 0.0, 0.0
+        tau = of.torques(TRUTH, way) + 0.6 * np.random.default_rng(seed).normal(size=q.shape)
+        sources.append(str(tmp_path / f"{seed}.csv"))
+        Recorded({"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}).save(Path(sources[-1]))
+    wanted = Request(sources[:2], (), sources[2:])
+    _, new, _ = diagnosed(tmp_path / "two_links.yaml", of.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    assert new is not None
+    assert any("the runs do not show ZZ1R ZZ2 Ia2" in note for note in new.notes)
+    written = Regressors(read(tmp_path / "out" / "two_links.yaml"))
+    one = prepared(load(sources[2], written.model.robot), recipes.recipe_of("two_links"), written)
+    again = play(one, Player(written), resolved_sets(written.model)["diagnosed"]).model
+    (after,) = new.after
+    np.testing.assert_allclose(after.model, again, atol=1e-4 * np.abs(again).max())

@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.normal import Prior
-from identification.diagnosis.priors import prior_of
+from identification.diagnosis.priors import notes_of, prior_of
 from identification.diagnosis.stated_elasticity import stated
 from identification.observation import Motion, Regressors
 from tests import diagnosed_arm
-from tests.diagnosed_arm import TRUTH, recorded, torque
+from tests.diagnosed_arm import TRUTH, torque
 from tests.newton_euler import Arm
+from tests.recorded import TWO_LINKS, recorded
 
 Array = NDArray[np.float64]
 
@@ -55,6 +57,52 @@ def regressors(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
     ]
     path.write_text(ARM + "\n".join(lines) + "\n", encoding="utf-8")
     return Regressors(read(path))
+
+
+@pytest.mark.parametrize(("rotor", "known"), [(None, False), (0.0, True), (5.0, True)])
+def test_bodies_alone_do_not_tell_what_their_drives_add(rotor: float | None, known: bool, tmp_path: Path) -> None:
+    """An inertia that holds a rotor's is known where the set tells the rotor, if only that there is none."""
+    path = tmp_path / "arm.yaml"
+    bodies = [
+        f"      {name}: {{value: {told[0]}, unit: {told[1]}}}" for name, told in VALUES.items() if name[0] in "XYZM"
+    ]
+    lines = bodies + ([] if rotor is None else [f"      Ia1: {{value: {rotor}, unit: kg m2}}"])
+    path.write_text(ARM + "\n".join(lines) + "\n", encoding="utf-8")
+    of = Regressors(read(path))
+    (grouped,) = (base for base, terms in of.model.grouping.numeric().items() if "Ia1" in terms)
+    found = prior_of(of.model, "drawing")
+    assert dict(zip(of.names, found.known.tolist(), strict=True))[grouped] is known
+    assert found.known[of.names.index("MX2")]
+    expected = [] if known else [f"the set drawing does not tell Ia1 in {grouped}: taken as unknown"]
+    assert notes_of(of.model, "drawing") == expected
+
+
+def test_nothing_is_named_in_the_place_of_rotors_and_friction_that_a_set_leaves_out(tmp_path: Path) -> None:
+    bodies = {"ZZ1": 4.0, "MX1": 6.0, "MY1": 0.6, "M2": 10.0, "ZZ2": 1.3, "MX2": 3.1, "MY2": -0.4}
+    drives = {"Ia1": 3.0, "Ia2": 0.9, "Fv1": 14.0, "Fc1": 9.0, "Off1": 1.5, "Fv2": 7.0, "Fc2": 4.0, "Off2": -0.8}
+    path = tmp_path / "two_links.yaml"
+    units = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "M2": "kg"}
+    lines = [
+        f"      {name}: {{value: {value}, unit: {units[name[:2]]}, relative_std: 2}}" for name, value in bodies.items()
+    ]
+    path.write_text("\n".join([TWO_LINKS, "parameters:", "  cad:", "    values:", *lines, ""]), encoding="utf-8")
+    of = Regressors(read(path))
+    sums = of.model.grouping.numeric()
+    whole = bodies | drives
+    truth = {base: sum(c * whole.get(one, 0.0) for one, c in terms.items()) for base, terms in sums.items()}
+    runs = [str(recorded(of, truth, 40.0, 100.0, k, 0.02).save(tmp_path / f"{k}.csv")) for k in (1, 2, 3)]
+    wanted = Request(runs[:1], runs[1:2], runs[2:], "cad")
+    found, _, _ = diagnosed(path, of.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    assert (found.verdict, found.findings) == (NOTHING, ())
+    assert "the set cad does not tell Ia1 in ZZ1R: taken as unknown" in found.notes
+
+
+def test_a_grouped_value_needs_none_of_its_parts(tmp_path: Path) -> None:
+    path = tmp_path / "arm.yaml"
+    path.write_text(f"{ARM}      ZZ1R: 9 kg m2\n      MX2: 4 kg m\n", encoding="utf-8")
+    of = Regressors(read(path))
+    assert prior_of(of.model, "drawing").known[of.names.index("ZZ1R")]
+    assert notes_of(of.model, "drawing") == []
 
 
 @pytest.mark.parametrize("told", ["", "      kch1: 0 N m/rad3\n"])
@@ -166,7 +214,7 @@ def test_the_prior_tells_what_no_base_parameter_holds_before_other_sets(
         values = (f"      {one}: {x} {units[one[:2]]}\n" for one, x in {**TRUTH, "k1": k}.items())
         sets += f"  {name}:\n    values:\n{''.join(values)}"
     text = f"{diagnosed_arm.ARM}flexible: [1]\nparameters:\n{sets}"
-    _, (source,) = recorded(tmp_path, [torque("")])
+    _, (source,) = diagnosed_arm.recorded(tmp_path, [torque("")])
     path = tmp_path / "arm.yaml"
     path.write_text(text)
     wanted = Request([source], prior=prior, dry=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy import signal
 
 from generator.backends.review import groupings
 from generator.resources import find_robot
@@ -26,6 +27,7 @@ from identification.observation import Motion, Regressors
 from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
+from tests.recorded import TRUTH, Recorded, fourier, two_links
 
 Array = NDArray[np.float64]
 
@@ -165,6 +167,25 @@ def test_what_is_known_holds_where_the_runs_say_little(case: Case, fitted: Refit
     far = refit([case.sampled(0, case.regressors)], case.regressors, Prior(mean, np.zeros((len(names), len(names)))))
     free = refit([case.sampled(0, case.regressors)], case.regressors)
     assert far.values["Fd1"] == pytest.approx(free.values["Fd1"], rel=1e-3)
+
+
+@pytest.mark.parametrize("known", [False, True])
+@pytest.mark.parametrize("time", [0.0, 0.2])
+def test_standard_deviations_are_those_of_the_noise_s_colour(time: float, known: bool, tmp_path: Path) -> None:
+    """Values of repeated fits scatter by what is told of them, whether noise stays for a while [s] or not."""
+    of, rate = two_links(tmp_path), 100.0
+    stays = np.exp(-1 / (rate * time)) if time else 0.0
+    vague = Prior(np.array([TRUTH[name] for name in of.names]), 1e-6 * np.eye(len(of.names))) if known else None
+    away = []
+    for seed in range(4):
+        t, way = fourier(of.model.robot, 60.0, rate, seed)
+        drawn = np.random.default_rng(seed).normal(scale=0.7 * np.sqrt(1 - stays**2), size=(2, len(t) + 1000))
+        tau = of.torques(TRUTH, way) + signal.lfilter([1], [1, -stays], drawn)[:, 1000:]
+        columns = {"t": t, "q1": way.q[0], "q2": way.q[1], "tau1": tau[0], "tau2": tau[1]}
+        run = load(str(Recorded(columns).save(tmp_path / f"{seed}.csv")), of.model.robot)
+        fit = refit([prepared(run, recipes.recipe_of("two_links"), of).sampled], of, vague)
+        away += [(fit.values[name] - TRUTH[name]) / fit.std[name] for name in of.names]
+    assert 0.6 < np.sqrt(np.mean(np.square(away))) < 1.4
 
 
 @pytest.mark.parametrize("name", ["scara", "lbr_iiwa14"])

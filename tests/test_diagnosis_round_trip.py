@@ -97,5 +97,11 @@ def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     found, new, again = there_and_back("three_axis", Effect(law, 2, size), PRIOR, tmp_path)
     assert [one.hypothesis.effect for one in found.findings] == [named]
     assert new.robot.flexible == (2,)
+    sets = read(tmp_path / "out" / "three_axis.yaml").parameter_sets
+    rigid, elastic = (sets[one].values for one in ("diagnosed", "diagnosed_flexible"))
+    assert elastic.keys() - rigid.keys() == {"Iam2", "Fvm2", "Fcm2", "Offm2", "k2"}
+    assert rigid.keys() - elastic.keys() == {"Fv2", "Fc2", "Off2"}
+    assert elastic["ZZ2R"].value == pytest.approx(rigid["ZZ2R"].value - elastic["Iam2"].value, rel=1e-5)
+    assert any("diagnosed_flexible" in note for note in new.notes)
     assert (again.verdict, again.findings) == (NOTHING, ())
     assert any("the drive trains of joint 2 are elastic in the robot's file" in note for note in again.notes)

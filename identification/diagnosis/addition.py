@@ -22,7 +22,7 @@ class Addition:
     - ELASTIC: ``gap`` where there is backlash. The joints' drive trains become elastic.
     - BODY: a payload, which base parameters hold; the file's text does not change.
 
-    ``parameters`` [SI] are values of the model's parameters that come with it and that no rigid fit shows.
+    ``parameters`` [SI] are values of the flexible model's parameters that come with it and that no rigid fit shows.
     ``evidence`` is a line for people, ``amplitude`` the rms of its torque [N m, N] by the joint's number.
     """
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from dataclasses import replace as changed
 from pathlib import Path
 
 from generator.cli.progress import stage
@@ -15,7 +16,7 @@ from identification.dataset import Run, load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
-from identification.diagnosis.priors import preferring, prior_of
+from identification.diagnosis.priors import notes_of, preferring, prior_of
 from identification.diagnosis.results import document
 from identification.diagnosis.roles import roles
 from identification.observation import Regressors
@@ -54,6 +55,7 @@ def diagnosed(
         spare(path, [folder / f"{robot.name}.yaml"])
     regressors = Regressors(robot if wanted.prior is None else preferring(robot, wanted.prior))
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
+    notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
 
     def read(sources: Sequence[str], resting: bool = True) -> list[Run]:
@@ -79,6 +81,7 @@ def diagnosed(
 
     with replacing(folder, GENERATED) as fresh:
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
+        found = changed(found, notes=(*notes, *found.notes))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

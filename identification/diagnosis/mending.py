@@ -15,12 +15,14 @@ from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.finding import Finding
+from identification.diagnosis.flexible_set import SET as FLEXIBLE
+from identification.diagnosis.flexible_set import flexible_set
 from identification.diagnosis.hypothesis import BODY, ELASTIC
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Played, Player, aligned, compiled, play
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import prior_of
-from identification.diagnosis.refit import Refit, refit, with_payload
+from identification.diagnosis.refit import SET, Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.untouched import objections, untouched
@@ -30,6 +32,7 @@ from identification.sampling import Sampled
 
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
+_TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
 
 
 @dataclass(frozen=True)
@@ -68,20 +71,19 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     old_regressors, regressors = found.found.bank.scenes[0].regressors, Regressors(new.robot)
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
-        more = {key: value for one in additions for key, value in one.parameters.items()}
         said, unused = _description(found.findings), _unused(found.findings)
-        fit = refit(_sampled(found.roles.known, regressors), regressors, known, more, said, unused)
+        fit = refit(_sampled(found.roles.known, regressors), regressors, known, said, unused)
         if prior is None:
-            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).values
+            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).written
         else:
             mean = prior_of(old_regressors.model, prior).mean.tolist()
             values = dict(zip(old_regressors.names, mean, strict=True))
-    text = with_parameter_set(new.text, fit.parameter_set)
+    text, sets = _with_sets(new.text, fit, additions)
     replace(folder, {name: text.encode()})
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
         before = _played(found.roles.test, Player(old_regressors), values)
-        after = _played(found.roles.test, player, fit.values)
+        after = _played(found.roles.test, player, fit.written)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
     elastic = {joint for one in additions if one.kind == ELASTIC for joint in one.joints}
@@ -97,8 +99,18 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         difference(old_text, text, name),
         groupings_difference(old_regressors.model, regressors.model),
         Path(GENERATED, found.robot.name),
-        tuple(dict.fromkeys((*(one.evidence for one in aside), *new.notes, *fit.notes, *notes, *against))),
+        tuple(dict.fromkeys((*(one.evidence for one in aside), *new.notes, *fit.notes, *sets, *notes, *against))),
     )
+
+
+def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
+    """The file with the new parameters, once more for elastic drive trains where some are; and what is to be told."""
+    text = with_parameter_set(text, fit.parameter_set)
+    model, found = fit.regressors.model, {key: value for one in additions for key, value in one.parameters.items()}
+    # A set of an earlier diagnosis would be of other parameters.
+    if not found and FLEXIBLE not in model.robot.parameter_sets:
+        return text, []
+    return with_parameter_set(text, flexible_set(model, fit.parameter_set, found)), [_TWO_SETS]
 
 
 def _addition(one: Finding) -> Addition:

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 _RANK = 1e-10
 #: Part of a column's square that must be left beside the chosen ones to be told from them.
 _LEFT = 1e-4
+#: Part of a precision that is rounding.
+_ROUNDING = 1e-10
 
 
 @dataclass(frozen=True)
@@ -66,8 +68,12 @@ class Prior:
         """
         weighted = self.precision @ direction
         variance = float(direction @ weighted) + (std**-2 if std else np.inf)
-        lost = np.outer(weighted, weighted) / variance if variance else 0.0
-        return Prior(self.mean + direction * value, self.precision - lost)
+        precision = self.precision - (np.outer(weighted, weighted) / variance if variance else 0.0)
+        if np.isinf(std):
+            # What rounding leaves of nothing is no knowledge.
+            left = np.diag(precision) > _ROUNDING * np.diag(self.precision)
+            precision = np.where(np.outer(left, left), precision, 0.0)
+        return Prior(self.mean + direction * value, precision)
 
 
 @dataclass(frozen=True)

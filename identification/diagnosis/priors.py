@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from generator.effects.library import library, motor_side
 from generator.errors import InputError
+from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.robot.fields import nearest
 from generator.symbolic.model import Model
@@ -39,8 +40,28 @@ def prior_of(model: Model, name: str) -> Prior:
     """The set ``name`` of the robot, as values and standard deviations of its base parameters.
 
     Standard deviations of standard parameters add as independent ones. A drive train of which the set has the motor
-    side alone counts on its joint: rigid, both sides turn as one. Raises InputError for an unknown set.
+    side alone counts on its joint: rigid, both sides turn as one. A parameter of an effect that the set lacks is not
+    known, nor is what it adds to the base parameters. Raises InputError for an unknown set.
     """
+    prior, untold = _known(model, name)
+    for direction in untold.values():
+        prior = prior.shifted(direction, 0.0, np.inf)
+    return prior
+
+
+def notes_of(model: Model, name: str) -> list[str]:
+    """What is to be told of the set ``name`` as a prior; raises InputError for an unknown set."""
+    _, untold = _known(model, name)
+    bases = [one.name for one in model.base_parameters]
+    lacking = [
+        f"{each} in {listed(base for base, part in zip(bases, direction, strict=True) if part)}"
+        for each, direction in untold.items()
+    ]
+    return [f"the set {name} does not tell {listed(lacking)}: taken as unknown"] if lacking else []
+
+
+def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
+    """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_untold``)."""
     sets = model.robot.parameter_sets
     if name not in sets:
         problem = f"{model.robot.name} has no parameter set {name!r}"
@@ -62,7 +83,24 @@ def prior_of(model: Model, name: str) -> Prior:
             if key in deviation:
                 map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
-    return Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
+    prior = Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
+    return prior, _untold(model, given, prior)
+
+
+def _untold(model: Model, given: Mapping[str, ParameterValue], prior: Prior) -> dict[str, Array]:
+    """How much the base parameters hold (p) of each parameter of an effect that is not ``given``, by its name, where
+    something would be known of one of them.
+    """
+    names = [
+        f"{one.stem}{joint}"
+        for use in model.robot.effects
+        for joint in use.joints
+        for one in library()[use.effect].parameters
+        if not one.refines
+    ]
+    whole = np.array([one.name in given for one in model.base_parameters])
+    parts = {each: np.where(whole, 0.0, model.grouping.coefficients(each)) for each in names if each not in given}
+    return {each: part for each, part in parts.items() if np.any(part[prior.known])}
 
 
 def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:

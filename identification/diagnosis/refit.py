@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
+from identification.colour import inflation
 from identification.diagnosis.normal import Normal, Prior
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
@@ -33,7 +35,8 @@ _SAMPLES = 80
 class Refit:
     """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
 
-    ``regressors`` are those with the load that the parameters make.
+    What the runs do not show has an infinite standard deviation, a value that only serves their torques, and no place
+    in the set. ``regressors`` are those with the load that the parameters make.
     """
 
     values: Mapping[str, float]
@@ -42,18 +45,23 @@ class Refit:
     regressors: Regressors
     notes: tuple[str, ...]
 
+    @property
+    def written(self) -> dict[str, float]:
+        """The base parameters as the set tells them, 0 where it leaves them out: what the robot file plays with."""
+        told = self.parameter_set.values
+        return {name: told[name].value if name in told else 0.0 for name in self.values}
+
 
 def refit(
     runs: Sequence[Sampled],
     regressors: Regressors,
     prior: Prior | None = None,
-    more: Mapping[str, float] | None = None,
     description: str = "",
     zero: Collection[str] = (),
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
-    ``more`` are values of further parameters of the model, which go into the set as they are; ``zero`` are base
+    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``zero`` are base
     parameters that are none.
     """
     known = {
@@ -73,19 +81,21 @@ def refit(
         return solution if near is None else _near(near, factors, solution)
 
     regressors, notes = under_own_load(runs, regressors, fit)
-    solution = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))
+    observed = [Observed(one, regressors) for one in runs]
+    factors = added([factor for one in observed for factor in one.factors])
+    solution = _coloured(fit(factors), factors, observed)
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
     if hidden:
-        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out")
+        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")
     names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
     how = "least squares" if prior is None else "least squares near what was known"
     written = ParameterSet(
         SET,
         description or "base parameters with what the diagnosis found",
         f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
-        _values(regressors, values, std, solution, more or {}),
+        _values(regressors, values, std, solution),
     )
     return Refit(values, std, written, regressors, tuple(notes))
 
@@ -146,12 +156,36 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
     return result
 
 
+def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[Observed]) -> Solution:
+    """The solution with the covariance that errors as coloured as the residuals leave, joint by joint."""
+    C, colours = solution.covariance, _colours(solution.values, observed)
+    more = np.zeros_like(C)
+    for one in factors:
+        R = one.on(solution.names)[:, :-1] / solution.sigma[one.joint]
+        more += (colours[one.joint] - 1) * R.T @ R
+    return replace(solution, covariance=C + C @ more @ C)
+
+
+def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[int, float]:
+    """By how much the colour of each joint's residuals inflates variances, each run's own by its power."""
+    power: dict[int, float] = defaultdict(float)
+    coloured: dict[int, float] = defaultdict(float)
+    for run in observed:
+        errors: dict[int, list[Array]] = defaultdict(list)
+        for one in run.rows():
+            errors[one.joint].append(one.Y - one.W @ [values[name] for name in one.names])
+        for joint, parts in errors.items():
+            e = np.concatenate(parts)
+            power[joint] += float(e @ e)
+            coloured[joint] += float(e @ e) * inflation(e)
+    return {joint: coloured[joint] / size if size else 1.0 for joint, size in power.items()}
+
+
 def _values(
     regressors: Regressors,
     values: Mapping[str, float],
     std: Mapping[str, float],
     solution: Solution,
-    more: Mapping[str, float],
 ) -> dict[str, ParameterValue]:
     result = {}
     for parameter in regressors.model.parameters:
@@ -159,6 +193,4 @@ def _values(
         if name in values and name not in solution.hidden:
             relative = 100 * std[name] / abs(values[name]) if values[name] else None
             result[name] = ParameterValue(values[name], parameter.unit, relative)
-        elif name in more:
-            result[name] = ParameterValue(more[name], parameter.unit, note="found with the effect, not refitted")
     return result
