@@ -37,6 +37,7 @@ def bank(runs: Sequence[Any]) -> Bank:
     names = tuple(f"p{i}" for i in range(len(runs[0].sampled.motion)))
     robot = SimpleNamespace(moving=(), flexible=(), effects=(), parameter_sets={})
     regressors = SimpleNamespace(names=names, structure=[names], base=lambda motion: [motion[:, 0]])
+    regressors.model = SimpleNamespace(effects=())
     scenes: Any = [
         SimpleNamespace(regressors=regressors, robot=robot, number=r, carried=lambda motion: np.zeros(motion.shape[1:]))
         for r in range(len(runs))

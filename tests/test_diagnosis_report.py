@@ -158,7 +158,7 @@ def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:
     """The same result as if a joint was left with more than noise."""
     left = replace(named.found.after, joint=1, variable="q", region="q 0.3 to 0.4 rad")
     one = Case(found := replace(named.found, verdict=UNEXPLAINED, after=left), None, report(found))
-    assert "no effect of the library explains: joint 1 keeps more than noise, over q (q 0.3 to 0.4 rad)" in one.words
+    assert "no effect of the library explains well enough to be named: joint 1 keeps more than noise" in one.words
     assert f"What is named is therefore tentative: {found.findings[0].hypothesis.title} on joint 1" in one.words
     nameless = replace(found, findings=())
     assert "tentative" not in Case(nameless, None, report(nameless)).words

@@ -51,6 +51,8 @@ _VISIBLE = 1e-4
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
 _MAIN = 0.5
+#: Times its low end below which what vanishes there has vanished.
+_VANISHED = 1.1
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
@@ -189,7 +191,9 @@ class Weighing:
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
-        if size < floor or drop < share * unexplained:
+        if size < floor:
+            return replace(one, why_not="smaller than what is named")
+        if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         if drop < self._imperfect(variant, others):
             return replace(one, why_not="may be what another effect's law lacks")
@@ -282,6 +286,8 @@ def columns_of(chosen: Sequence[Variant]) -> list[int]:
 def _at_end(variant: Variant) -> bool:
     """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
     for shape in variant.hypothesis.shapes:
+        if shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED:
+            return True
         points = shape.grid()
         if shape.whole or shape.step or len(points) < 4 or not shape.log:
             continue

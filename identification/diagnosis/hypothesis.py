@@ -40,7 +40,8 @@ class ShapeRange:
 
     ``points`` are tried instead where they are given, even over the logarithm if ``log``; with a ``step`` (of the
     logarithm if ``log``) the search goes on anywhere in the range. ``whole`` tells that nothing lies between
-    them, ``exact`` that what fits better there is another effect.
+    them, ``exact`` that what fits better there is another effect, and ``vanishing`` that at its low end the effect is
+    another one without it.
     """
 
     name: str
@@ -53,6 +54,7 @@ class ShapeRange:
     step: float = 0.0
     whole: bool = False
     exact: bool = False
+    vanishing: bool = False
 
     def grid(self) -> list[float]:
         """The points that are tried first."""

@@ -124,8 +124,8 @@ def search(
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         left_out, jumps = jumps, acting.jumps
-        again = acting.again or (regressors.reads_load and bool(acting.variants))
-        if jumps == left_out and (not again or acting.near(before)):
+        depends = acting.again or (regressors.reads_load and bool(acting.variants))
+        if jumps == left_out and (not depends or acting.near(before)):
             break
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded

@@ -236,7 +236,7 @@ class Selection:
         for other in self.weighing.evidence(others):
             if key_of(other.variant) == key_of(one) or not self._sound(other, others) or not _agrees(other):
                 continue
-            margin = -max(_EQUAL * mine.drop, _BETTER)
+            margin = -max(_EQUAL * max(mine.drop, mine.score), _BETTER)
             springs = {one.hypothesis.effect, other.variant.hypothesis.effect} <= set(SPRINGS)
             if usual and not likely(other.variant, others) and not springs:
                 margin = _RARE / 2 * mine.drop - _BETTER

@@ -61,7 +61,8 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
 def objections(tried: Mapping[int, Untouched], elastic: Collection[int] = ()) -> list[str]:
     """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
 
-    A share is that of the torque's spread. Of joints ``elastic`` by a finding a rigid model leaves more than noise.
+    A share is that of the torque's spread. Where joints are ``elastic`` by a finding a rigid model leaves more than
+    noise, on others too, which their links' inertia couples with them.
     """
     worse = [
         f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
@@ -71,7 +72,7 @@ def objections(tried: Mapping[int, Untouched], elastic: Collection[int] = ()) ->
     lacking = [
         f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
         for number, one in tried.items()
-        if number not in elastic and rms(one.after) > _LACKING * one.floor
+        if not elastic and rms(one.after) > _LACKING * one.floor
     ]
     notes = []
     if worse:

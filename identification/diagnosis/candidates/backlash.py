@@ -59,7 +59,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
         partial(_columns, LinkSides(k)),
         shapes=(
-            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, step=_FINE),
+            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, step=_FINE, vanishing=True),
             ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),

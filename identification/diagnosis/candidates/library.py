@@ -17,6 +17,7 @@ from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRa
 from identification.diagnosis.link_side import rotor_inertia
 from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.warming import warm_up_times
 
 Array = NDArray[np.float64]
 
@@ -29,7 +30,7 @@ _CARRIES = 0.3
 _FELT = 0.01
 #: Part of a whole warming up that the runs must show.
 _WARMING = 0.2
-#: Time constant of the warmth [s] where the robot's file says nothing of it; a finding brings it into the file.
+#: A usual time constant of the warmth [s], by which the runs are judged where the robot's file says nothing of it.
 _WARM_UP = 60.0
 #: What an effect shows in, by what its columns are made of; the first that fits.
 _VARIABLES = (
@@ -100,8 +101,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []
     if "warmth" in effect.needs and not _told(k, scenes):
-        shapes.append(ShapeRange("warm_up_time", "s", _WARM_UP, _WARM_UP, points=(_WARM_UP,)))
-    tries = 1
+        shapes.append(warm_up_times(scenes))
+    tries = shapes[0].count if shapes else 1
     for shape in effect.shapes:
         if not shape.tried:
             continue

@@ -19,13 +19,12 @@ from numpy.typing import NDArray
 from generator.robot.description import Joint
 from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
+from identification.diagnosis.warming import warm_up_times
 from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
 _LARGEST = 0.6
-#: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
-_SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
 #: Of the warmth, in what part of a torque is recorded.
 _DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
@@ -42,9 +41,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         return []
     robot = scenes[0].robot
     stated = robot.drives.torque_drift if robot.drives is not None else ()
-    duration = max(float(scene.sampled.run.elapsed[-1]) for scene in scenes)
-    shortest = max(_SHORTEST * duration, _QUICK)
-    time = ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * duration, 2 * shortest))
+    time = warm_up_times(scenes)
     found = []
     for k, joint in enumerate(robot.moving):
         if stated and stated[k]:

@@ -62,8 +62,8 @@ def verdict(subject: Subject) -> Iterator[str]:
     """What is missing and where, in one paragraph."""
     found = subject.found
     if found.verdict == NOTHING:
-        yield "The model explains these runs: nothing in the library of effects improves it beyond chance,"
-        yield "and what is left on each joint is noise."
+        yield "The model explains these runs: no effect of the library that is large enough to be named improves it"
+        yield "beyond chance, and what is left on each joint is noise."
         return
     if found.verdict == NAMED:
         yield f"The model lacks {_named(found.findings)}."
@@ -75,7 +75,7 @@ def verdict(subject: Subject) -> Iterator[str]:
         else:
             yield "No joint keeps more than noise."
         return
-    yield "Something is missing in the model that no effect of the library explains:"
+    yield "Something is missing in the model that no effect of the library explains well enough to be named:"
     yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
@@ -104,7 +104,7 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
         others = [other.named for other in one.alternatives]
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
-        yield f"No other effect of the library would do in its place{' on any of them' if several else ''}."
+        yield f"No other effect of the library is as likely in its place{' on any of them' if several else ''}."
     if one.disagreement:
         yield f"Its size {one.disagreement}: it drifts, or something else makes it."
 
