@@ -217,7 +217,7 @@ def test_a_drive_is_as_warm_as_its_recording_has_made_it(robots: Callable[[str],
     t = later.sampled.times - 1e6
     assert 20 < t[0] < t[-1] < 33
     (friction,) = offered([first, later], "warm_friction", 1)
-    (shape,) = friction.variants
+    shape = friction.variants[0]
     viscous, _ = friction.columns(later, shape)
     np.testing.assert_allclose(viscous[0], (1 - np.exp(-t / shape["warm_up_time"])) * later.motion.qd[0], atol=1e-9)
     (drift,) = offered([first, later], "torque_drift", 1)
