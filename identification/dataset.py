@@ -137,6 +137,11 @@ def _parsed(source: str) -> tuple[Path, float, float]:
     return Path(match["path"]), start, end
 
 
+def beside(source: str) -> Path:
+    """Where the sidecar of the run that ``source`` names would be."""
+    return _parsed(source)[0].with_suffix(".yaml")
+
+
 def part_of(source: str, start: float, end: float) -> str:
     """The source of a part of ``source``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
     return f"{_parsed(source)[0]}@{_seconds(start)}:{_seconds(end)}"

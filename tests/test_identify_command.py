@@ -177,6 +177,24 @@ def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str
         assert done.err.splitlines()[-1] == f"error: {path}:{message}"
 
 
+@pytest.mark.parametrize("read", ["robot", "recipe", "sidecar"])
+def test_nothing_that_is_read_is_written_over(read: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out, run = folder / read, folder / read / "two_links.csv"
+    out.mkdir()
+    run.write_bytes((folder / "a.csv").read_bytes())
+    source = out / "two_links.yaml"
+    source.write_text({"robot": TWO_LINKS, "recipe": "order: 2\n", "sidecar": "robot: two_links\n"}[read])
+    robot = source if read == "robot" else folder / "two_links.yaml"
+    words = {"robot": [folder / "a.csv"], "recipe": [folder / "a.csv", "--recipe", source], "sidecar": [f"{run}@1:2"]}
+    before = source.read_text()
+    done = command("identify", robot, "--data", *words[read], "--out", out, capsys=capsys)
+    assert (done.status, done.err.strip().splitlines()[-1]) == (
+        2,
+        f"error: {source}:1:1: it would be written over {source}, which is read, expected another --out",
+    )
+    assert source.read_text() == before
+
+
 def test_the_small_robot_is_a_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (folder / "two_links.yaml").read_text() == TWO_LINKS
     assert command("check", folder / "two_links.yaml", capsys=capsys).status == 0

@@ -40,6 +40,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification import recipe as recipes
+        from identification.destination import destination
         from identification.drive_gains import drive_gains
         from identification.gains_results import save
         from identification.observation import Regressors
@@ -59,10 +60,11 @@ def run(arguments: argparse.Namespace) -> None:
     recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
+        runs = [*arguments.empty, *arguments.loaded]
+        folder = destination(arguments.out, f"{robot.name}_gains", robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     with stage(f"identifying the drive gains from {len(arguments.empty) + len(arguments.loaded)} runs"):
         found = drive_gains(robot, arguments.empty, arguments.loaded, payload, stds, recipe, regressors)
-    folder = arguments.out or Path("identified") / f"{robot.name}_gains"
     files = save(found, path, folder, {REPORT: report(found)})
     print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")

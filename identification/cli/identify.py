@@ -77,6 +77,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification.consistent_fit import consistent_fit, doubts
+        from identification.destination import destination
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.report.identify.report import report
@@ -90,6 +91,8 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
+        runs = [*arguments.data, *arguments.test]
+        folder = destination(arguments.out, robot.name, robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     options = _options(arguments, regressors)
     with stage(f"identifying from {len(arguments.data)} runs"):
@@ -103,7 +106,6 @@ def run(arguments: argparse.Namespace) -> None:
                 found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
-    folder = arguments.out or Path("identified") / robot.name
     variations: list[Variation] = []
     if arguments.sensitivity:
         with stage("trying other filters"):

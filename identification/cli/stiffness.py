@@ -46,6 +46,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
+        from identification.destination import destination
         from identification.recipe import read as recipe_of
         from identification.report.page import REPORT
         from identification.report.stiffness.report import report
@@ -55,6 +56,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     path = find_robot(arguments.robot)
     robot = read(path)
+    folder = destination(arguments.out, f"{robot.name}_stiffness", robot, (path, arguments.recipe), arguments.data)
     prior = {} if arguments.prior is None else _prior(arguments.prior, robot)
     method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
     own = method.RECIPE
@@ -72,7 +74,6 @@ def run(arguments: argparse.Namespace) -> None:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
             values, document = dict(locked.essential), stiffness_results.of_locked(locked)
             found = locked
-    folder = arguments.out or Path("identified") / f"{robot.name}_stiffness"
     files = stiffness_results.save(document, values, robot, path, folder, {REPORT: report(found, document)})
     total = document["residual"]["train"]["total"]
     lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]
