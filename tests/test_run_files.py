@@ -115,6 +115,11 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     side.write_text("robot: other\n")
     with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
         load(str(path), robot)
+    side.write_text("columns:\n  t: time / 1000\n  qmm1: -q1\n")
+    with pytest.raises(
+        InputError, match=r"a.yaml:3:3: column qmm1 means nothing, expected one of t, q1.., qm1.., tau1.."
+    ):
+        load(str(path), robot)
     side.write_text("payload: {M: 3 m}\n")
     with pytest.raises(InputError, match=r"a.yaml:1:\d+: 'm' is the wrong unit"):
         load(str(path), robot)
