@@ -71,6 +71,18 @@ def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]
     assert done.status == 0
 
 
+def test_a_consistent_set_of_an_earlier_identification_is_told(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    note = "the set identified_consistent in the robot file is of an earlier identification"
+    assert identified(folder, capsys).status == 0
+    (folder / "before.yaml").write_text((folder / "out" / "two_links.yaml").read_text())
+    words = ["identify", folder / "before.yaml", "--data", folder / "a.csv", "--out", folder / "again"]
+    assert f"note: {note}\n" not in command(*words, capsys=capsys).out
+    assert f"note: {note}\n" in command(*words, "--no-consistent", capsys=capsys).out
+    assert note in json.loads((folder / "again" / "results.json").read_text())["notes"]
+
+
 def test_identifying_twice_gives_the_same_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     identified(folder, capsys)
     first = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}

@@ -82,7 +82,7 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.observation import Regressors
         from identification.report.identify.report import report
         from identification.report.page import REPORT
-        from identification.results import save
+        from identification.results import older_sets, save
         from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
@@ -106,6 +106,7 @@ def run(arguments: argparse.Namespace) -> None:
                 found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
+    found = replace(found, notes=(*found.notes, *older_sets(found, consistent)))
     variations: list[Variation] = []
     if arguments.sensitivity:
         with stage("trying other filters"):
