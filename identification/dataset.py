@@ -108,11 +108,11 @@ def load(
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
     path, start, end = _parsed(source)
+    recording = readers.read(path)
     beside = sidecar.read(path)
     if beside.robot and beside.robot != robot.name:
         place = Place(str(path.with_suffix(".yaml")))
         raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
-    recording = readers.read(path)
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)

@@ -15,6 +15,7 @@ from generator.robot.readers import text_of, yaml
 from identification.formula import Formula, formulas
 
 _UNKNOWN = "unknown"
+_KIND = "the sidecar of a run"
 #: SI units of the ten parameters by stem.
 UNITS = {stem: unit for stem, unit, _ in INERTIAL}
 
@@ -63,7 +64,7 @@ def read(run: Path) -> Sidecar:
     if not path.is_file():
         return Sidecar()
     file = str(path)
-    root = yaml.read(text_of(path, file, "the sidecar of a run"), file)
+    root = yaml.read(text_of(path, file, _KIND), file, _KIND)
     keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
     payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(

@@ -177,6 +177,7 @@ def test_bad_words_are_refused(words: tuple[str, str], folder: Path, capsys: pyt
 
 def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for text, message in (
+        ("", "1:1: the file is empty, expected a recipe"),
         ("cutof: 3\n", "1:1: unknown key 'cutof' in the recipe, expected perhaps 'cutoff'"),
         ("dynamics: 0\n", "1:11: dynamics is 0, expected a positive number"),
         ("order: 0\n", "1:8: order is 0, expected at least 1"),

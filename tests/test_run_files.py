@@ -112,6 +112,15 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     assert same(run, good)
     assert run.payload is not None
     assert (run.payload.name, run.payload.known, run.payload.sought[-2:]) == ("L", {"M": 0.5}, ("MY", "MZ"))
+    for content, message in (
+        ("", "the file is empty, expected the sidecar of a run"),
+        ("{", "the sidecar of a run in YAML"),
+    ):
+        side.write_text(content)
+        with pytest.raises(InputError, match=rf"a.yaml:1:\d: .*{message}"):
+            load(str(path), robot)
+    with pytest.raises(InputError, match=r"a.yaml:1:1: a run file ending in '.yaml', expected a run in .csv"):
+        load(str(side), robot)
     side.write_text("robot: other\n")
     with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
         load(str(path), robot)
