@@ -74,7 +74,7 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
     path = written(tmp_path, ZZ1R=7220.15, XX2R=None)
     done = command("compare", "kr500:report_table_11", f"{path}:essential", "--out", tmp_path / "c", capsys=capsys)
     assert done.status == 0
-    assert "1 parameters in common; 1 of 1 with a std agree within 2 std" in done.out
+    assert "1 parameter in common; 1 of 1 with a std agree within 2 std" in done.out
     contents = json.loads((tmp_path / "c" / "comparison.json").read_text())
     one = contents["parameters"]["ZZ1R"]
     assert one["difference_percent"] == pytest.approx(100 * 0.15 / 7220)

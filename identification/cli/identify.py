@@ -17,6 +17,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -95,7 +96,7 @@ def run(arguments: argparse.Namespace) -> None:
         folder = destination(arguments.out, robot.name, robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     options = _options(arguments, regressors)
-    with stage(f"identifying from {len(arguments.data)} runs"):
+    with stage(f"identifying from {plural(len(arguments.data), 'run')}"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
     consistent = None
     if arguments.consistent:
@@ -220,8 +221,7 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
         for kind, result in (("train", estimate.train), ("test", estimate.test)):
             if result is None:
                 continue
-            each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(result.per_joint.items()))
-            total = result.total
+            each, total = result.by_joint(), result.total
             lines.append(
                 f"{title}, {kind}: ||e|| {total.norm:.7g}, ||e||/||Y|| {total.relative:.4f} %, "
                 f"||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})"

@@ -17,6 +17,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -61,7 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
     method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
     own = method.RECIPE
     recipe = own if arguments.recipe is None else recipe_of(arguments.recipe)
-    with stage(f"identifying stiffness from {len(arguments.data)} runs"):
+    with stage(f"identifying stiffness from {plural(len(arguments.data), 'run')}"):
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
             values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
