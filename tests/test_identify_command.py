@@ -83,6 +83,12 @@ def test_a_consistent_set_of_an_earlier_identification_is_told(
     assert note in json.loads((folder / "again" / "results.json").read_text())["notes"]
 
 
+def test_a_cutoff_above_the_highest_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    note = "a.csv: the cut-off is 90 Hz, the highest at 200 Hz, not 120 Hz"
+    assert note in identified(folder, capsys, "--cutoff", "120").out
+    assert "the cut-off is" not in identified(folder, capsys, "--cutoff", "80").out
+
+
 def test_identifying_twice_gives_the_same_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     identified(folder, capsys)
     first = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
@@ -162,6 +168,8 @@ REFUSED = {
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
+    ("--bootstrap", "0"): "error: --bootstrap:1:1: 0 draws, expected 50 to 100000",
+    ("--payload", "M=-3"): "error: --payload:1:1: M=-3, expected a number that is not negative",
     ("--bootstrap", "3"): "error: --bootstrap:1:1: 3 draws, expected 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
     ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",

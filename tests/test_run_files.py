@@ -129,6 +129,9 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
         InputError, match=r"a.yaml:3:3: column qmm1 means nothing, expected one of t, q1.., qm1.., tau1.."
     ):
         load(str(path), robot)
+    side.write_text("payload: {M: -500 g}\n")
+    with pytest.raises(InputError, match=r"a.yaml:1:14: M=-0.5, expected a number that is not negative"):
+        load(str(path), robot)
     side.write_text("payload: {M: 3 m}\n")
     with pytest.raises(InputError, match=r"a.yaml:1:\d+: 'm' is the wrong unit"):
         load(str(path), robot)

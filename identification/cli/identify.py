@@ -51,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
-    method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
+    method.add_argument("--bootstrap", metavar="N", type=int, help="std by a block bootstrap of N draws")
     method.add_argument(
         "--essential",
         metavar="RATIO",
@@ -138,7 +138,7 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),
         robust=arguments.robust,
-        draws=_draws(arguments.bootstrap),
+        draws=0 if arguments.bootstrap is None else _draws(arguments.bootstrap),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
@@ -181,7 +181,7 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
 
 
 def _draws(count: int) -> int:
-    if count and not 50 <= count <= 100_000:
+    if not 50 <= count <= 100_000:
         raise InputError(command_line("--bootstrap"), f"{count} draws", "50 to 100000")
     return count
 
