@@ -74,7 +74,11 @@ class Comparison:
 
 
 def compare(a: Parameters, b: Parameters) -> Comparison:
-    """``b`` measured by ``a``. Raises InputError for a parameter in two units, and where nothing is in common."""
+    """``b`` measured by ``a``, as base parameters where one of them has standard ones alone and the other has not.
+
+    Raises InputError for a parameter in two units, and where nothing is in common.
+    """
+    a, b = a.beside(b), b.beside(a)
     names = dict.fromkeys([*a.values, *b.values])
     result = {name: Difference(name, a.values.get(name), b.values.get(name)) for name in names}
     for one in result.values():

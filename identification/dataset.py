@@ -108,11 +108,11 @@ def load(
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
     path, start, end = _parsed(source)
+    recording = readers.read(path)
     beside = sidecar.read(path)
     if beside.robot and beside.robot != robot.name:
         place = Place(str(path.with_suffix(".yaml")))
         raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
-    recording = readers.read(path)
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
@@ -135,6 +135,11 @@ def _parsed(source: str) -> tuple[Path, float, float]:
     except ValueError:
         raise InputError(Place(source), "this is no part of a run", "FILE@FROM:TO with times in s") from None
     return Path(match["path"]), start, end
+
+
+def beside(source: str) -> Path:
+    """Where the sidecar of the run that ``source`` names would be."""
+    return _parsed(source)[0].with_suffix(".yaml")
 
 
 def part_of(source: str, start: float, end: float) -> str:

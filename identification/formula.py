@@ -14,6 +14,7 @@ from generator.errors import InputError
 from generator.robot import fields
 from generator.robot.document import Entry, Text
 from identification.recording import Array, Recording
+from identification.signals import NAMES, meant
 
 
 @dataclass(frozen=True)
@@ -39,11 +40,13 @@ class Formula:
 
 
 def formulas(entry: Entry | None) -> dict[str, Formula]:
-    """The formulas of a table ``columns``; raises InputError for what is not an expression."""
+    """The formulas of a table ``columns``; raises InputError for a name without a meaning and for no expression."""
     if entry is None:
         return {}
     result = {}
     for name, one in fields.named(entry.value, "columns").items():
+        if not meant(name):
+            raise InputError(one.key, f"column {name} means nothing", f"one of {NAMES}")
         text = fields.text(one.value, f"column {name}", "an expression over the file's columns")
         result[name] = Formula(expressions.parse(text.content, text.inside or text.place), text)
     return result

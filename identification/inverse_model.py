@@ -104,7 +104,7 @@ def identify(
         for sources in (data, test)
     )
     payloads = _known_payloads(trained, tried)
-    notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot)]
+    notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
     regressors, aside = under_own_load(
         [one.sampled for one in trained],
         given,
@@ -212,9 +212,13 @@ def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], tes
     return Estimate(solution, problem.names, residuals(train, solution.values), tried)
 
 
-def _notes_on(one: Observed, robot: Robot) -> list[str]:
+def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
     notes = list(one.sampled.run.notes)
     name = one.sampled.run.name
+    cutoff = one.sampled.filters.cutoff
+    if recipe.cutoff is not None and cutoff < recipe.cutoff:
+        rate = f"the highest at {one.sampled.run.rate:.6g} Hz"
+        notes.append(f"{name}: the cut-off is {cutoff:.6g} Hz, {rate}, not {recipe.cutoff:g} Hz")
     for factor in one.factors:
         number, still = robot.moving[factor.joint].number, factor.joint in one.sampled.still
         if still:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from generator.derivation import derive
 from generator.errors import InputError, Place
 from generator.resources import find_robot
-from generator.robot.description import ParameterValue
+from generator.robot.description import ParameterSet, ParameterValue, Robot
 from generator.robot.fields import nearest
 from generator.robot.readers import read
+from generator.symbolic.parameter_sets import resolved
 from identification.recording import digest
 
 _JSON = ".json"
@@ -33,12 +35,20 @@ class Known:
 
 @dataclass(frozen=True)
 class Parameters:
-    """Values by name, and where they come from: ``name`` as asked for, ``file`` with its ``sha256``."""
+    """Values by name, and where they come from: ``name`` as asked for, ``file`` with its ``sha256``.
+
+    ``base`` are the base parameters that standard ones make, None where ``values`` are base parameters themselves.
+    """
 
     name: str
     file: str
     sha256: str
     values: Mapping[str, Known]
+    base: Mapping[str, Known] | None = None
+
+    def beside(self, other: Parameters) -> Parameters:
+        """With base parameters in place of standard ones where ``other`` has no standard ones."""
+        return self if self.base is None or other.base is not None else replace(self, values=self.base)
 
 
 def parameters(source: str) -> Parameters:
@@ -61,12 +71,19 @@ def _of_results(source: str, path: Path, model: str) -> Parameters:
     if model not in _MODELS:
         raise InputError(place, f"results have no model {model!r}", ", ".join(_MODELS))
     found: Any = _json(path)
-    for key in (*_MODELS[model], "parameters"):
+    for key in _MODELS[model]:
         found = found.get(key) if isinstance(found, dict) else None
-    if not isinstance(found, dict):
+    values, base = (_entries(found, key, place) for key in ("parameters", "base_parameters"))
+    if values is None:
         raise InputError(place, f"there are no parameters of the {model} model", "results.json of an identification")
-    values = {str(name): _entry(one, str(name), place) for name, one in found.items()}
-    return Parameters(source, str(path), digest(path), values)
+    return Parameters(source, str(path), digest(path), values, base)
+
+
+def _entries(found: Any, key: str, place: Place) -> dict[str, Known] | None:
+    entries = found.get(key) if isinstance(found, dict) else None
+    if not isinstance(entries, dict):
+        return None
+    return {str(name): _entry(one, str(name), place) for name, one in entries.items()}
 
 
 def _json(path: Path) -> Any:
@@ -109,7 +126,24 @@ def _of_robot(source: str, name: str, wanted: str) -> Parameters:
     one = robot.parameter_sets[wanted]
     values = {key: _known(value) for key, value in {**one.values, **one.other_values}.items()}
     path = Path(find_robot(name))
-    return Parameters(source, str(path), digest(path), values)
+    return Parameters(source, str(path), digest(path), values, _base(robot, one, values))
+
+
+def _base(robot: Robot, one: ParameterSet, values: Mapping[str, Known]) -> dict[str, Known] | None:
+    """The ``values`` of a set with its standard parameters made base ones; None where it has none to make.
+
+    A parameter that is grouped has no standard deviation: those of its parts depend on each other.
+    """
+    model = derive(robot, names=(), check=False)
+    names = {parameter.name for parameter in model.all_parameters}
+    if names.issuperset(one.values):
+        return None
+    numbers = resolved(model, one.values)
+    base = {
+        parameter.name: values.get(parameter.name, Known(numbers[parameter.name], None, parameter.unit))
+        for parameter in model.base_parameters
+    }
+    return base | {name: value for name, value in values.items() if name in one.other_values}
 
 
 def _known(one: ParameterValue) -> Known:

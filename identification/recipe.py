@@ -35,6 +35,7 @@ _ENDS = 5.0
 #: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
 STANDSTILL = {REVOLUTE: 0.03, PRISMATIC: 0.005}
 JOINT, NONE = "joint", "none"
+_KIND = "a recipe"
 PARAMETERS, SAMPLES = "parameters", "samples"
 
 
@@ -133,7 +134,7 @@ def recipe_of(robot: str) -> Recipe:
 def read(path: Path) -> Recipe:
     """The recipe that a YAML file says; raises InputError, with line and column, for what no recipe has."""
     file = str(path)
-    root = yaml.read(text_of(path, file, "a recipe"), file)
+    root = yaml.read(text_of(path, file, _KIND), file, _KIND)
     names = [one.name for one in of_class(Recipe)]
     keys = fields.table(root, "the recipe", (), ("description", *names))
     values: dict[str, object] = {"columns": formulas(keys.get("columns"))}

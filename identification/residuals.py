@@ -50,6 +50,11 @@ class Residuals:
         )
         return Residual(sum(one.rows for one in each), norm, torque, spread)
 
+    def by_joint(self, digits: str = ".1f") -> str:
+        """||e|| / ||Y - mean(Y)|| in % of one joint after the other, ``-`` for one without rows."""
+        each = (one for _, one in sorted(self.per_joint.items()))
+        return " ".join(f"{one.relative_to_mean:{digits}}" if one.rows else "-" for one in each)
+
 
 def residuals(factors: Sequence[Factor], values: Mapping[str, float]) -> Residuals:
     """What ``values`` of all parameters leave of the rows behind ``factors``."""

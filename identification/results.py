@@ -112,6 +112,13 @@ def parameter_sets(found: Identification, consistent: ConsistentFit | None = Non
     return tuple(sets)
 
 
+def older_sets(found: Identification, consistent: ConsistentFit | None = None) -> list[str]:
+    """A note on a set that the robot file has of another identification and keeps: it may have been the prior."""
+    if consistent is not None or CONSISTENT not in found.robot.parameter_sets:
+        return []
+    return [f"the set {CONSISTENT} in the robot file is of an earlier identification"]
+
+
 def _set(estimate: Estimate, units: Mapping[str, str]) -> dict[str, ParameterValue]:
     """Values of the estimated parameters of the robot and of those fixed at other values than zero."""
     solution, result = estimate.solution, {}

@@ -15,8 +15,10 @@ from generator.robot.readers import text_of, yaml
 from identification.formula import Formula, formulas
 
 _UNKNOWN = "unknown"
+_KIND = "the sidecar of a run"
 #: SI units of the ten parameters by stem.
 UNITS = {stem: unit for stem, unit, _ in INERTIAL}
+_NOT_NEGATIVE = ("XX", "YY", "ZZ", "M")
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ def read(run: Path) -> Sidecar:
     if not path.is_file():
         return Sidecar()
     file = str(path)
-    root = yaml.read(text_of(path, file, "the sidecar of a run"), file)
+    root = yaml.read(text_of(path, file, _KIND), file, _KIND)
     keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
     payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(
@@ -88,8 +90,16 @@ def _payload(entry: Entry) -> Payload | None:
         if stem in keys:
             text = fields.text(keys[stem].value, f"{stem} of the payload", f"a value in {unit}, or {_UNKNOWN}")
             if text.content != _UNKNOWN:
-                known[stem] = float(fields.quantity(text, f"{stem} of the payload", unit).value)
+                value = float(fields.quantity(text, f"{stem} of the payload", unit).value)
+                known[stem] = _possible(stem, value, text.place)
     return Payload(name, known)
+
+
+def _possible(stem: str, value: float, place: Place) -> float:
+    """``value`` [SI] itself; raises InputError for a mass or a moment of inertia that is negative."""
+    if value < 0 and stem in _NOT_NEGATIVE:
+        raise InputError(place, f"{stem}={value:g}", "a number that is not negative")
+    return value
 
 
 def given(words: Sequence[str], place: Place) -> Payload:
@@ -101,7 +111,7 @@ def given(words: Sequence[str], place: Place) -> Payload:
         if stem == "name":
             name = value
         elif stem in UNITS:
-            known[stem] = float(expressions.parse_number(value, place))
+            known[stem] = _possible(stem, float(expressions.parse_number(value, place)), place)
         else:
             raise InputError(place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}")
     if not name.isalpha() or len(name) > 8:

@@ -19,8 +19,16 @@ EFFORTS = ("tau", "taum", "i")
 #: What a run may hold beside, one column a joint.
 FURTHER = ("qs", "qd", "qr", "temp")
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
+#: All names of columns that mean something, as a person reads them.
+NAMES = ", ".join(["t", *(f"{stem}1.." for stem in (*POSITIONS, *EFFORTS, *FURTHER)), *WRENCH])
 
 _NUMBERED = re.compile(r"([A-Za-z]+)(0|[1-9]\d*)\Z")
+
+
+def meant(name: str) -> bool:
+    """Whether a column of this name means something, on a robot with joints enough."""
+    match = _NUMBERED.match(name)
+    return name in ("t", *WRENCH) or (match is not None and match[1] in (*POSITIONS, *EFFORTS, *FURTHER))
 
 
 class NoColumns(InputError):

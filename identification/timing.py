@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.errors import InputError
+from generator.review.words import plural
 from identification.recording import Array, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
@@ -36,7 +37,7 @@ def clock(recording: Recording, first: int = 0) -> Clock:
         raise InputError(recording.where(None, "t"), "there is no column t", "times in s")
     t = recording.columns["t"]
     if len(t) < 3:
-        raise InputError(recording.where(None, "t"), f"{len(t)} rows", "a run")
+        raise InputError(recording.where(None, "t"), plural(len(t), "row"), "a run")
     steps = np.diff(t)
     bad = np.flatnonzero(~(steps > 0))
     if bad.size:

@@ -89,7 +89,7 @@ def test_refusal(old: str, new: str, message: str, tmp_path: Path) -> None:
 def test_empty_file(content: str, tmp_path: Path) -> None:
     file = tmp_path / "arm.yaml"
     file.write_text(content, encoding="utf-8")
-    assert re.fullmatch(rf"{re.escape(str(file))}:\d:1: the file is empty, expected a robot", _refusal(file))
+    assert re.fullmatch(rf"{re.escape(str(file))}:\d:1: the file is empty, expected a robot file", _refusal(file))
 
 
 def test_binary_file(tmp_path: Path) -> None:

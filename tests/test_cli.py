@@ -147,7 +147,7 @@ def test_list_shows_every_robot_with_its_sets(capsys: pytest.CaptureFixture[str]
 
 def test_check_says_that_a_file_is_good(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = command("check", pendulum, capsys=capsys)
-    assert done.out == f"{pendulum}: pendulum is good: 1 moving joints, 5 base parameters, 1 parameter sets\n"
+    assert done.out == f"{pendulum}: pendulum is good: 1 moving joint, 5 base parameters, 1 parameter set\n"
     assert done.status == 0
 
 

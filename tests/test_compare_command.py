@@ -8,6 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from generator.derivation import derive
+from generator.resources import find_robot
+from generator.robot.readers import read
+from generator.symbolic.parameter_sets import resolved
 from identification.comparison import compare
 from identification.parameter_source import Known, Parameters, parameters
 from tests.commands import command
@@ -28,6 +32,18 @@ def test_table_14_of_the_report() -> None:
     assert set(TABLE_14) <= set(percent)
     for name, printed in TABLE_14.items():
         assert percent[name] == pytest.approx(printed, rel=0.005, abs=0.25), name
+
+
+def test_standard_parameters_become_base_ones_beside_base_ones() -> None:
+    robot = read(find_robot("kr500"))
+    base = resolved(derive(robot, names=(), check=False), robot.parameter_sets["twin"].values)
+    found = compare(parameters("kr500:report_table_13"), parameters("kr500:twin")).differences
+    assert all(found[name].b is not None for name in ("ZZ1R", "XX2R", "MX3R", "Fv1"))
+    assert {name: one.b.value for name, one in found.items() if one.b is not None} == {n: base[n] for n in found}
+    assert "XX2" not in found
+    alone = compare(parameters("kr500:twin"), parameters("kr500:twin")).differences
+    assert alone.keys() >= {"XX2", "M2"}
+    assert "XX2R" not in alone
 
 
 def of(**values: Known) -> Parameters:
@@ -58,7 +74,7 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
     path = written(tmp_path, ZZ1R=7220.15, XX2R=None)
     done = command("compare", "kr500:report_table_11", f"{path}:essential", "--out", tmp_path / "c", capsys=capsys)
     assert done.status == 0
-    assert "1 parameters in common; 1 of 1 with a std agree within 2 std" in done.out
+    assert "1 parameter in common; 1 of 1 with a std agree within 2 std" in done.out
     contents = json.loads((tmp_path / "c" / "comparison.json").read_text())
     one = contents["parameters"]["ZZ1R"]
     assert one["difference_percent"] == pytest.approx(100 * 0.15 / 7220)

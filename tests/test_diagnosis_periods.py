@@ -167,6 +167,13 @@ def test_short_runs_test_too_and_that_is_said() -> None:
     assert "tells nothing new" in found.notes[0]
 
 
+@pytest.mark.parametrize(("samples", "untouched"), [(19990, False), (20000, True)])
+def test_twenty_seconds_have_an_end_that_tests(samples: int, untouched: bool) -> None:
+    """The last sample is a period before the end."""
+    q = np.sin(0.005 * np.arange(samples))[None]
+    assert roles([Run("A", Place("A"), 0.0, 0.001, q, np.zeros_like(q))], [], []).untouched == untouched
+
+
 @pytest.mark.parametrize("seconds", [2.2, 3.0, 4.5, 40.0])
 def test_a_single_run_is_cut_into_blocks_with_gaps(seconds: float) -> None:
     found = roles([recorded("A", start=5.0, seconds=seconds)], [], [recorded("T")])

@@ -71,6 +71,24 @@ def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]
     assert done.status == 0
 
 
+def test_a_consistent_set_of_an_earlier_identification_is_told(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    note = "the set identified_consistent in the robot file is of an earlier identification"
+    assert identified(folder, capsys).status == 0
+    (folder / "before.yaml").write_text((folder / "out" / "two_links.yaml").read_text())
+    words = ["identify", folder / "before.yaml", "--data", folder / "a.csv", "--out", folder / "again"]
+    assert f"note: {note}\n" not in command(*words, capsys=capsys).out
+    assert f"note: {note}\n" in command(*words, "--no-consistent", capsys=capsys).out
+    assert note in json.loads((folder / "again" / "results.json").read_text())["notes"]
+
+
+def test_a_cutoff_above_the_highest_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    note = "a.csv: the cut-off is 90 Hz, the highest at 200 Hz, not 120 Hz"
+    assert note in identified(folder, capsys, "--cutoff", "120").out
+    assert "the cut-off is" not in identified(folder, capsys, "--cutoff", "80").out
+
+
 def test_identifying_twice_gives_the_same_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     identified(folder, capsys)
     first = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
@@ -150,6 +168,8 @@ REFUSED = {
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
+    ("--bootstrap", "0"): "error: --bootstrap:1:1: 0 draws, expected 50 to 100000",
+    ("--payload", "M=-3"): "error: --payload:1:1: M=-3, expected a number that is not negative",
     ("--bootstrap", "3"): "error: --bootstrap:1:1: 3 draws, expected 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
     ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
@@ -165,6 +185,7 @@ def test_bad_words_are_refused(words: tuple[str, str], folder: Path, capsys: pyt
 
 def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for text, message in (
+        ("", "1:1: the file is empty, expected a recipe"),
         ("cutof: 3\n", "1:1: unknown key 'cutof' in the recipe, expected perhaps 'cutoff'"),
         ("dynamics: 0\n", "1:11: dynamics is 0, expected a positive number"),
         ("order: 0\n", "1:8: order is 0, expected at least 1"),
@@ -175,6 +196,24 @@ def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str
         done = identified(folder, capsys, "--recipe", str(path))
         assert done.status == 2
         assert done.err.splitlines()[-1] == f"error: {path}:{message}"
+
+
+@pytest.mark.parametrize("read", ["robot", "recipe", "sidecar"])
+def test_nothing_that_is_read_is_written_over(read: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out, run = folder / read, folder / read / "two_links.csv"
+    out.mkdir()
+    run.write_bytes((folder / "a.csv").read_bytes())
+    source = out / "two_links.yaml"
+    source.write_text({"robot": TWO_LINKS, "recipe": "order: 2\n", "sidecar": "robot: two_links\n"}[read])
+    robot = source if read == "robot" else folder / "two_links.yaml"
+    words = {"robot": [folder / "a.csv"], "recipe": [folder / "a.csv", "--recipe", source], "sidecar": [f"{run}@1:2"]}
+    before = source.read_text()
+    done = command("identify", robot, "--data", *words[read], "--out", out, capsys=capsys)
+    assert (done.status, done.err.strip().splitlines()[-1]) == (
+        2,
+        f"error: {source}:1:1: it would be written over {source}, which is read, expected another --out",
+    )
+    assert source.read_text() == before
 
 
 def test_the_small_robot_is_a_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,6 +6,7 @@ import math
 import re
 import sys
 from collections.abc import Iterator
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from generator.review.page import sections
 from identification.observation import Motion
 from identification.report import series
 from identification.report.identify.report import report
-from identification.report.identify.sections import condition
+from identification.report.identify.sections import condition, summary
 from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, Subject
 from identification.report.welch import spectrum
 from tests.recorded import TRUTH
@@ -139,6 +140,19 @@ def test_residuals_row_by_row_have_the_norms_of_the_factors(subject: Subject) ->
                 rows = [run.torques[k].residual(model) for run in subject.runs if run.held_out is held_out]
                 assert sum(map(len, rows)) == one["rows"]
                 assert np.linalg.norm(np.concatenate(rows)) == pytest.approx(one["norm"], rel=1e-6)
+
+
+@pytest.mark.parametrize(("key", "told"), [("relative_to_mean_percent", False), ("norm", True)])
+def test_held_out_rows_are_worse_by_what_they_leave_not_by_what_moves_there(
+    subject: Subject, key: str, told: bool
+) -> None:
+    results = deepcopy(dict(subject.results))
+    held_out = results["residual"]["test"]
+    for one in (held_out["total"], *held_out["per_joint"]):
+        one[key] *= 3
+    verdict = str(summary.render(replace(subject, results=results)))
+    assert ("the fitted runs do not show all that matters" in verdict) == told
+    assert not told or re.search(r"A row held out leaves [23][.\d]* times as much torque", verdict)
 
 
 def test_rows_know_where_the_joint_was(subject: Subject) -> None:

@@ -112,8 +112,25 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     assert same(run, good)
     assert run.payload is not None
     assert (run.payload.name, run.payload.known, run.payload.sought[-2:]) == ("L", {"M": 0.5}, ("MY", "MZ"))
+    for content, message in (
+        ("", "the file is empty, expected the sidecar of a run"),
+        ("{", "the sidecar of a run in YAML"),
+    ):
+        side.write_text(content)
+        with pytest.raises(InputError, match=rf"a.yaml:1:\d: .*{message}"):
+            load(str(path), robot)
+    with pytest.raises(InputError, match=r"a.yaml:1:1: a run file ending in '.yaml', expected a run in .csv"):
+        load(str(side), robot)
     side.write_text("robot: other\n")
     with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
+        load(str(path), robot)
+    side.write_text("columns:\n  t: time / 1000\n  qmm1: -q1\n")
+    with pytest.raises(
+        InputError, match=r"a.yaml:3:3: column qmm1 means nothing, expected one of t, q1.., qm1.., tau1.."
+    ):
+        load(str(path), robot)
+    side.write_text("payload: {M: -500 g}\n")
+    with pytest.raises(InputError, match=r"a.yaml:1:14: M=-0.5, expected a number that is not negative"):
         load(str(path), robot)
     side.write_text("payload: {M: 3 m}\n")
     with pytest.raises(InputError, match=r"a.yaml:1:\d+: 'm' is the wrong unit"):
@@ -223,8 +240,63 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
         ":41:1: 4 fields in a row, 5 names in the header, expected a complete row; is the file cut off",
     ),
     "empty line": (lambda text: text.replace("\n0.1,", "\n\n0.1,", 1), ":22:1: the line is empty"),
+    "decimal comma between commas": (lambda text: text.replace("\n0.1,", '\n"0,1",', 1), ":22:1: t is '0,1', expected"),
+    "both marks": (
+        lambda text: text.replace(",", ";").replace("\n0.1;", "\n1.000,1;", 1),
+        ":22:1: t is '1.000,1', expected a number",
+    ),
+    "two marks": (
+        lambda text: text.replace(",", ";").replace("\n0.1;", "\n0,1;", 1),
+        ":22:1: t is '0,1', expected a number with '.', as in the rows before",
+    ),
+    "unit": (
+        lambda text: "# a\n" + text.replace("q2", "q2 [deg]", 1),
+        r":2:6: column name 'q2 \[deg\]', expected a name of letters, digits and _, such as q1, in rad; q1_deg with "
+        r"'columns: {q1: q1_deg \* pi / 180}' in the sidecar",
+    ),
+    "other name": (
+        lambda text: text.replace("q2", "Pos 2", 1),
+        r":1:6: column name 'Pos 2', expected a name of letters, digits and _, such as q1\Z",
+    ),
+    "a field too many": (
+        lambda text: text.replace("\n", ",\n").replace(",\n", ",7\n", 3).replace(",7\n", ",\n", 2),
+        ":3:1: 6 fields in a row, 5 names in the header",
+    ),
     "underscore": (lambda text: text.replace("\n0.1,", "\n0_1,", 1), ":22:1: t is '0_1', expected a number"),
 }
+
+
+def decimal_commas(text: str, separator: str) -> str:
+    return text.replace(",", separator).replace(".", ",")
+
+
+FORMS: dict[str, Callable[[str], str]] = {
+    "decimal commas": lambda text: decimal_commas(text, ";"),
+    "tabs and decimal commas": lambda text: decimal_commas(text, "\t"),
+    "semicolons and decimal points": lambda text: text.replace(",", ";"),
+    "comments": lambda text: "# arm 2\n% 7 May; warm, 30 C\n\n" + text,
+    "separator said": lambda text: "sep=;\n" + decimal_commas(text, ";"),
+    "empty lines at the end": lambda text: text + "\n \n",
+    "empty rows at the end": lambda text: text + ",,,,\n,,,,\n",
+    "separators at the end": lambda text: text.replace("\n", ",\n"),
+    "separators at the end of rows": lambda text: text.replace("\n", ",\n").replace(",\n", "\n", 1),
+    "separator at the end of the header": lambda text: text.replace("\n", ",\n", 1),
+    "quotes": lambda text: '"' + text.replace(",", '","').replace("\n", '"\n"')[:-1],
+    "quotes and decimal commas": lambda text: '"' + decimal_commas(text, '";"').replace("\n", '"\n"')[:-1],
+    "line ends": lambda text: text.replace("\n", "\r\n"),
+}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("form", FORMS)
+def test_texts_of_other_forms_say_the_same(
+    form: str, encoding: str, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    path = tmp_path / "other.csv"
+    path.write_bytes(FORMS[form](text_of(good, tmp_path)).encode(encoding))
+    run = load(str(path), robot)
+    assert same(run, good)
+    assert not run.notes
 
 
 @pytest.mark.parametrize("name", TEXTS)

@@ -6,6 +6,7 @@ import argparse
 
 from generator.cli.progress import stage
 from generator.resources import find_robot
+from generator.review.words import plural
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +26,6 @@ def run(arguments: argparse.Namespace) -> None:
         model = derive(robot, names=())
         resolved_sets(model)
     print(
-        f"{path}: {robot.name} is good: {len(robot.moving)} moving joints, "
-        f"{len(model.base_parameters)} base parameters, {len(robot.parameter_sets)} parameter sets"
+        f"{path}: {robot.name} is good: {plural(len(robot.moving), 'moving joint')}, "
+        f"{plural(len(model.base_parameters), 'base parameter')}, {plural(len(robot.parameter_sets), 'parameter set')}"
     )

@@ -17,6 +17,7 @@ from generator.units import parse_unit
 
 #: Unit of a value that the file gives as a number alone: the parameter's own, in SI.
 UNSTATED = ""
+_KIND = "a file of parameter values"
 
 
 def read(path: Path) -> dict[str, ParameterValue]:
@@ -24,7 +25,7 @@ def read(path: Path) -> dict[str, ParameterValue]:
 
     Raises InputError, with line and column, for what is not a table of finite numbers.
     """
-    root = yaml.read(text_of(path, str(path), "a file of parameter values"), str(path))
+    root = yaml.read(text_of(path, str(path), _KIND), str(path), _KIND)
     return {name: _value(name, entry) for name, entry in fields.named(root, "the parameter file").items()}
 
 

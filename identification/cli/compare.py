@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.errors import InputError
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from identification.comparison import Comparison, Difference
@@ -54,7 +55,9 @@ def _table(found: Comparison) -> str:
     common = list(found.common)
     told = [one for one in common if one.agrees is not None]
     agreeing = sum(1 for one in told if one.agrees)
-    lines.append(f"{len(common)} parameters in common; {agreeing} of {len(told)} with a std agree within 2 std")
+    lines.append(
+        f"{plural(len(common), 'parameter')} in common; {agreeing} of {len(told)} with a std agree within 2 std"
+    )
     return "\n".join(lines)
 
 

@@ -69,8 +69,8 @@ def tested(new: Mended | None) -> list[str]:
     lines = [f"note: {note}" for note in new.notes]
     for kind, played in (("before", new.before), ("after", new.after)):
         found = together(played)
-        each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.per_joint.items()))
-        lines.append(f"test, {kind + ':':<10} ||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %, by joint {each}")
+        total = f"||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %"
+        lines.append(f"test, {kind + ':':<10} {total}, by joint {found.by_joint()}")
     return lines
 
 

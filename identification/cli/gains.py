@@ -16,6 +16,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from identification.drive_gains import DriveGains
@@ -40,6 +41,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification import recipe as recipes
+        from identification.destination import destination
         from identification.drive_gains import drive_gains
         from identification.gains_results import save
         from identification.observation import Regressors
@@ -59,10 +61,11 @@ def run(arguments: argparse.Namespace) -> None:
     recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
+        runs = [*arguments.empty, *arguments.loaded]
+        folder = destination(arguments.out, f"{robot.name}_gains", robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
-    with stage(f"identifying the drive gains from {len(arguments.empty) + len(arguments.loaded)} runs"):
+    with stage(f"identifying the drive gains from {plural(len(arguments.empty) + len(arguments.loaded), 'run')}"):
         found = drive_gains(robot, arguments.empty, arguments.loaded, payload, stds, recipe, regressors)
-    folder = arguments.out or Path("identified") / f"{robot.name}_gains"
     files = save(found, path, folder, {REPORT: report(found)})
     print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")
@@ -76,7 +79,6 @@ def _summary(found: DriveGains) -> str:
     lines += [f"note: {note}" for note in (*found.notes, *refusals(found))]
     lines += outcome.table({**gains(found), **parameters(found)})
     lines.append(f"second smallest singular value over the smallest: {found.separation:.4g}")
-    each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(found.residuals.per_joint.items()))
-    total = found.residuals.total
+    each, total = found.residuals.by_joint(), found.residuals.total
     lines.append(f"||e||/||Y|| {total.relative:.4f} %, ||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})")
     return "\n".join(lines)

@@ -17,6 +17,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -50,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     method = parser.add_argument_group("method")
     method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
-    method.add_argument("--bootstrap", metavar="N", type=int, default=0, help="std by a block bootstrap of N draws")
+    method.add_argument("--bootstrap", metavar="N", type=int, help="std by a block bootstrap of N draws")
     method.add_argument(
         "--essential",
         metavar="RATIO",
@@ -77,11 +78,12 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification.consistent_fit import consistent_fit, doubts
+        from identification.destination import destination
         from identification.inverse_model import identify
         from identification.observation import Regressors
         from identification.report.identify.report import report
         from identification.report.page import REPORT
-        from identification.results import save
+        from identification.results import older_sets, save
         from identification.sensitivity import sensitivity
     except ModuleNotFoundError as error:
         extra = "pip install 'counterpoise[identification]'"
@@ -90,9 +92,11 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
+        runs = [*arguments.data, *arguments.test]
+        folder = destination(arguments.out, robot.name, robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     options = _options(arguments, regressors)
-    with stage(f"identifying from {len(arguments.data)} runs"):
+    with stage(f"identifying from {plural(len(arguments.data), 'run')}"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
     consistent = None
     if arguments.consistent:
@@ -103,7 +107,7 @@ def run(arguments: argparse.Namespace) -> None:
                 found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
             except ValueError as error:
                 found = replace(found, notes=(*found.notes, str(error)))
-    folder = arguments.out or Path("identified") / robot.name
+    found = replace(found, notes=(*found.notes, *older_sets(found, consistent)))
     variations: list[Variation] = []
     if arguments.sensitivity:
         with stage("trying other filters"):
@@ -134,7 +138,7 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),
         robust=arguments.robust,
-        draws=_draws(arguments.bootstrap),
+        draws=0 if arguments.bootstrap is None else _draws(arguments.bootstrap),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
@@ -177,7 +181,7 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
 
 
 def _draws(count: int) -> int:
-    if count and not 50 <= count <= 100_000:
+    if not 50 <= count <= 100_000:
         raise InputError(command_line("--bootstrap"), f"{count} draws", "50 to 100000")
     return count
 
@@ -217,8 +221,7 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
         for kind, result in (("train", estimate.train), ("test", estimate.test)):
             if result is None:
                 continue
-            each = " ".join(f"{one.relative_to_mean:.1f}" for _, one in sorted(result.per_joint.items()))
-            total = result.total
+            each, total = result.by_joint(), result.total
             lines.append(
                 f"{title}, {kind}: ||e|| {total.norm:.7g}, ||e||/||Y|| {total.relative:.4f} %, "
                 f"||e||/||Y - mean|| {total.relative_to_mean:.2f} % ({each})"

@@ -50,6 +50,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     try:
+        from identification.destination import destination
         from identification.output_error.multi_start import output_error
         from identification.output_error.results import save, summary
         from identification.report.output_error.report import report
@@ -61,8 +62,9 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)
+        runs = [*arguments.data, *arguments.test]
+        folder = destination(arguments.out, f"{robot.name}_output_error", robot, (path, arguments.recipe), runs)
         settings = _settings(arguments, robot)
-    folder = arguments.out or Path("identified") / f"{robot.name}_output_error"
     with executors.opened(arguments) as executor, counter("starts") as counted:
         found = output_error(
             robot, arguments.data, arguments.test, settings, arguments.starts, executor, folder, counted

@@ -19,6 +19,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 from generator.writing import spare
 
 if TYPE_CHECKING:
@@ -104,7 +105,7 @@ def run(arguments: argparse.Namespace) -> None:
             found = simulate(machine, settings, progress)
     files = save(found, robot.name, robot.digest, out)
     rows = len(found.columns["t"])
-    print(f"{robot.name}: {rows} rows of {', '.join(found.columns)}")
+    print(f"{robot.name}: {plural(rows, 'row')} of {', '.join(found.columns)}")
     print(f"files            {', '.join(map(str, files))}")
 
 

@@ -17,6 +17,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -46,6 +47,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     try:
         from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
+        from identification.destination import destination
         from identification.recipe import read as recipe_of
         from identification.report.page import REPORT
         from identification.report.stiffness.report import report
@@ -55,11 +57,12 @@ def run(arguments: argparse.Namespace) -> None:
 
     path = find_robot(arguments.robot)
     robot = read(path)
+    folder = destination(arguments.out, f"{robot.name}_stiffness", robot, (path, arguments.recipe), arguments.data)
     prior = {} if arguments.prior is None else _prior(arguments.prior, robot)
     method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
     own = method.RECIPE
     recipe = own if arguments.recipe is None else recipe_of(arguments.recipe)
-    with stage(f"identifying stiffness from {len(arguments.data)} runs"):
+    with stage(f"identifying stiffness from {plural(len(arguments.data), 'run')}"):
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
             values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
@@ -72,7 +75,6 @@ def run(arguments: argparse.Namespace) -> None:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
             values, document = dict(locked.essential), stiffness_results.of_locked(locked)
             found = locked
-    folder = arguments.out or Path("identified") / f"{robot.name}_stiffness"
     files = stiffness_results.save(document, values, robot, path, folder, {REPORT: report(found, document)})
     total = document["residual"]["train"]["total"]
     lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]

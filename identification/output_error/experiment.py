@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from generator.review.words import plural
 from generator.robot.description import Robot
 from identification.dataset import Run
 from identification.filtering import derivative, smoothed
@@ -80,7 +81,7 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) ->
     count = samples // length if length > 0 else 0
     if samples < _FEWEST * stride or not count:
         wanted = filters.first + filters.last + max(length, _FEWEST * stride)
-        raise InputError(run.place, f"{run.samples} rows", f"at least {wanted} for the filters and one segment")
+        raise InputError(run.place, plural(run.samples, "row"), f"at least {wanted} for the filters and one segment")
     smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     speed = derivative(smooth, run.period)
     torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate)

@@ -109,8 +109,7 @@ def summary(found: OutputError) -> list[str]:
     lines.append(f"smallest eigenvalue of M(q) {best.eigenvalues.min():.4g}, at least {best.margin:.4g}")
     for kind, of in (("train", best.train), ("test", best.test)):
         if of is not None:
-            each = " ".join(f"{one.relative_to_mean:.2g}" for _, one in sorted(of.per_joint.items()))
-            total = of.total
+            each, total = of.by_joint(".2g"), of.total
             lines.append(
                 f"positions, {kind}: ||e|| {total.norm:.4g}, ||e||/||q|| {total.relative:.3g} %, "
                 f"||e||/||q - mean|| {total.relative_to_mean:.3g} % ({each})"

@@ -1,6 +1,7 @@
 """Runs as text: a header row with the columns' names, then a row of numbers a sample.
 
-Fields are separated by commas, semicolons, or tabs, whichever the header has; numbers have decimal points.
+Fields are separated by commas, semicolons, or tabs, whichever the header has; where not by commas, a comma may be the
+decimal mark of all numbers. Lines before the header that begin with # or % say nothing.
 """
 
 from __future__ import annotations
@@ -14,105 +15,97 @@ import numpy as np
 
 from generator.errors import InputError, Place
 from identification.recording import Array, Recording, digest
+from identification.text_form import Form, decimal_mark, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")
 
-_SEPARATORS = (",", ";", "\t")
-_CHUNK = 1 << 20
+_HEADER = "a header row with the columns' names"
+_NAME = "a name of letters, digits and _, such as q1"
+#: A unit is never taken from a name: what a sidecar does not say is in SI units.
+_UNIT = f"{_NAME}, in rad; q1_deg with 'columns: {{q1: q1_deg * pi / 180}}' in the sidecar"
 
 
 @dataclass(frozen=True)
 class _Layout:
     file: str
-    names: tuple[str, ...]
-    separator: str
+    form: Form
 
     def place(self, row: int | None, column: str) -> Place:
         """Where the field of ``column`` starts in the line of ``row``, of the header if None."""
-        line = 1 if row is None else row + 2
-        with Path(self.file).open(encoding="utf-8-sig", errors="replace") as stream:
+        names = self.form.names
+        return self.at(row, names.index(column) if column in names else 0)
+
+    def at(self, row: int | None, k: int) -> Place:
+        """Where field ``k`` starts."""
+        form = self.form
+        line = form.header + (1 if row is None else row + 2)
+        with form.path.open(encoding=form.encoding, errors="replace") as stream:
             text = next(islice(stream, line - 1, None), "")
-        before = text.split(self.separator)[: self.names.index(column)] if column in self.names else []
-        return Place(self.file, line, 1 + sum(len(field) + 1 for field in before))
+        return Place(self.file, line, 1 + sum(len(field) + 1 for field in text.split(form.separator)[:k]))
 
 
 def read(path: Path) -> Recording:
     """The columns of a text file; raises InputError, with line and column, for what is not a number."""
     file = str(path)
     layout = _layout(file, path)
-    lines, complete = _lines(path)
+    form = layout.form
+    rows, complete = form.extent()
     notes: tuple[str, ...] = ()
-    rows: int | None = None
-    if not complete and lines > 1:
-        notes = (f"{file}:{lines}: the last line has no end and is left out, the file may be cut off there",)
-        rows = lines - 2
-    if lines < 2 or rows == 0:
-        return Recording(file, {name: np.empty(0) for name in layout.names}, digest(path), layout.place, notes)
+    if not complete:
+        line = form.header + 1 + rows
+        notes = (f"{file}:{line}: the last line has no end and is left out, the file may be cut off there",)
+        rows -= 1
+    if not rows:
+        return Recording(file, {name: np.empty(0) for name in form.names}, digest(path), layout.place, notes)
     try:
-        with path.open(encoding="utf-8-sig") as stream:
-            values = np.loadtxt(
-                stream, delimiter=layout.separator, skiprows=1, ndmin=2, comments=None, max_rows=rows, dtype=float
-            )
+        values = np.loadtxt(
+            form.rows(rows), delimiter=form.separator, ndmin=2, comments=None, quotechar='"', dtype=float
+        )
     except ValueError as error:
-        _find_fault(path, layout, str(error))
-    if rows is None and len(values) != lines - 1:
-        _find_fault(path, layout, "a line is empty")
-    if values.shape[1] != len(layout.names):
-        _find_fault(path, layout, f"{values.shape[1]} fields a row, {len(layout.names)} names")
-    columns: dict[str, Array] = dict(zip(layout.names, np.ascontiguousarray(values.T), strict=True))
+        _find_fault(layout, rows, str(error))
+    if len(values) != rows:
+        _find_fault(layout, rows, "a line is empty")
+    if values.shape[1] != len(form.names):
+        _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(form.names)} names")
+    columns: dict[str, Array] = dict(zip(form.names, np.ascontiguousarray(values.T), strict=True))
     return Recording(file, columns, digest(path), layout.place, notes)
 
 
 def _layout(file: str, path: Path) -> _Layout:
     try:
-        with path.open(encoding="utf-8-sig") as stream:
-            header = stream.readline(1 << 16).rstrip("\r\n")
-    except UnicodeDecodeError:
-        raise InputError(Place(file), "this is not a text in UTF-8", "a header row with the columns' names") from None
-    separator = max(_SEPARATORS, key=header.count)
-    names = tuple(name.strip().strip('"') for name in header.split(separator))
-    layout = _Layout(file, names, separator)
-    if not header.strip():
-        raise InputError(Place(file), "the file is empty", "a header row with the columns' names")
+        layout = _Layout(file, form(path))
+    except UnicodeError:
+        raise InputError(Place(file), "this is not a text in UTF-8", _HEADER) from None
+    names = layout.form.names
+    if names == ("",):
+        raise InputError(Place(file), "the file is empty", _HEADER)
     for k, name in enumerate(names):
-        column = 1 + sum(len(field) + 1 for field in header.split(separator)[:k])
         if not re.match(r"[A-Za-z]\w*\Z", name):
-            raise InputError(Place(file, 1, column), f"column name {name!r}", "a header row with the columns' names")
+            expected = _UNIT if re.search(r"[\[(]", name) else _NAME
+            header = name and not layout.form.is_number(name)
+            raise InputError(layout.at(None, k), f"column name {name!r}", expected if header else _HEADER)
         if name in names[:k]:
-            raise InputError(Place(file, 1, column), f"column {name} is there twice", "each column once")
+            raise InputError(layout.at(None, k), f"column {name} is there twice", "each column once")
     return layout
 
 
-def _lines(path: Path) -> tuple[int, bool]:
-    """The number of lines, and whether the last one is ended."""
-    count, last = 0, b"\n"
-    with path.open("rb") as stream:
-        while chunk := stream.read(_CHUNK):
-            count += chunk.count(b"\n")
-            last = chunk[-1:]
-    return count + (last != b"\n"), last == b"\n"
-
-
-def _find_fault(path: Path, layout: _Layout, problem: str) -> None:
+def _find_fault(layout: _Layout, rows: int, problem: str) -> None:
     """Raises InputError at the first field that is not a number."""
-    with path.open(encoding="utf-8-sig", errors="replace") as stream:
-        for row, text in enumerate(islice(stream, 1, None)):
-            fields = text.rstrip("\r\n").split(layout.separator)
-            if not text.strip():
-                raise InputError(Place(layout.file, row + 2), "the line is empty", "a row of numbers")
-            for name, field in zip(layout.names, fields, strict=False):
-                if not _is_number(field):
-                    problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
-                    raise InputError(layout.place(row, name), problem, "a number")
-            if len(fields) != len(layout.names):
-                problem = f"{len(fields)} fields in a row, {len(layout.names)} names in the header"
-                raise InputError(Place(layout.file, row + 2), problem, "a complete row; is the file cut off?")
+    form, mark = layout.form, ""
+    for row, text in enumerate(islice(form.lines(), rows)):
+        line = form.header + row + 2
+        if not text.strip():
+            raise InputError(Place(layout.file, line), "the line is empty", "a row of numbers")
+        fields = split(text, form.separator)
+        for name, field in zip(form.names, fields, strict=False):
+            mark = mark or decimal_mark(field)
+            if not form.is_number(field):
+                problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
+                raise InputError(layout.place(row, name), problem, "a number")
+            if form.separator != "," and other_marks(field, mark):
+                problem = f"{name} is {field.strip()!r}"
+                raise InputError(layout.place(row, name), problem, f"a number with {mark!r}, as in the rows before")
+        if len(fields) != len(form.names):
+            problem = f"{len(fields)} fields in a row, {len(form.names)} names in the header"
+            raise InputError(Place(layout.file, line), problem, "a complete row; is the file cut off?")
     raise InputError(Place(layout.file), problem, "rows of numbers under a header")
-
-
-def _is_number(field: str) -> bool:
-    try:
-        float(field)
-    except ValueError:
-        return False
-    return "_" not in field

@@ -27,38 +27,38 @@ _MAX_NODES = 20_000
 _MAX_WORD = 4096
 
 _OVERLONG = re.compile(rf"[^\s\[\]{{}},]{{{_MAX_WORD + 1}}}")
-_YAML = "a robot file in YAML"
 
 
-def read(text: str, file: str) -> Node:
-    """The tree that ``text`` says; ``file`` is its name in messages.
+def read(text: str, file: str, of: str = "a robot file") -> Node:
+    """The tree that ``text`` says; ``file`` is its name in messages, ``of`` what it should be.
 
     Raises InputError, at its line and column, for anything but one YAML document of plain tables, lists and scalars
     with no key given twice.
     """
-    _check_size(text, file)
+    expected = f"{of} in YAML"
+    _check_size(text, file, expected)
     try:
-        return _Builder(file, text).document()
+        return _Builder(file, text, of).document()
     except MarkedYAMLError as error:
         unclosed = "end of stream" in (error.problem or "")
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         place = Place(file, mark.line + 1, mark.column + 1) if mark else Place(file)
-        raise InputError(place, f"not YAML: {_one_line(error.problem or error.context)}", _YAML) from None
+        raise InputError(place, f"not YAML: {_one_line(error.problem or error.context)}", expected) from None
     except ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
         column = error.position - text.rfind("\n", 0, error.position)
-        raise InputError(Place(file, line, column), f"not YAML: character {error.character!r}", _YAML) from None
+        raise InputError(Place(file, line, column), f"not YAML: character {error.character!r}", expected) from None
     except (YAMLError, ValueError) as error:
-        raise InputError(Place(file), f"not YAML: {_one_line(str(error))}", _YAML) from None
+        raise InputError(Place(file), f"not YAML: {_one_line(str(error))}", expected) from None
 
 
-def _check_size(text: str, file: str) -> None:
+def _check_size(text: str, file: str, expected: str) -> None:
     if len(text) > _MAX_CHARACTERS:
         raise InputError(Place(file), f"the file has {len(text)} characters", f"at most {_MAX_CHARACTERS}")
     if match := _OVERLONG.search(text):
         start = match.start()
         place = Place(file, text.count("\n", 0, start) + 1, start - text.rfind("\n", 0, start))
-        raise InputError(place, f"a word of more than {_MAX_WORD} characters", _YAML)
+        raise InputError(place, f"a word of more than {_MAX_WORD} characters", expected)
 
 
 def _one_line(text: str | None) -> str:
@@ -68,8 +68,9 @@ def _one_line(text: str | None) -> str:
 class _Builder:
     """The tree from the parser's events."""
 
-    def __init__(self, file: str, text: str) -> None:
+    def __init__(self, file: str, text: str, of: str) -> None:
         self._file = file
+        self._of = of
         self._events: Iterator[Any] = YAML(typ="safe", pure=True).parse(text)
         self._nodes = 0
 
@@ -77,14 +78,14 @@ class _Builder:
         next(self._events)
         start = next(self._events)
         if _kind(start) == "StreamEnd":
-            raise InputError(Place(self._file), "the file is empty", "a robot")
+            raise InputError(Place(self._file), "the file is empty", self._of)
         root = self._node(next(self._events), 0)
         if isinstance(root, Text) and not root.content:
-            raise InputError(root.place, "the file is empty", "a robot")
+            raise InputError(root.place, "the file is empty", self._of)
         next(self._events)
         following = next(self._events)
         if _kind(following) != "StreamEnd":
-            raise InputError(self._place(following.start_mark), "a second document", "one robot in a file")
+            raise InputError(self._place(following.start_mark), "a second document", "one document in a file")
         return root
 
     def _node(self, event: Any, depth: int) -> Node:
