@@ -23,7 +23,7 @@ _RANK = 1e-7
 #: Rows that a column may use up: with more columns only the strongest directions are taken away.
 _ROWS = 8
 #: Rows below which a column may use up more of them: columns are slow, and would take all that noise has there.
-_LONG = 4000
+_LONG = 1500
 #: Rows of noise of the usual power that every run is taken to have beside its own.
 _DOUBT = 200
 #: Times that the colour is estimated, each from rows made white by the last.

@@ -12,6 +12,8 @@ from identification.diagnosis.scene import Scene
 LOWEST = 5
 #: Peaks that are returned, and the least distance to the neighbours that a peak is compared with.
 _PEAKS, _NEIGHBOURS = 4, 10
+#: Waves along the way below which a ripple is no other than any torque of the position.
+_WAVES = 2.0
 #: Neighbours, and orders within which only one peak counts, in widths of a peak.
 _AROUND, _APART = 2.5, 0.5
 #: Samples of a run that are looked at.
@@ -47,4 +49,5 @@ def likely_orders(scenes: Sequence[Scene], k: int, last: int) -> tuple[float, ..
     around = np.array([np.median(power[max(0, i - near) : i + near + 1]) for i in range(len(power))])
     peak = power / np.maximum(around, 1e-300)
     top = [i for i in np.argsort(-peak) if peak[i] == peak[max(0, i - apart) : i + apart + 1].max()]
+    top = [i for i in top if orders[i] > _WAVES * wide]
     return tuple(sorted(float(orders[i]) for i in top[:_PEAKS]))
