@@ -33,3 +33,11 @@ def test_nothing_is_gained_by_what_single_runs_hardly_show() -> None:
     weighing = Weighing(one, TRAIN, VALIDATE, None)
     gain = weighing.gain(one.variants[0], [])
     assert gain == pytest.approx(60.0**2 * float(np.sum(steep[2] ** 2)), rel=0.3)
+
+
+def test_a_joint_has_one_balancer() -> None:
+    """Though two together would do better: no robot file has them."""
+    data = Data(14)
+    first, second = data.column(), data.column()
+    offered = [fixed("gas_balancer", first), fixed("spring_balancer", second)]
+    assert names(search(data.bank(3.0 * first + 2.8 * second, offered))) == {"gas_balancer"}

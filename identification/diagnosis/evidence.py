@@ -228,7 +228,8 @@ class Weighing:
             return least
         for other, drop in zip(others, self._drops(others), strict=True):
             if {variant.hypothesis.effect, other.hypothesis.effect} <= set(BALANCERS):
-                least = max(least, _SECOND * drop)
+                # A robot file has one on a joint.
+                least = np.inf if variant.hypothesis.joint == other.hypothesis.joint else max(least, _SECOND * drop)
             elif set(other.joints) & set(variant.joints) and not common(other):
                 alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
                 # What a delay of the whole robot explains is not of one joint.
