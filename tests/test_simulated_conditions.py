@@ -81,7 +81,8 @@ def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine
 
 
 REFUSED = {
-    ("--payload", "M=-1"): "--payload:1:1: a mass of -1 kg, expected M=MASS above 0 in kg",
+    ("--payload", "M=-1"): "--payload:1:1: M=-1, expected a number that is not negative",
+    ("--payload", "M=0"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
     ("--payload", "MX=1"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
     ("--payload", "weight=3"): "--payload:1:1: payload value 'weight=3', expected NAME=VALUE with one of ",
     ("--payload", "M=2", "MX=1", "YY=0.1"): "--payload:1:1: inertias that are too small for its moments, ",
