@@ -22,8 +22,6 @@ Array = NDArray[np.float64]
 _RANK = 1e-7
 #: Rows that a column may use up: with more columns only the strongest directions are taken away.
 _ROWS = 8
-#: Rows below which a column may use up more of them: columns are slow, and would take all that noise has there.
-_LONG = 1500
 #: Rows of noise of the usual power that every run is taken to have beside its own.
 _DOUBT = 200
 #: Times that the colour is estimated, each from rows made white by the last.
@@ -99,7 +97,7 @@ def _explained(gram: Array, base: int, rows: int) -> tuple[Array, int]:
 
     The first ``base`` columns are those of the model, which all count if there are rows enough.
     """
-    most = max(int(rows / _ROWS * min(rows / _LONG, 1.0)), 1)
+    most = max(rows // _ROWS, 1)
     base = base if base < most else 0
     B = inverse(gram[:base, :base])
     S = gram[base:, base:] - gram[base:, :base] @ B @ gram[:base, base:]
