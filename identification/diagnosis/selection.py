@@ -151,22 +151,10 @@ class Selection:
         return chosen
 
     def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
-        """What should stand in the place of ``mine``: clearly better, or common and nearly as good as what is not.
-
-        What is rare must be better than what is common in the fitted runs and in the others.
-        """
-        usual = likely(mine.variant, others)
+        """What should stand in the place of ``mine``, whichever of the two came first."""
         for one in self._rivals(mine, others):
             one = self._whole(one, others)
-            if not self._sound(one, others):
-                continue
-            margin, rare = _BETTER, not likely(one.variant, others)
-            if usual and rare:
-                margin += _RARE * mine.drop
-            elif not usual and not rare:
-                margin -= _RARE * mine.drop
-            fits = not (usual and rare) or one.bic > mine.bic + margin
-            if not mine.passes or (fits and one.score > mine.score + margin):
+            if self._sound(one, others) and (not mine.passes or _displaces(one, mine, others)):
                 return one
         return None
 
@@ -249,3 +237,19 @@ def _agrees(one: Evidence) -> bool:
     """Whether what its coefficients and its shape tell of the same may be of one thing."""
     agrees = one.variant.hypothesis.agrees
     return agrees is None or agrees(one.coefficients, one.variant.shape)
+
+
+def _displaces(one: Evidence, mine: Evidence, others: Sequence[Variant]) -> bool:
+    """Whether ``one`` is clearly better; what is common gives way to what is not only for much more, and takes its
+    place back for less.
+    """
+    usual, mine_usual = (likely(each.variant, others) for each in (one, mine))
+    if usual == mine_usual:
+        return one.score > mine.score + _BETTER
+    return not _outweighs(mine, one) if usual else _outweighs(one, mine)
+
+
+def _outweighs(rare: Evidence, usual: Evidence) -> bool:
+    """Whether what is rare explains more than what is common by far, in the fitted runs and with the others."""
+    margin = _BETTER + _RARE * usual.drop
+    return rare.bic > usual.bic + margin and rare.score > usual.score + margin
