@@ -35,10 +35,11 @@ class HeldOut:
         """
         gained = promised = 0.0
         for fewer, more in self._turns:
-            for runs, sign in ((more, 1.0), (fewer, -1.0)):
-                part, size = self._part(runs, variant, chosen)
-                gained += sign * bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)[1]
-                promised += sign * float(coefficients @ part[:-1, :-1] @ coefficients)
+            whole, size = self._part(more, variant, chosen)
+            part, _ = self._part(fewer, variant, chosen)
+            x, drop = bounded(whole[:-1, :-1], whole[:-1, -1], *variant.bounds, size)
+            gained += drop - _drop(part, np.flatnonzero(x))
+            promised += float(coefficients @ (whole - part)[:-1, :-1] @ coefficients)
         return gained, promised
 
     def _part(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> tuple[Array, Array]:
@@ -64,3 +65,9 @@ class HeldOut:
         if self._prior is not None:
             result = result + self._prior.products(rows, columns, self._bank.count)
         return np.asarray(result)
+
+
+def _drop(part: Array, used: NDArray[np.intp]) -> float:
+    """What the columns ``used`` in all runs together lower the sum of squares by: others would be another model."""
+    b = part[used, -1]
+    return float(b @ inverse(part[np.ix_(used, used)]) @ b)
