@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
-from generator.errors import InputError
 from generator.review.words import plural
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from identification.comparison import Comparison, Difference
@@ -29,13 +29,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Compares and prints a row a parameter."""
-    try:
+    with needing(command_line("counterpoise compare")):
         from identification.comparison import compare
         from identification.comparison_results import save
         from identification.parameter_source import parameters
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise compare"), f"{error.name} is not installed", extra) from None
 
     found = compare(parameters(arguments.a), parameters(arguments.b))
     print(_table(found))

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import stage
-from generator.errors import InputError
 from generator.resources import find_robot
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
@@ -42,13 +42,10 @@ def run(arguments: argparse.Namespace) -> None:
     """Diagnoses, writes the results, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise diagnose")):
         from identification.diagnosis.command import Request, diagnosed
         from identification.report.diagnose.report import report
         from identification.report.page import REPORT
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise diagnose"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):

@@ -17,6 +17,7 @@ from generator.cli.progress import bar, stage
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.writing import spare
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -66,14 +67,11 @@ def run(arguments: argparse.Namespace) -> None:
     """Designs, writes the files, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise excite")):
         from identification.excitation.results import BESIDE, RUN, save
         from identification.observation import Regressors
         from identification.report.excite.report import report
         from identification.report.page import REPORT
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise excite"), f"{error.name} is not installed", extra) from None
 
     _check(arguments)
     path = find_robot(arguments.robot)

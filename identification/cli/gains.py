@@ -17,6 +17,7 @@ from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from identification.drive_gains import DriveGains
@@ -39,7 +40,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Identifies, writes the results, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise gains")):
         from identification import recipe as recipes
         from identification.destination import destination
         from identification.drive_gains import drive_gains
@@ -48,9 +49,6 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.report.gains.report import report
         from identification.report.page import REPORT
         from identification.sidecar import given
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise gains"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     payload = None if arguments.payload is None else given(arguments.payload, command_line("--payload"))

@@ -18,6 +18,7 @@ from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -76,7 +77,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Identifies, writes the results, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise identify")):
         from identification.consistent_fit import consistent_fit, doubts
         from identification.destination import destination
         from identification.inverse_model import identify
@@ -85,9 +86,6 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.report.page import REPORT
         from identification.results import older_sets, save
         from identification.sensitivity import sensitivity
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise identify"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):

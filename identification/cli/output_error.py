@@ -16,6 +16,7 @@ from generator.cli.progress import counter, stage
 from generator.errors import InputError
 from generator.resources import find_robot
 from identification import executors
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -49,15 +50,12 @@ def run(arguments: argparse.Namespace) -> None:
     """Identifies, writes the results, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise output-error")):
         from identification.destination import destination
         from identification.output_error.multi_start import output_error
         from identification.output_error.results import save, summary
         from identification.report.output_error.report import report
         from identification.report.page import REPORT
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise output-error"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     with stage(f"deriving the model of {path.stem}"):

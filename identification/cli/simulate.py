@@ -21,6 +21,7 @@ from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
 from generator.writing import spare
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from identification.simulation.settings import Settings
@@ -79,14 +80,11 @@ def run(arguments: argparse.Namespace) -> None:
     """Simulates, writes the run and its sidecar, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise simulate")):
         from identification.simulation.checks import check
         from identification.simulation.machine import compiled
         from identification.simulation.run_file import files_of, save
         from identification.simulation.simulate import simulate
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise simulate"), f"{error.name} is not installed", extra) from None
 
     settings = _settings(arguments)
     path = find_robot(arguments.robot)

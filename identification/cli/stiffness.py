@@ -18,6 +18,7 @@ from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.extras import needing
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
@@ -45,15 +46,12 @@ def run(arguments: argparse.Namespace) -> None:
     """Identifies, writes the results, prints a summary."""
     from generator.robot.readers import read
 
-    try:
+    with needing(command_line("counterpoise stiffness")):
         from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
         from identification.destination import destination
         from identification.recipe import read as recipe_of
         from identification.report.page import REPORT
         from identification.report.stiffness.report import report
-    except ModuleNotFoundError as error:
-        extra = "pip install 'counterpoise[identification]'"
-        raise InputError(command_line("counterpoise stiffness"), f"{error.name} is not installed", extra) from None
 
     path = find_robot(arguments.robot)
     robot = read(path)

@@ -9,6 +9,7 @@ from typing import Any
 
 from generator.cli.place import command_line
 from generator.errors import InputError
+from identification.extras import needing
 
 OPTION = "--scheduler"
 METAVAR = "ADDRESS"
@@ -46,11 +47,8 @@ class Cluster:
 @contextmanager
 def opened(text: str) -> Iterator[Cluster]:
     """The executor; raises InputError where nothing answers at the address, or dask is not installed."""
-    try:
+    with needing(command_line(OPTION), "cluster"):
         distributed: Any = importlib.import_module("distributed")
-    except ModuleNotFoundError:
-        extra = "pip install 'counterpoise[cluster]'"
-        raise InputError(command_line(OPTION), "distributed is not installed", extra) from None
     try:
         client = distributed.Client(text, timeout=_ANSWER, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from generator.errors import InputError, Place
+from identification.extras import needing
 from identification.recording import Array, Recording, digest
 
 EXTENSIONS = (".parquet",)
@@ -15,13 +16,9 @@ EXTENSIONS = (".parquet",)
 def read(path: Path) -> Recording:
     """The columns; a missing value is NaN. Raises InputError for a damaged file and a column that is not of numbers."""
     file = str(path)
-    try:
+    with needing(Place(file)):
         import pyarrow
         from pyarrow import parquet
-    except ModuleNotFoundError:
-        raise InputError(
-            Place(file), "pyarrow is not installed", "pip install 'counterpoise[identification]'"
-        ) from None
     try:
         table = parquet.read_table(path)
     except pyarrow.ArrowException as error:
