@@ -12,10 +12,13 @@ from scipy.interpolate import make_interp_spline
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
+from identification.drive_train import constants, coupling, driven
 from identification.recording import Array
 
 #: What a file states for joints that no motion limits or warms [A, K].
 NEVER = 1e6
+#: Part of a limit by which rounding, to torques and back, may take a current that is at it below.
+_REACHED = 1e-9
 
 
 def true_positions(q: Array, robot: Robot) -> Array:
@@ -79,7 +82,7 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     drift = drives.torque_drift if drives is not None else ()
     if not (signals.torque_gain or signals.torque_delay or drift):
         return tau
-    N = _coupling(robot)
+    N = coupling(robot)
     motor = np.asarray(np.linalg.solve(N.T, tau), dtype=float)
     if signals.torque_gain:
         motor = _column(signals.torque_gain) * motor
@@ -121,10 +124,8 @@ def saturated(tau: Array, robot: Robot) -> NDArray[np.bool_] | None:
         return None
     if drives is None or not drives.torque_constants:
         raise InputError(robot.place, "current_limit without torque constants", "torque_constants in drives")
-    constants = np.array([[float(kt)] for kt in drives.torque_constants[drives.torque_constant]])
-    current = np.linalg.solve(_coupling(robot).T, tau) / constants
-    beyond = np.abs(current) >= _column(limit) * (1 - 1e-9)
-    return np.asarray((_coupling(robot).T != 0).astype(int) @ beyond.astype(int) > 0)
+    current = np.linalg.solve(coupling(robot).T, tau) / constants(robot)[:, None]
+    return driven(robot, np.abs(current) >= _column(limit) * (1 - _REACHED))
 
 
 def moved(unusable: NDArray[np.bool_], robot: Robot, period: float) -> NDArray[np.bool_]:
@@ -169,10 +170,3 @@ def _earlier(x: Array, delays: Sequence[sympy.Expr], period: float) -> Array:
 
 def _column(values: Sequence[sympy.Expr]) -> Array:
     return np.array([[float(value)] for value in values])
-
-
-def _coupling(robot: Robot) -> Array:
-    """N (n x n), of motors over joints; one to one where there are no drives."""
-    if robot.drives is None:
-        return np.eye(len(robot.moving))
-    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])

@@ -17,6 +17,7 @@ from scipy.interpolate import make_interp_spline
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from identification import checks, corrections, readers, sidecar
+from identification.drive_train import driven
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
 from identification.sidecar import Payload, Sidecar
@@ -25,7 +26,6 @@ from identification.signals import (
     FURTHER,
     POSITIONS,
     WRENCH,
-    Measured,
     joint_positions,
     joint_torques,
     measured,
@@ -210,8 +210,8 @@ def _run(
         notes.append(f"{where(None, 't')}: times are uneven; samples were interpolated to {ticks.rate:.6g} Hz")
         q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
     unusable = checks.left_out(stretches, tau.shape)
-    if unusable is not None:
-        unusable = _on_joints(unusable, effort, robot)
+    if unusable is not None and effort.stem != "tau":
+        unusable = driven(robot, unusable)
     place = where(None, "t")
     began = {name: value for name, value in beginning.began.items() if name == "t" or name.startswith("temp")}
     run = Run(
@@ -262,13 +262,4 @@ def _evened(ticks: Clock, x: Array) -> Array:
     assert t is not None
     even = np.clip(ticks.start + ticks.period * np.arange(len(t)), t[0], t[-1])
     result: Array = make_interp_spline(t, x, axis=-1)(even)
-    return result
-
-
-def _on_joints(unusable: NDArray[np.bool_], effort: Measured, robot: Robot) -> NDArray[np.bool_]:
-    """A motor's samples are those of all joints that it drives."""
-    if effort.stem == "tau" or robot.drives is None:
-        return unusable
-    drives = np.array([[entry != 0 for entry in row] for row in robot.drives.coupling])
-    result: NDArray[np.bool_] = (drives.T.astype(int) @ unusable.astype(int)) > 0
     return result

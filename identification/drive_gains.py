@@ -106,6 +106,8 @@ def drive_gains(
     values of the payload show in no torque.
     """
     recipe = recipe or recipes.recipe_of(robot.name)
+    if robot.drives is None:
+        raise InputError(robot.place, f"{robot.name} has no drives", "gear ratios, to know what currents do")
     N = coupling(robot)
     as_current = with_unit_constants(robot)
     runs = [_run(source, as_current, recipe) for source in (*empty, *loaded)]

@@ -1,4 +1,4 @@
-"""What currents do, whatever the torque constants are: the matrix N, and a robot whose torques are N^T i."""
+"""Between motors and joints: the matrix N, torque constants, and what one motor does to the joints that it drives."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.errors import InputError
 from generator.robot.description import Robot
 
 Array = NDArray[np.float64]
 
 
 def coupling(robot: Robot) -> Array:
-    """N (n x n): motor speeds from joint speeds; raises InputError for a robot without drives."""
+    """N (n x n): motor speeds from joint speeds; one to one where the robot has no drives."""
     if robot.drives is None:
-        raise InputError(robot.place, f"{robot.name} has no drives", "gear ratios, to know what currents do")
+        return np.eye(len(robot.moving))
     return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])
 
 
@@ -47,11 +46,13 @@ def with_unit_constants(robot: Robot) -> Robot:
 def supplied(robot: Robot, motor: int, tau: Array) -> Array:
     """The part of joint torques (n x N) that motor number ``motor``, from 0, supplies: N^T E N^-T tau.
 
-    E picks the motor. Without drives each joint has its own motor.
+    E picks the motor.
     """
-    if robot.drives is None:
-        result = np.zeros_like(tau)
-        result[motor] = tau[motor]
-        return result
     N = coupling(robot)
     return np.outer(N[motor], np.linalg.solve(N.T, tau)[motor])
+
+
+def driven(robot: Robot, marked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Samples (n x N) of joints in which a motor that drives them is ``marked`` (n x N)."""
+    acts = (coupling(robot).T != 0).astype(int)
+    return np.asarray(acts @ marked.astype(int) > 0)

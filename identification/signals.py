@@ -11,6 +11,7 @@ import numpy as np
 
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.drive_train import constants, coupling
 from identification.recording import Array, Recording
 
 #: Stems of the columns by what they hold; the first that a file has is taken.
@@ -85,17 +86,15 @@ def joint_torques(found: Measured, robot: Robot, recording: Recording) -> Array:
     N = _coupling(robot, found, recording)
     if found.stem == "taum":
         return N.T @ found.values
-    assert robot.drives is not None
-    if not robot.drives.torque_constants:
+    if robot.drives is None or not robot.drives.torque_constants:
         where = recording.where(None, found.names[0])
         raise InputError(where, f"{found.names[0]} is a current", f"torque constants in the drives of {robot.name}")
-    constants = np.array([float(kt) for kt in robot.drives.torque_constants[robot.drives.torque_constant]])
-    return N.T @ (constants[:, None] * found.values)
+    return N.T @ (constants(robot)[:, None] * found.values)
 
 
 def _coupling(robot: Robot, found: Measured, recording: Recording) -> Array:
-    """N (n x n): motor speeds from joint speeds."""
+    """N (n x n): motor speeds from joint speeds; raises InputError where no drives tell it."""
     if robot.drives is None:
         where = recording.where(None, found.names[0])
         raise InputError(where, f"{found.names[0]} is on the motor side", f"drives in the file of {robot.name}")
-    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])
+    return coupling(robot)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
+from identification.drive_train import coupling
 
 Array = NDArray[np.float64]
 
@@ -56,8 +57,7 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
         "time since reversal": ("s", since),
     }
     if robot.drives is not None:
-        ratios = np.array([float(x) for x in robot.drives.coupling[k]])
-        result["motor phase"] = ("rad", np.mod(ratios @ run.decimated(motion.q), 2 * np.pi))
+        result["motor phase"] = ("rad", np.mod(coupling(robot)[k] @ run.decimated(motion.q), 2 * np.pi))
     return result
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
+from identification.drive_train import constants, coupling
 from identification.trajectory import room
 
 Array: TypeAlias = NDArray[np.float64]
@@ -59,7 +60,5 @@ def _motor_loads(robot: Robot) -> list[Array]:
     drives, currents = robot.drives, robot.signals.current_limit
     if drives is None or not currents or not drives.torque_constants:
         return []
-    N = np.array([[float(entry) for entry in row] for row in drives.coupling])
-    constants = drives.torque_constants[drives.torque_constant]
-    largest = [float(kt) * float(current) for kt, current in zip(constants, currents, strict=True)]
-    return list(np.linalg.inv(N).T / np.array(largest)[:, None])
+    largest = constants(robot) * np.array([float(current) for current in currents])
+    return list(np.linalg.inv(coupling(robot)).T / largest[:, None])

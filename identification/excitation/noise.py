@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.drive_train import constants, coupling
 
 Array = NDArray[np.float64]
 
@@ -44,10 +45,6 @@ def noise_of(robot: Robot, logged: Sequence[float], part: float, torques: Array)
     """
     n = len(robot.moving)
     rms = np.array(np.broadcast_to(np.asarray(logged, dtype=float), (n,)))
-    drives = robot.drives
-    if drives is not None:
-        if drives.torque_constants:
-            rms = rms * [float(kt) for kt in drives.torque_constants[drives.torque_constant]]
-        N = np.array([[float(entry) for entry in row] for row in drives.coupling])
-        rms = np.sqrt((N.T**2) @ rms**2)
+    if robot.drives is not None:
+        rms = np.sqrt((coupling(robot).T ** 2) @ (constants(robot) * rms) ** 2)
     return Noise(rms, part * torques)

@@ -9,6 +9,7 @@ import numpy as np
 from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.drive_train import coupling
 from identification.trajectory import Array
 
 #: Largest phase [rad] of the fastest mode that one step of order 4 is trusted with.
@@ -18,13 +19,6 @@ _PHASE = 0.3
 def value_of(module: Any, model: Any, name: str) -> float:
     """The value of a parameter, 0 where the model has none of that name."""
     return float(model.parameters[module.PARAMETERS.index(name)]) if name in module.PARAMETERS else 0.0
-
-
-def ratios(robot: Robot) -> Array:
-    """N (n x n): motor speeds from joint speeds; ones without drives."""
-    if robot.drives is None:
-        return np.eye(len(robot.moving))
-    return np.array([[float(entry) for entry in row] for row in robot.drives.coupling])
 
 
 def inertias(module: Any, model: Any, robot: Robot, pose: Array, flexible: bool) -> tuple[Array, Array]:
@@ -60,7 +54,7 @@ def controller(
     Its integrals hold a ``load`` (n) [N m, N] at the joints. ``limit`` (n) is the rotors' largest torque [N m, N].
     """
     w = 2 * np.pi * bandwidth
-    N = ratios(robot)
+    N = coupling(robot)
     kv = w * inertia / np.diag(N) ** 2
     result = module.Controller(model, period, w / 3, kv, w / 3, limit)
     result.z[:] = np.linalg.solve(N.T, load) / kv

@@ -12,6 +12,7 @@ import numpy as np
 from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.drive_train import coupling
 from identification.simulation import cascade
 from identification.simulation.checks import each
 from identification.simulation.contact import Contact, Foot
@@ -157,7 +158,7 @@ class Encoders:
     def __init__(self, robot: Robot, settings: Settings, start: Array) -> None:
         n = len(start)
         self._resolution = each(settings.resolution, n, "--resolution")
-        self._to_motor = cascade.ratios(robot)
+        self._to_motor = coupling(robot)
         self._to_joint = np.linalg.inv(self._to_motor)
         self._rate = settings.rate
         self._ideal = not self._resolution.any()

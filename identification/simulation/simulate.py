@@ -11,8 +11,8 @@ import numpy as np
 from generator.cli.place import command_line
 from generator.errors import InputError
 from identification import corrections
+from identification.drive_train import coupling
 from identification.signals import WRENCH
-from identification.simulation import cascade
 from identification.simulation.checks import check, chosen, each, pose, trajectory_of
 from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
 from identification.simulation.machine import Machine
@@ -91,7 +91,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     robot, kept = machine.robot, slice(None, None, settings.every)
     rows, n = log.q.shape
     numbers = [joint.number for joint in robot.moving]
-    N = cascade.ratios(robot)
+    N = coupling(robot)
     constants = torque_constants(machine, model)
     t: Array = settings.period * np.arange(rows, dtype=float)
     warmth = settings.warmth(t)

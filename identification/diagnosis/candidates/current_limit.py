@@ -18,7 +18,7 @@ from scipy.ndimage import binary_opening
 from identification.corrections import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
-from identification.drive_train import coupling
+from identification.drive_train import constants, coupling
 
 Array = NDArray[np.float64]
 
@@ -95,6 +95,5 @@ def _current(scene: Scene, k: int, torque: Array) -> Array:
 
 def _torque_per_recorded(scene: Scene, k: int) -> float:
     """True torque of a motor per recorded current [N m/A], with the gain that the robot's file states."""
-    drives, gain = scene.robot.drives, scene.robot.signals.torque_gain
-    assert drives is not None
-    return float(drives.torque_constants[drives.torque_constant][k]) * (float(gain[k]) if gain else 1.0)
+    gain = scene.robot.signals.torque_gain
+    return float(constants(scene.robot)[k]) * (float(gain[k]) if gain else 1.0)
