@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -123,6 +124,18 @@ def test_what_the_runs_do_not_ask_for_stays_zero(near: bool, case: Case, fitted:
     assert found.values["Fd1"] == found.std["Fd1"] == 0
     assert float(found.parameter_set.values["Fd1"].value) == 0
     assert found.values["Fc1"] > fitted.values["Fc1"]
+
+
+def test_a_joint_without_rows_stays_as_it_was_known(case: Case, fitted: Refit) -> None:
+    of = case.regressors
+    prior = Prior(np.array(list(fitted.values.values())), np.eye(len(of.names)))
+    one = case.sampled(0, of)
+    standing = one.left_out.copy()
+    standing[3] = True
+    found = refit([replace(one, left_out=standing)], of, prior)
+    assert found.values["Fc4"] == pytest.approx(fitted.values["Fc4"])
+    assert found.std["Fc4"] == pytest.approx(1.0, rel=0.1)
+    assert found.values["Fc1"] == pytest.approx(fitted.values["Fc1"], rel=0.1)
 
 
 def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:

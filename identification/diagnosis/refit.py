@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 SET = "diagnosed"
 #: Times that the rows are weighed by what the last fit left of them.
 _PASSES = 6
+#: Least residual [N m, N] by which rows are weighed: its square is a number.
+_TINY = 1e-150
 #: Samples at which a payload is compared with base parameters.
 _SAMPLES = 80
 
@@ -135,21 +137,22 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
     whole = prior.beside([0.0] * (len(start.names) - len(prior.mean)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
     result, sigma = start, dict(start.sigma)
+    shown = [one for one in factors if one.rows]
     width = 1.0
     for _ in range(_PASSES):
         gram = np.zeros((len(start.names) + 1,) * 2)
-        for one in factors:
+        for one in shown:
             R = one.on(start.names)
             R[:, -1] -= one.on(tuple(given))[:, :-1] @ np.array(list(given.values()))
             gram += R.T @ R / sigma[one.joint] ** 2
-        rows = sum(one.rows for one in factors)
+        rows = sum(one.rows for one in shown)
         known = Prior(whole.mean, whole.precision / width)
         chi, covariance = Normal(gram, len(start.names), rows, known).solution([])
         away = chi - whole.mean
         spread = float(away @ whole.precision @ away) + float(np.sum(whole.precision * covariance))
         width = max(spread / max(int(whole.known.sum()), 1), 1.0)
         values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
-        sigma = {one.joint: max(one.residual(values) / np.sqrt(max(one.rows, 1)), 1e-300) for one in factors}
+        sigma = sigma | {one.joint: max(one.residual(values) / np.sqrt(one.rows), _TINY) for one in shown}
         unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
