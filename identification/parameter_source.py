@@ -13,9 +13,9 @@ from generator.derivation import derive
 from generator.errors import InputError, Place
 from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue, Robot
-from generator.robot.fields import nearest
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved
+from identification.named_set import named_set
 from identification.recording import digest
 
 _JSON = ".json"
@@ -120,10 +120,7 @@ def _number(value: Any, name: str, place: Place) -> float | None:
 
 def _of_robot(source: str, name: str, wanted: str) -> Parameters:
     robot = read(find_robot(name))
-    if wanted not in robot.parameter_sets:
-        problem = f"{robot.name} has no parameter set {wanted!r}"
-        raise InputError(robot.place, problem, nearest(wanted, robot.parameter_sets))
-    one = robot.parameter_sets[wanted]
+    one = named_set(robot, wanted, robot.place)
     values = {key: _known(value) for key, value in {**one.values, **one.other_values}.items()}
     path = Path(find_robot(name))
     return Parameters(source, str(path), digest(path), values, _base(robot, one, values))

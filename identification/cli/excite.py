@@ -177,14 +177,11 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
 
 
 def _values(name: str, regressors: Regressors) -> dict[str, float]:
-    from generator.robot.fields import nearest
-    from generator.symbolic.parameter_sets import resolved_sets
+    from generator.symbolic.parameter_sets import resolved
+    from identification.named_set import named_set
 
-    sets = resolved_sets(regressors.model)
-    if name not in sets:
-        robot = regressors.model.robot.name
-        raise InputError(command_line("--parameters"), f"{robot} has no parameter set {name!r}", nearest(name, sets))
-    return sets[name]
+    model = regressors.model
+    return resolved(model, named_set(model.robot, name, command_line("--parameters")).values)
 
 
 def _summary(found: Excitation) -> str:

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
         runs = [*arguments.empty, *arguments.loaded]
         folder = destination(arguments.out, f"{robot.name}_gains", robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
-    with stage(f"identifying the drive gains from {plural(len(arguments.empty) + len(arguments.loaded), 'run')}"):
+    with stage(f"identifying the drive gains from {plural(len(runs), 'run')}"):
         found = drive_gains(robot, arguments.empty, arguments.loaded, payload, stds, recipe, regressors)
     files = save(found, path, folder, {REPORT: report(found)})
     print(_summary(found))

@@ -143,14 +143,11 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
 
 
 def _prior(name: str, regressors: Regressors) -> dict[str, float]:
-    from generator.robot.fields import nearest
-    from generator.symbolic.parameter_sets import resolved_sets
+    from generator.symbolic.parameter_sets import resolved
+    from identification.named_set import named_set
 
-    sets = resolved_sets(regressors.model)
-    if name not in sets:
-        robot = regressors.model.robot.name
-        raise InputError(command_line("--prior"), f"{robot} has no parameter set {name!r}", nearest(name, sets))
-    return sets[name]
+    model = regressors.model
+    return resolved(model, named_set(model.robot, name, command_line("--prior")).values)
 
 
 def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import stage
-from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification.extras import needing
@@ -48,8 +47,8 @@ def run(arguments: argparse.Namespace) -> None:
 
     with needing(command_line("counterpoise stiffness")):
         from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
+        from identification import recipe as recipes
         from identification.destination import destination
-        from identification.recipe import read as recipe_of
         from identification.report.page import REPORT
         from identification.report.stiffness.report import report
 
@@ -59,7 +58,7 @@ def run(arguments: argparse.Namespace) -> None:
     prior = {} if arguments.prior is None else _prior(arguments.prior, robot)
     method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
     own = method.RECIPE
-    recipe = own if arguments.recipe is None else recipe_of(arguments.recipe)
+    recipe = own if arguments.recipe is None else recipes.read(arguments.recipe)
     with stage(f"identifying stiffness from {plural(len(arguments.data), 'run')}"):
         if arguments.pressed:
             steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
@@ -83,9 +82,6 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _prior(name: str, robot: Robot) -> dict[str, float]:
-    from generator.robot.fields import nearest
+    from identification.named_set import named_set
 
-    if name not in robot.parameter_sets:
-        problem = f"{robot.name} has no parameter set {name!r}"
-        raise InputError(command_line("--prior"), problem, nearest(name, robot.parameter_sets))
-    return {one: value.value for one, value in robot.parameter_sets[name].values.items()}
+    return {one: value.value for one, value in named_set(robot, name, command_line("--prior")).values.items()}

@@ -10,13 +10,12 @@ import sympy
 from numpy.typing import NDArray
 
 from generator.effects.library import library, motor_side
-from generator.errors import InputError
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
-from generator.robot.fields import nearest
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved
 from identification.diagnosis.normal import Prior
+from identification.named_set import named_set
 
 Array = NDArray[np.float64]
 
@@ -62,11 +61,7 @@ def notes_of(model: Model, name: str) -> list[str]:
 
 def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
     """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_untold``)."""
-    sets = model.robot.parameter_sets
-    if name not in sets:
-        problem = f"{model.robot.name} has no parameter set {name!r}"
-        raise InputError(model.robot.place, problem, nearest(name, sets))
-    given = _joined(model, sets[name].values)
+    given = _joined(model, named_set(model.robot, name, model.robot.place).values)
     values = resolved(model, given)
     largest: dict[str, float] = {}
     for one in given.values():

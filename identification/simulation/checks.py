@@ -10,6 +10,7 @@ from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.fields import nearest
+from identification.named_set import named_set
 from identification.simulation.payload import whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectories import trajectories
@@ -100,9 +101,7 @@ def _check_robot(settings: Settings, robot: Robot) -> None:
     if settings.flexible and not robot.flexible:
         problem = f"{robot.name} has no elastic drive trains"
         raise InputError(command_line("--flexible"), problem, "a robot file with the key flexible")
-    if settings.set_name not in robot.parameter_sets:
-        problem = f"{robot.name} has no parameter set {settings.set_name!r}"
-        raise InputError(command_line("--parameters"), problem, nearest(settings.set_name, robot.parameter_sets))
+    named_set(robot, settings.set_name, command_line("--parameters"))
     if trajectory_of(settings.trajectory).flexible and not settings.flexible:
         problem = f"{settings.trajectory} needs elastic drive trains"
         raise InputError(command_line("--trajectory"), problem, "--flexible")

@@ -1,0 +1,15 @@
+"""A parameter set of a robot, by the name that a person gave."""
+
+from __future__ import annotations
+
+from generator.errors import InputError, Place
+from generator.robot.description import ParameterSet, Robot
+from generator.robot.fields import nearest
+
+
+def named_set(robot: Robot, name: str, place: Place) -> ParameterSet:
+    """The robot's set ``name``; raises InputError, at ``place``, where it has none of that name."""
+    sets = robot.parameter_sets
+    if name not in sets:
+        raise InputError(place, f"{robot.name} has no parameter set {name!r}", nearest(name, sets))
+    return sets[name]
