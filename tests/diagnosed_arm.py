@@ -90,6 +90,12 @@ def ready(source: str, regressors: Regressors) -> Prepared:
     return prepared(load(source, robot, recipe.columns), recipe, regressors)
 
 
+def diagnosis_of(sources: Sequence[str], regressors: Regressors) -> Diagnosis:
+    """Of runs of which the last one validates and none tests."""
+    runs = [ready(source, regressors) for source in sources]
+    return diagnose(regressors, runs, Roles(tuple(sources[:-1]), (sources[-1],), (), tuple(sources)))
+
+
 def torque(hidden: str) -> Hidden:
     """What ``stribeck`` friction makes, and with ``asymmetry`` viscous friction that is larger one way."""
 

@@ -56,6 +56,30 @@ TRUTH = {
 }
 
 
+#: Units of the parameters of small robots, by how their names begin.
+UNITS = {
+    "ZZ": "kg m2",
+    "MX": "kg m",
+    "MY": "kg m",
+    "M2": "kg",
+    "Ia": "kg m2",
+    "Fv": "N m s/rad",
+    "Fc": "N m",
+    "Of": "N m",
+    "k1": "N m/rad",
+    "k2": "N m/rad",
+}
+
+
+def parameters_text(sets: Mapping[str, Mapping[str, float]]) -> str:
+    """The section ``parameters`` of a robot file, from values [SI] by set and name."""
+    lines = ["parameters:"]
+    for name, values in sets.items():
+        lines += [f"  {name}:", "    values:"]
+        lines += [f"      {one}: {value:g} {UNITS[one[:2]]}" for one, value in values.items()]
+    return "\n".join(lines) + "\n"
+
+
 @cache
 def two_links(folder: Path) -> Regressors:
     """The small robot, from a file in ``folder``."""

@@ -12,14 +12,13 @@ import sympy
 from generator.robot.readers import read
 from identification.corrections import recorded_motor_torques
 from identification.diagnosis.candidates import current_limit, gear_ratio
-from identification.diagnosis.diagnosis import NAMED, diagnose
+from identification.diagnosis.diagnosis import NAMED
 from identification.diagnosis.hypothesis import Hypothesis
-from identification.diagnosis.roles import Roles
 from identification.diagnosis.scene import Scene
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from tests.diagnosed import known, played, with_robot
-from tests.diagnosed_arm import ready
+from tests.diagnosed_arm import diagnosis_of
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
@@ -77,8 +76,7 @@ def test_a_motor_that_is_late_acts_on_all_joints_that_it_drives(late: int, tmp_p
         q = coupling(robot) @ motion.q
         columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
         sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
-    runs = [ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
     assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", late)

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from identification.diagnosis.diagnosis import NAMED, Diagnosis, diagnose
-from identification.diagnosis.roles import Roles
-from tests.diagnosed_arm import ARM, Hidden, ready, recorded
+from identification.diagnosis.diagnosis import NAMED, Diagnosis
+from tests.diagnosed_arm import ARM, Hidden, diagnosis_of, recorded
 from tests.recorded import Array
 
 #: Of an arm whose Coulomb friction is not in its file.
@@ -21,8 +20,7 @@ def diagnosed(folder: Path, hidden: Hidden) -> Diagnosis:
         return 25.0 * np.sign(qd) + hidden(q, qd)
 
     regressors, sources = recorded(folder, [with_friction] * 2, BARE, TRUTH)
-    runs = [ready(source, regressors) for source in sources]
-    return diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
+    return diagnosis_of(sources, regressors)
 
 
 def test_friction_is_named_beside_far_more_friction(tmp_path: Path) -> None:

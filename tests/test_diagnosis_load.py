@@ -12,8 +12,7 @@ from identification.diagnosis.acting import Acting
 from identification.diagnosis.addition import addition
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library, wrist
-from identification.diagnosis.diagnosis import NAMED, NOTHING, diagnose
-from identification.diagnosis.roles import Roles
+from identification.diagnosis.diagnosis import NAMED, NOTHING
 from tests import diagnosed_arm
 from tests.diagnosed import fitted, known, played
 from tests.plant.effect import Effect
@@ -86,8 +85,7 @@ def test_stated_friction_is_under_the_load_that_was_found(sprung: bool, tmp_path
         return np.asarray(stiffness * q + FRICTION * np.sign(qd) * np.abs(load))
 
     regressors, sources = diagnosed_arm.recorded(tmp_path, [hidden] * 3, LOADED, truth)
-    runs = [diagnosed_arm.ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    found = diagnosed_arm.diagnosis_of(sources, regressors)
     assert found.verdict == (NAMED if sprung else NOTHING)
     assert [one.hypothesis.effect for one in found.findings] == ["joint_spring"] * sprung
     assert found.found.values["Fl1"] == pytest.approx(FRICTION, rel=0.1)

@@ -11,11 +11,9 @@ from scipy.signal import lfilter
 
 from generator.robot.readers import read
 from identification.diagnosis.candidates import current_limit
-from identification.diagnosis.diagnosis import diagnose
-from identification.diagnosis.roles import Roles
 from identification.observation import Regressors
 from tests.diagnosed import known, played
-from tests.diagnosed_arm import ready
+from tests.diagnosed_arm import diagnosis_of
 from tests.plant.effect import Effect
 from tests.plant.measurement import Sensors
 from tests.plant.robots import ROBOTS
@@ -53,8 +51,7 @@ def test_slow_noise_is_no_saturation(memory: float, seed: int, tmp_path: Path) -
         tau = regressors.torques(TRUTH, motion) + noise
         columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
         sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
-    runs = [ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
+    found = diagnosis_of(sources, regressors)
     assert "current_limit" not in [one.hypothesis.effect for one in found.findings]
 
 

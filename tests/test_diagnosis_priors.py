@@ -19,7 +19,7 @@ from identification.observation import Motion, Regressors
 from tests import diagnosed_arm
 from tests.diagnosed_arm import TRUTH, torque
 from tests.newton_euler import Arm
-from tests.recorded import TWO_LINKS, recorded
+from tests.recorded import TWO_LINKS, UNITS, parameters_text, recorded
 
 Array = NDArray[np.float64]
 
@@ -81,9 +81,8 @@ def test_nothing_is_named_in_the_place_of_rotors_and_friction_that_a_set_leaves_
     bodies = {"ZZ1": 4.0, "MX1": 6.0, "MY1": 0.6, "M2": 10.0, "ZZ2": 1.3, "MX2": 3.1, "MY2": -0.4}
     drives = {"Ia1": 3.0, "Ia2": 0.9, "Fv1": 14.0, "Fc1": 9.0, "Off1": 1.5, "Fv2": 7.0, "Fc2": 4.0, "Off2": -0.8}
     path = tmp_path / "two_links.yaml"
-    units = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "M2": "kg"}
     lines = [
-        f"      {name}: {{value: {value}, unit: {units[name[:2]]}, relative_std: 2}}" for name, value in bodies.items()
+        f"      {name}: {{value: {value}, unit: {UNITS[name[:2]]}, relative_std: 2}}" for name, value in bodies.items()
     ]
     path.write_text("\n".join([TWO_LINKS, "parameters:", "  cad:", "    values:", *lines, ""]), encoding="utf-8")
     of = Regressors(read(path))
@@ -208,12 +207,8 @@ def test_what_is_known_exactly_is_known_best(tmp_path: Path) -> None:
 def test_the_prior_tells_what_no_base_parameter_holds_before_other_sets(
     prior: str | None, stiffness: float, tmp_path: Path
 ) -> None:
-    units = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "Fv": "N m s/rad", "Fc": "N m", "Of": "N m", "k1": "N m/rad"}
-    sets = ""
-    for name, k in (("a", 1e5), ("b", 3e4)):
-        values = (f"      {one}: {x} {units[one[:2]]}\n" for one, x in {**TRUTH, "k1": k}.items())
-        sets += f"  {name}:\n    values:\n{''.join(values)}"
-    text = f"{diagnosed_arm.ARM}flexible: [1]\nparameters:\n{sets}"
+    sets = {name: {**TRUTH, "k1": k} for name, k in (("a", 1e5), ("b", 3e4))}
+    text = f"{diagnosed_arm.ARM}flexible: [1]\n{parameters_text(sets)}"
     _, (source,) = diagnosed_arm.recorded(tmp_path, [torque("")])
     path = tmp_path / "arm.yaml"
     path.write_text(text)

@@ -9,11 +9,10 @@ import pytest
 
 from generator.robot.readers import read
 from identification.diagnosis.candidates import wrist
-from identification.diagnosis.diagnosis import NAMED, diagnose
-from identification.diagnosis.roles import Roles
+from identification.diagnosis.diagnosis import NAMED
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion, Regressors
-from tests.diagnosed_arm import ready
+from tests.diagnosed_arm import diagnosis_of, ready
 from tests.recorded import Array, Recorded
 
 #: Two links in a horizontal plane.
@@ -69,8 +68,7 @@ def test_a_rotor_that_stands_while_its_joints_move(seed: int, tmp_path: Path) ->
         tau = regressors.torques(TRUTH, motion) + shared + NOISE * draw.normal(size=motion.q.shape)
         columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
         sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
-    runs = [ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
     assert (one.hypothesis.effect, one.hypothesis.joints) == ("coupled_rotor", (1, 2))

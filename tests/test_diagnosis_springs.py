@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from identification.diagnosis.diagnosis import NAMED, diagnose
-from identification.diagnosis.roles import Roles
-from tests.diagnosed_arm import ARM, ready, recorded
+from identification.diagnosis.diagnosis import NAMED
+from tests.diagnosed_arm import ARM, diagnosis_of, recorded
 from tests.recorded import Array
 
 #: Without weight or offset, of which a cable could be a part.
@@ -23,8 +22,7 @@ def test_a_spring_is_told_by_rest_and_hardening(neutral: float, hardening: float
         return STIFFNESS * (q - neutral) + hardening * (q - neutral) ** 3
 
     regressors, sources = recorded(tmp_path, [spring] * 2, BARE, TRUTH)
-    runs = [ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles((sources[0],), (sources[1],), (), tuple(sources)))
+    found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
     told = {name: (value.value, value.std) for name, value in one.parameters.items()}

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from identification.diagnosis.diagnosis import NAMED, diagnose
-from identification.diagnosis.roles import Roles
-from tests.diagnosed_arm import ready, recorded
+from identification.diagnosis.diagnosis import NAMED
+from tests.diagnosed_arm import diagnosis_of, recorded
 from tests.recorded import Array
 
 VISCOUS, DRY = -6.0, -3.0
@@ -22,8 +21,7 @@ def test_the_time_of_warming_up_is_found(time: float, tmp_path: Path) -> None:
         return np.asarray(warmth * (VISCOUS * qd + DRY * np.sign(qd)))
 
     regressors, sources = recorded(tmp_path, [warming] * 3)
-    runs = [ready(source, regressors) for source in sources]
-    found = diagnose(regressors, runs, Roles(tuple(sources[:2]), (sources[2],), (), tuple(sources)))
+    found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
     assert one.hypothesis.effect == "warm_friction"

@@ -21,7 +21,7 @@ from identification.simulation.machine import Machine, compiled
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import PENDULUM, command
-from tests.recorded import TRUTH, TWO_LINKS
+from tests.recorded import TRUTH, TWO_LINKS, parameters_text
 
 Array = NDArray[np.float64]
 
@@ -31,14 +31,12 @@ LIMITED = (
     .replace("limits: [-160 deg, 160 deg]}", "limits: [-90 deg, 90 deg], acceleration_limit: 1.5 rad/s2}", 1)
     .replace("r: 0, limits: [-60", "r: 0, torque_limit: 125 N m, limits: [-60", 1)
 )
-UNITS = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "Ia": "kg m2", "Fv": "N m s/rad", "Fc": "N m", "Of": "N m"}
 NOISE = (0.05, 0.08)
 WORDS = ("--evaluations", "3000", "--noise", *map(str, NOISE), "--rate", "500")
 
 
 def with_truth(text: str) -> str:
-    values = "".join(f"      {name}: {value:g} {UNITS[name[:2]]}\n" for name, value in TRUTH.items())
-    return f"{text}parameters:\n  twin:\n    values:\n{values}"
+    return text + parameters_text({"twin": TRUTH})
 
 
 @pytest.fixture(scope="module")

@@ -30,18 +30,16 @@ from identification.simulation.run_file import save
 from identification.simulation.settings import Settings as Simulation
 from identification.simulation.simulate import simulate
 from tests.newton_euler import Arm
-from tests.recorded import TRUTH, TWO_LINKS
+from tests.recorded import TRUTH, TWO_LINKS, parameters_text
 
 Array = NDArray[np.float64]
 
 #: Filters that leave the torques of a simulation without noise nearly as they are.
 WIDE = Recipe(cutoff=100.0)
-UNITS = {"ZZ": "kg m2", "MX": "kg m", "MY": "kg m", "Ia": "kg m2", "Fv": "N m s/rad", "Fc": "N m", "Of": "N m"}
 
 
 def robot_text() -> str:
-    values = "\n".join(f"      {name}: {value:g} {UNITS[name[:2]]}" for name, value in TRUTH.items())
-    return f"{TWO_LINKS}parameters:\n  twin:\n    values:\n{values}\n"
+    return TWO_LINKS + parameters_text({"twin": TRUTH})
 
 
 @pytest.fixture(scope="module")

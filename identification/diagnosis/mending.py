@@ -86,8 +86,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         after = _played(found.roles.test, player, fit.written)
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
-    elastic = {joint for one in additions if one.kind == ELASTIC for joint in one.joints}
-    elastic |= {one.number for one in stated(found.robot)}
+    elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     against = objections(untouched(found.found.bank, before, after), elastic)
     return Mended(
         text,

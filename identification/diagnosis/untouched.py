@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,11 +58,11 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     }
 
 
-def objections(tried: Mapping[int, Untouched], elastic: Collection[int] = ()) -> list[str]:
+def objections(tried: Mapping[int, Untouched], elastic: bool = False) -> list[str]:
     """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
 
-    A share is that of the torque's spread. Where joints are ``elastic`` by a finding a rigid model leaves more than
-    noise, on others too, which their links' inertia couples with them.
+    A share is that of the torque's spread. Of a robot with ``elastic`` joints a rigid model leaves more than noise,
+    on the other joints too, which the links' inertia couples with them.
     """
     worse = [
         f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
