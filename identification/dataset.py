@@ -111,7 +111,7 @@ def load(
     recording = readers.read(path)
     beside = sidecar.read(path)
     if beside.robot and beside.robot != robot.name:
-        place = Place(str(path.with_suffix(".yaml")))
+        place = Place(str(sidecar.path_of(path)))
         raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     if all(_possible(one, recording) for one in wanted.values()):
@@ -137,9 +137,9 @@ def _parsed(source: str) -> tuple[Path, float, float]:
     return Path(match["path"]), start, end
 
 
-def beside(source: str) -> Path:
-    """Where the sidecar of the run that ``source`` names would be."""
-    return _parsed(source)[0].with_suffix(".yaml")
+def sidecar_of(source: str) -> Path:
+    """Where the sidecar of the run that ``source`` names is, if there is one."""
+    return sidecar.path_of(_parsed(source)[0])
 
 
 def part_of(source: str, start: float, end: float) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from generator.robot.description import Robot
 from generator.writing import spare
-from identification.dataset import beside
+from identification.dataset import sidecar_of
 
 
 def destination(out: Path | None, name: str, robot: Robot, files: Sequence[Path | None], runs: Sequence[str]) -> Path:
@@ -17,7 +17,7 @@ def destination(out: Path | None, name: str, robot: Robot, files: Sequence[Path 
     ``runs``, a path or ``PATH@FROM:TO`` each. Ask before the computing, which can take long.
     """
     folder = out or Path("identified") / name
-    for source in (*files, *map(beside, runs)):
+    for source in (*files, *map(sidecar_of, runs)):
         if source is not None and source.exists():
             spare(source, [folder / f"{robot.name}.yaml"])
     return folder

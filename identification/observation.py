@@ -6,7 +6,7 @@ over many samples, say) comes in here and changes nothing above.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -196,10 +196,15 @@ def _weights(speed: sympy.Expr, coordinate: Mapping[int, int]) -> tuple[tuple[in
     return tuple(sorted((k, float(speed.coeff(symbol))) for symbol, k in names.items() if speed.has(symbol)))
 
 
-def standing(signs: Sequence[Jump], qd: Array, thresholds: Array) -> NDArray[np.bool_]:
+def followed(jumps: Iterable[Jump], qd: Array) -> Iterator[tuple[int, Array]]:
+    """The coordinates whose torques jump, each with the speed (N) whose sign it follows, along speeds qd (n x N)."""
+    for joint, weights in jumps:
+        yield joint, np.asarray(sum(weight * qd[k] for k, weight in weights))
+
+
+def standing(signs: Iterable[Jump], qd: Array, thresholds: Array) -> NDArray[np.bool_]:
     """Samples (n x N) in which a joint's torque follows the sign of a speed within its threshold (n) [rad/s, m/s]."""
     result = np.zeros(qd.shape, dtype=bool)
-    for joint, weights in signs:
-        speed = sum(weight * qd[k] for k, weight in weights)
+    for joint, speed in followed(signs, qd):
         result[joint] |= np.abs(speed) <= thresholds[joint]
     return result

@@ -81,11 +81,12 @@ def sampled(
     if run.unusable is not None:
         left_out |= run.unusable[:, inner]
     result = Sampled(run, filters, motion, run.tau[:, inner], left_out, still)
-    _defined(result, regressors)
+    _check_defined(result, regressors)
     return result
 
 
-def _defined(one: Sampled, regressors: Regressors) -> None:
+def _check_defined(one: Sampled, regressors: Regressors) -> None:
+    """Raises InputError, with the effect and the time, where the model has no real torque along the motion."""
     with np.errstate(all="ignore"):
         torques = regressors.torques({}, one.motion)
     numbers = np.isfinite(torques).all(axis=0)

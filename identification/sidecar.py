@@ -19,6 +19,8 @@ _KIND = "the sidecar of a run"
 #: SI units of the ten parameters by stem.
 UNITS = {stem: unit for stem, unit, _ in INERTIAL}
 _NOT_NEGATIVE = ("XX", "YY", "ZZ", "M")
+#: Name of a payload that nobody named, and letters of one at most.
+_UNNAMED, _LONGEST = "L", 8
 
 
 @dataclass(frozen=True)
@@ -56,12 +58,17 @@ class Sidecar:
     columns: Mapping[str, Formula] = field(default_factory=dict)
 
 
+def path_of(run: Path) -> Path:
+    """Where the sidecar of a run file is, if there is one."""
+    return run.with_suffix(".yaml")
+
+
 def read(run: Path) -> Sidecar:
     """The sidecar of a run file, an empty one where there is none.
 
     Raises InputError, with line and column, for an unknown key and a value with a wrong unit.
     """
-    path = run.with_suffix(".yaml")
+    path = path_of(run)
     if not path.is_file():
         return Sidecar()
     file = str(path)
@@ -82,9 +89,9 @@ def _payload(entry: Entry) -> Payload | None:
     if isinstance(entry.value, Text) and entry.value.content == "none":
         return None
     keys = fields.table(entry.value, "payload", (), ("name", *UNITS))
-    name = fields.prose(keys["name"], "name of the payload") if "name" in keys else "L"
-    if not name.isalpha() or len(name) > 8:
-        raise InputError(keys["name"].value.place, f"payload name {name!r}", "one to eight letters")
+    name = _UNNAMED
+    if "name" in keys:
+        name = _name(fields.prose(keys["name"], "name of the payload"), keys["name"].value.place)
     known = {}
     for stem, unit in UNITS.items():
         if stem in keys:
@@ -93,6 +100,13 @@ def _payload(entry: Entry) -> Payload | None:
                 value = float(fields.quantity(text, f"{stem} of the payload", unit).value)
                 known[stem] = _possible(stem, value, text.place)
     return Payload(name, known)
+
+
+def _name(name: str, place: Place) -> str:
+    """``name`` itself; raises InputError for one that parameters' names cannot carry."""
+    if not name.isalpha() or len(name) > _LONGEST:
+        raise InputError(place, f"payload name {name!r}", "one to eight letters")
+    return name
 
 
 def _possible(stem: str, value: float, place: Place) -> float:
@@ -105,15 +119,13 @@ def _possible(stem: str, value: float, place: Place) -> float:
 def given(words: Sequence[str], place: Place) -> Payload:
     """The payload of words such as ``M=150`` [SI] and ``name=L``; raises InputError for anything else."""
     known: dict[str, float] = {}
-    name = "L"
+    name = _UNNAMED
     for word in words:
         stem, _, value = word.partition("=")
         if stem == "name":
-            name = value
+            name = _name(value, place)
         elif stem in UNITS:
             known[stem] = _possible(stem, float(expressions.parse_number(value, place)), place)
         else:
             raise InputError(place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}")
-    if not name.isalpha() or len(name) > 8:
-        raise InputError(place, f"payload name {name!r}", "one to eight letters")
     return Payload(name, known)

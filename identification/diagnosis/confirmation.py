@@ -31,7 +31,7 @@ def confirmed(found: Search, trial: Trial | None) -> tuple[Search, tuple[Choice,
     """
     if trial is None:
         return found, ()
-    staying = [one.evidence.variant for one in found.choices]
+    staying = found.variants
     while staying:
         short, worst = min(((_short(trial, staying, one), one) for one in staying), key=lambda pair: pair[0])
         if short >= 0:

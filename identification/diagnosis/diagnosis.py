@@ -174,8 +174,7 @@ def _told_from(lack: Lack) -> float:
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:
     """Of the joints on which findings act of whose amplitude the runs disagree."""
-    variants = [one.evidence.variant for one in found.choices]
-    return [last.lack[k] for one in variants if key_of(one) in disagreeing for k in one.joints]
+    return [last.lack[k] for one in found.variants if key_of(one) in disagreeing for k in one.joints]
 
 
 def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:

@@ -140,7 +140,7 @@ def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tup
 
     ``disagreements`` tell in words, by effect and joint, how the runs disagree on an amplitude.
     """
-    columns = columns_of([one.evidence.variant for one in found.choices])
+    columns = columns_of(found.variants)
     solution, _ = found.weighing.normal.solution(columns)
     std, shape_std = deviations(found, columns, solution)
     place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}

@@ -29,7 +29,7 @@ def disagreements(found: Search) -> dict[Key, str]:
 
     Periods are compared by their number, over all runs that repeat.
     """
-    variants, weights = [one.evidence.variant for one in found.choices], found.trained
+    variants, weights = found.variants, found.trained
     each = {key_of(one): [_periods(found.bank, r, one, weights) for r in found.train] for one in variants}
     return {key: how for key, runs in each.items() if (how := _disagreement(runs))}
 

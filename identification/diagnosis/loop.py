@@ -21,7 +21,7 @@ from identification.diagnosis.rounding import rounding
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Choice, Selection
 from identification.diagnosis.whitening import Colour, colour, stretches
-from identification.observation import Jump, Regressors
+from identification.observation import Regressors
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,11 @@ class Search:
     rounded: tuple[Array, ...]
 
     @property
+    def variants(self) -> list[Variant]:
+        """What was chosen."""
+        return [one.evidence.variant for one in self.choices]
+
+    @property
     def start(self) -> dict[int, float]:
         """Values of the base columns without the choices, by number, fitted to all runs."""
         return self._fitted(self.weighing.all, ())
@@ -67,7 +72,7 @@ class Search:
 
     @property
     def _columns(self) -> list[int]:
-        return columns_of([one.evidence.variant for one in self.choices])
+        return columns_of(self.variants)
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
@@ -101,10 +106,9 @@ def search(
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
-    jumps: tuple[Jump, ...] = ()
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
-        clear = [run.without_standstill(jumps) for run in runs]
+        clear = [run.without_standstill(acting.jumps) for run in runs]
         scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
         bank = Bank(clear, scenes)
         offered = hypotheses([scenes[r] for r in train])
@@ -123,9 +127,8 @@ def search(
         solution, covariance = weighing.normal.solution(columns)
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
-        left_out, jumps = jumps, acting.jumps
         depends = acting.again or (regressors.reads_load and bool(acting.variants))
-        if jumps == left_out and (not depends or acting.near(before)):
+        if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
@@ -156,8 +159,8 @@ def first_values(
 
 
 def _depends(regressors: Regressors) -> bool:
-    """Whether columns of the model depend on its values: by a load, or by elastic drive trains, of which what they do
-    is linear about values that are near.
+    """Whether columns of the model depend on its values: they read a load, or what elastic drive trains do is linear
+    near their values alone.
     """
     return regressors.reads_load or bool(stated_elasticity.names(regressors.model.robot))
 

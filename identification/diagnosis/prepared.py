@@ -15,7 +15,7 @@ from identification.dataset import Run
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.stated_elasticity import stated
 from identification.filtering import flat_derivative
-from identification.observation import Jump, Regressors
+from identification.observation import Jump, Regressors, followed
 from identification.recipe import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
@@ -74,7 +74,7 @@ class Prepared:
 
     def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
         """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
-        standing = _settling(_at_rest(self.sampled.motion.qd, jumps), self.sampled.run.rate)
+        standing = _unsettled(_at_rest(self.sampled.motion.qd, jumps), self.sampled.run.rate)
         sampled = replace(self.sampled, left_out=self.sampled.left_out | standing)
         kept = self.kept & (windowed(standing.astype(float), sampled.filters.factor) == 0)
         return replace(self, sampled=sampled, kept=kept)
@@ -87,16 +87,15 @@ class Prepared:
         return windowed(x, self.sampled.filters.factor)
 
 
-def _at_rest(speed: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
-    """Samples (n x N) in which what a joint's torque jumps with nearly stands."""
-    result = np.zeros(speed.shape, dtype=bool)
-    for joint, weights in jumps:
-        along = sum(weight * speed[k] for k, weight in weights)
-        result[joint] |= np.abs(along) < _SLOW * np.sqrt(np.mean(np.square(along)))
+def _at_rest(qd: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
+    """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms."""
+    result = np.zeros(qd.shape, dtype=bool)
+    for joint, speed in followed(jumps, qd):
+        result[joint] |= np.abs(speed) < _SLOW * np.sqrt(np.mean(np.square(speed)))
     return result
 
 
-def _settling(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
+def _unsettled(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
     """With the samples before and after in which friction is not yet what it will be."""
     return np.stack([maximum_filter1d(row, 2 * round(_SETTLING * rate) + 1) for row in standing])
 
@@ -145,7 +144,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         standing[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
-    standing = _settling(standing, run.rate)
+    standing = _unsettled(standing, run.rate)
     tau = windowed(one.tau, factor)
     kept = windowed(standing.astype(float), factor) == 0
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]

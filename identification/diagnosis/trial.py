@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.evidence import columns_of, key_of
 from identification.diagnosis.loop import Search
@@ -62,7 +63,7 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
     if not (found.choices and test):
         return None
     like = found.bank.scenes[0]
-    jumps = [jump for one in found.choices for jump in one.evidence.variant.hypothesis.jumps]
+    jumps = Acting(tuple(found.variants)).jumps
     test = [run.without_standstill(jumps) for run in test]
     bank = Bank(test, [Scene(run.sampled, like.regressors, like.values, like.beside) for run in test])
     shown = np.sum([found.bank.rows(r) for r in (*found.train, *found.validate)], axis=0) > 0
@@ -72,8 +73,7 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
         for mine, seen in zip(of_joint, shown, strict=True)
     ]
     places: dict[tuple[str, int], tuple[int, ...]] = {}
-    for one in found.choices:
-        variant = one.evidence.variant
+    for variant in found.variants:
         there = bank.add(variant.hypothesis, variant.shape)
         if there is None and key_of(variant) not in bank.nowhere:
             return None

@@ -49,7 +49,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     bank = found.bank
     numbers = [joint.number for joint in bank.scenes[0].robot.moving]
     everything = range(len(bank.runs))
-    chosen = [one.evidence.variant for one in found.choices]
+    chosen = found.variants
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
     stiff = {column: x for column, x in weights.items() if column not in elastic}
     lacks, shown = [], {}

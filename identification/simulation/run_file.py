@@ -12,6 +12,7 @@ import numpy as np
 from generator.errors import InputError, Place
 from generator.version import VERSION
 from generator.writing import replace
+from identification import sidecar
 from identification.sidecar import UNITS, Payload
 from identification.simulation.payload import whole
 from identification.simulation.simulate import Simulated
@@ -22,7 +23,7 @@ _DIGITS = 12
 
 def files_of(path: Path) -> tuple[Path, Path]:
     """The files of a run that is saved as ``path``: itself and its sidecar."""
-    return path, path.with_suffix(".yaml")
+    return path, sidecar.path_of(path)
 
 
 def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Path]:

@@ -23,7 +23,7 @@ def render(subject: Subject) -> Markup | None:
     if subject.found.verdict == LOCATED:
         return None
     weighing = subject.found.found.weighing
-    chosen = [one.evidence.variant for one in subject.found.found.choices]
+    chosen = subject.found.found.variants
     tables = {"before anything is named": _table(weighing.evidence([]), chosen)}
     if chosen:
         tables["beside the findings"] = _table(weighing.evidence(chosen), chosen)
