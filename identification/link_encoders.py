@@ -31,6 +31,8 @@ RECIPE = Recipe()
 LIMIT = 0.1
 #: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
 _STILL = 2e-3
+#: Number of the speed's sign among twist, torque and what the motion makes of the twist.
+_SIGN = 3
 #: What the filtered sign of a speed may be off one where the joint neither stands nor turns back.
 _ONE_WAY = 0.05
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
@@ -118,8 +120,8 @@ def of_runs(
 
 
 def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float) -> Rows:
-    """Without what is near a standstill [rad/s, m/s], of a joint that moves: what sticks hides from the twist any
-    torque up to its friction.
+    """Without torques that are cut off and, of a joint that moves, without what is near a standstill [rad/s, m/s]:
+    what sticks hides from the twist any torque up to its friction.
     """
     parts = []
     for number, (run, filters) in enumerate(runs):
@@ -133,9 +135,12 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
             own += [np.sin(q), np.cos(q)]
         inner = slice(filters.first, run.samples - filters.last)
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
+        bad = np.zeros(q.shape, dtype=bool) if run.unusable is None else run.unusable[k]
+        turning = np.zeros(columns.shape[1], dtype=bool)
         if np.ptp(run.q[k]) >= _STILL:
-            moving = kept_rows(np.abs(qd[inner]) <= standstill, filters.factor)
-            columns = columns[:, moving & (np.abs(np.abs(columns[3]) - 1) < _ONE_WAY)]
+            bad = bad | (np.abs(qd) <= standstill)
+            turning = np.abs(np.abs(columns[_SIGN]) - 1) >= _ONE_WAY
+        columns = columns[:, kept_rows(bad[inner], filters.factor) & ~turning]
         constants = np.zeros((len(runs), columns.shape[1]))
         constants[number] = 1.0
         parts.append(np.concatenate([columns, constants]))

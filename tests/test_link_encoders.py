@@ -87,6 +87,16 @@ def test_friction_that_sticks_is_no_compliance(tmp_path: Path) -> None:
         assert found[name].value == pytest.approx(MOTORS[name], rel=0.03)
 
 
+def test_cut_off_currents_shift_no_stiffness(machine: Machine, tmp_path: Path) -> None:
+    columns = dict(simulate(machine, RUN).columns)
+    for name in ("i1", "i2"):
+        columns[name] = np.clip(columns[name], *np.quantile(columns[name], [0.06, 0.94]))
+    found = link_encoders(machine.robot, [str(Recorded(columns).save(tmp_path / "run.csv"))], MOTORS)
+    assert any("i2 is cut off for" in note for note in found.notes)
+    for name in ("k1", "k2"):
+        assert found.stiffness[name].value == pytest.approx(MOTORS[name], rel=0.04)
+
+
 def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path) -> None:
     run = recorded(machine, replace(RUN, further=(), link_delay=0.0, duration=10.0), tmp_path / "a.csv")
     with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):
