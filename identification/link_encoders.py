@@ -162,7 +162,8 @@ def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value
         latency += viscous * compliance[0]
     every = np.column_stack([others, columns])
     e = _left(rows.twist, every)
-    size, spread = float(np.linalg.norm(rows.twist)), float(np.linalg.norm(rows.twist - rows.twist.mean()))
+    size = float(np.linalg.norm(rows.twist))
+    spread = float(np.linalg.norm(rows.twist - rows.twist.mean())) if rows.twist.size else 0.0
     return stiffness, Value(latency, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
 
 

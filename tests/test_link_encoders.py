@@ -76,6 +76,18 @@ def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) ->
     assert found.latency["latency2"].refused == "the joint stands still"
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_joint_that_creeps_tells_nothing(machine: Machine, tmp_path: Path) -> None:
+    """It is never faster than a standstill, and has no rows."""
+    columns = dict(simulate(machine, RUN).columns)
+    q = np.linalg.solve(N, np.stack([columns.pop("qm1"), columns.pop("qm2")]))
+    slow = 0.3 + 0.1 * np.sin(0.1 * columns["t"])
+    run = Recorded({**columns, "q1": q[0], "q2": slow, "qs2": slow}).save(tmp_path / "run.csv")
+    found = link_encoders(machine.robot, [str(run)])
+    assert (found.latency["latency2"].value, found.stiffness["k2"].value) == (None, None)
+    assert found.residuals[1].rows == 0
+
+
 def test_friction_that_sticks_is_no_compliance(tmp_path: Path) -> None:
     """Near a reversal a motor's friction hides any change of the load from the recorded torque."""
     text = robot_text().replace("Fcm1: 9 N m", "Fcm1: 36 N m").replace("Fcm2: 4 N m", "Fcm2: 16 N m")
