@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from generator.effects.library import effects_of
 from generator.errors import InputError
+from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
@@ -81,7 +82,7 @@ def locked_output(
 
     Raises InputError where the joint moves as if it was free and where the runs do not show its stiffness.
     """
-    k, joint = _joint(robot, number, sources)
+    k, joint = _joint(robot, number)
     names = tuple(f"{stem}{number}" for stem, _ in _STEMS)
     found, stacked, removed = [], [], []
     for source in sources:
@@ -93,7 +94,7 @@ def locked_output(
         found.append((run, filters))
     rows = np.concatenate(stacked)
     if len(rows) < _FEWEST * len(names):
-        few = f"{len(rows)} rows in which the motor of joint {number} turns steadily"
+        few = f"{plural(len(rows), 'row')} in which the motor of joint {number} turns steadily"
         raise InputError(found[0][0].place, few, f"{_FEWEST * len(names)} at least: a longer run")
     factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
     problem = Problem((factor,), names, {}, weighted=False)
@@ -114,7 +115,7 @@ def locked_output(
     return LockedOutput(robot, joint, tuple(found), full, kept, whole, small, *ends)
 
 
-def _joint(robot: Robot, number: int, sources: Sequence[str]) -> tuple[int, Joint]:
+def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
     for k, joint in enumerate(robot.moving):
         if joint.number == number:
             return k, joint

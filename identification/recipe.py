@@ -125,10 +125,10 @@ def _has_stages(factor: int) -> bool:
     return True
 
 
-def recipe_of(robot: str) -> Recipe:
-    """The recipe in ``recipes/`` that is called as the robot is, else the defaults."""
-    path = data_folder("recipes") / f"{robot}.yaml"
-    return read(path) if path.is_file() else Recipe()
+def recipe_of(robot: str, given: Path | None = None) -> Recipe:
+    """The recipe of a ``given`` file, else that in ``recipes/`` which is called as the robot is, else the defaults."""
+    path = given or data_folder("recipes") / f"{robot}.yaml"
+    return read(path) if given is not None or path.is_file() else Recipe()
 
 
 def read(path: Path) -> Recipe:

@@ -140,7 +140,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     from identification.excitation.results import Excitation
     from identification.excitation.shapes import Shapes
 
-    recipe = recipes.recipe_of(robot.name) if arguments.recipe is None else recipes.read(arguments.recipe)
+    recipe = recipes.recipe_of(robot.name, arguments.recipe)
     filters = recipe.at(arguments.rate)
     samples = round(arguments.periods / arguments.frequency * arguments.rate)
     if samples < filters.fewest:

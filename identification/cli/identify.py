@@ -162,7 +162,7 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     from identification import recipe as recipes
 
     robot = regressors.model.robot.name
-    base = recipes.recipe_of(robot) if arguments.recipe is None else recipes.read(arguments.recipe)
+    base = recipes.recipe_of(robot, arguments.recipe)
     for name in ("dynamics", "cutoff"):
         if getattr(arguments, name) is not None:
             _more(getattr(arguments, name), f"--{name}", 0.0)
@@ -189,7 +189,8 @@ def _more(value: float, option: str, least: float) -> float:
 
 def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines = [
-        f"{found.robot.name}: {len(found.full.sought)} parameters, {len(found.essential.sought)} of them essential"
+        f"{found.robot.name}: {plural(len(found.full.sought), 'parameter')}, "
+        f"{len(found.essential.sought)} of them essential"
     ]
     lines += [f"note: {note}" for note in found.notes]
     solution = found.full.solution

@@ -15,6 +15,7 @@ from generator.cli.place import command_line
 from generator.cli.progress import counter, stage
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import plural
 from identification import executors
 from identification.extras import needing
 
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> None:
             robot, arguments.data, arguments.test, settings, arguments.starts, executor, folder, counted
         )
     files = save(found, path, folder, {REPORT: report(found)})
-    print(f"{robot.name}: {len(found.best.names)} parameters by output error")
+    print(f"{robot.name}: {plural(len(found.best.names), 'parameter')} by output error")
     print("\n".join(summary(found)))
     print(f"files            {', '.join(files)} in {folder}/")
 
@@ -93,7 +94,7 @@ def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
         value = getattr(arguments, name)
         if value is not None and not 0 < value < float("inf"):
             raise InputError(command_line(f"--{name}"), f"{value:g}", "a positive number")
-    recipe = recipes.recipe_of(robot.name) if arguments.recipe is None else recipes.read(arguments.recipe)
+    recipe = recipes.recipe_of(robot.name, arguments.recipe)
     given = {}
     if arguments.fix:
         given = fixed(arguments.fix, None, derive(robot, names=("regressor_packed",)), command_line("--fix"))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from generator.cli.progress import stage
 from generator.errors import InputError
+from generator.review.words import plural
 from generator.robot.description import Robot
 from generator.writing import replace, replacing, spare
 from identification import recipe as recipes
@@ -65,7 +66,7 @@ def diagnosed(
         # A part of a run that is good as a whole may stand still.
         return prepared(whole[source] if source in whole else read([source])[0], recipe, regressors)
 
-    with stage(f"reading {len(wanted.data) + len(wanted.validate) + len(wanted.test)} runs"):
+    with stage(f"reading {plural(len(wanted.data) + len(wanted.validate) + len(wanted.test), 'run')}"):
         fit, held, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
         chosen = roles(fit, held, last, tested=not wanted.dry)
         whole = {run.name: run for run in (*fit, *held, *last)}
