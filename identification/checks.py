@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError, Place
-from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.robot.description import Joint, Robot
 from identification.recording import Array
 from identification.signals import Measured
 
@@ -71,7 +71,7 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
 
 
 def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
-    unit = "m" if joint.sigma == PRISMATIC else "rad"
+    unit = joint.position_unit
     if joint.lower is not None and joint.upper is not None:
         lower, upper = float(joint.lower), float(joint.upper)
         allowed = _BEYOND * (upper - lower)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from generator.derivation import derive
 from generator.errors import InputError
-from generator.robot.description import PRISMATIC, Robot
+from generator.robot.description import Robot
 from identification.colour import scatter
 from identification.dataset import Run, load
 from identification.drive_train import constants, coupling, with_unit_constants
@@ -141,7 +141,7 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
         raise InputError(run.place, "there are no columns of the wrench", f"one at least of {' '.join(WRENCH)}")
     for joint, positions in zip(robot.moving, run.q, strict=True):
         if np.ptp(positions) > _STILL:
-            unit = "m" if joint.sigma == PRISMATIC else "rad"
+            unit = joint.position_unit
             problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
             raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
@@ -225,7 +225,7 @@ def _stiffness(
     residuals: dict[int, Residual] = {}
     notes: list[str] = []
     for k, joint in enumerate(robot.moving):
-        name, unit = f"k{joint.number}", "N/m" if joint.sigma == PRISMATIC else "N m/rad"
+        name, unit = f"k{joint.number}", joint.stiffness_unit
         shown = [one for one in poses if _changes(one.held, k)]
         if not shown:
             why = f"{' '.join(components)} has no lever arm about joint {joint.number} in any pose"

@@ -197,7 +197,7 @@ def _scaled(columns: Array) -> Array:
 
 def _stiffness(compliance: float, std: float, joint: Joint) -> Value:
     """1/compliance, refused where it is not positive or not sure."""
-    unit = "N/m" if joint.sigma == PRISMATIC else "N m/rad"
+    unit = joint.stiffness_unit
     if not np.isfinite(std):
         return Value(None, np.inf, unit, refused="nothing is left of the torque beside the motor's own motion")
     relative = std / abs(compliance) if compliance else np.inf

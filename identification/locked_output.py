@@ -126,7 +126,7 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
 def _check(run: Run, k: int, joint: Joint) -> None:
     motion = float(np.ptp(run.q[k]))
     if motion > _BLOCKED:
-        unit = "m" if joint.sigma == PRISMATIC else "rad"
+        unit = joint.position_unit
         problem = f"joint {joint.number} moves by {motion:.3g} {unit}"
         raise InputError(run.place, problem, f"a blocked output, at most {_BLOCKED:g} {unit}")
 

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy
 from numpy.typing import NDArray
 
+from generator.robot.description import REVOLUTE, Joint
 from identification.diagnosis.views import View, strongest, views
 from identification.diagnosis.whitening import Colour
 from tests.matrices import WHITE
@@ -38,7 +40,7 @@ class Seen:
 
     def scene(self) -> tuple[Any, Any]:
         motion = SimpleNamespace(q=self.q[None], qd=self.qd[None], qdd=self.qdd[None])
-        joint = SimpleNamespace(number=1, sigma=0)
+        joint = Joint(1, 0, REVOLUTE, *[sympy.S.Zero] * 4)
         robot = SimpleNamespace(moving=[joint], drives=SimpleNamespace(coupling=[[33.7]]))
         scene = SimpleNamespace(motion=motion, robot=robot, load=self.load[None], t=self.t, period=1 / RATE)
         run = SimpleNamespace(kept=np.abs(self.qd[None]) > 0.02, tau=self.load[None], decimated=lambda x: x)

@@ -23,11 +23,11 @@ def _elastic(model: Model, units: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def position_units(model: Model) -> tuple[str, ...]:
-    return _per_joint(model, "rad", "m")
+    return tuple(joint.position_unit for joint in model.robot.moving)
 
 
 def torque_units(model: Model) -> tuple[str, ...]:
-    return _per_joint(model, "N m", "N")
+    return tuple(joint.torque_unit for joint in model.robot.moving)
 
 
 def q(model: Model) -> Signal:

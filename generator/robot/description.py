@@ -68,6 +68,26 @@ class Joint:
         """The joint variable ``q<number>``."""
         return sympy.Symbol(f"q{self.number}", real=True)
 
+    @property
+    def position_unit(self) -> str:
+        """Of its variable; speeds and accelerations are by s and s2."""
+        return "m" if self.sigma == PRISMATIC else "rad"
+
+    @property
+    def torque_unit(self) -> str:
+        """Of what its motor gives."""
+        return "N" if self.sigma == PRISMATIC else "N m"
+
+    @property
+    def stiffness_unit(self) -> str:
+        """Of a spring along it."""
+        return f"{self.torque_unit}/{self.position_unit}"
+
+    @property
+    def inertia_unit(self) -> str:
+        """Of what moves with it."""
+        return "kg" if self.sigma == PRISMATIC else "kg m2"
+
 
 @dataclass(frozen=True)
 class EffectUse:

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from generator.effects.effect import Effect
 from generator.effects.library import library
-from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.robot.description import Joint, Robot
 from identification.corrections import NEVER
 from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
@@ -100,7 +100,7 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
 
 def _comment(robot: Robot, one: Addition) -> str:
     """``title, firm: rms torque 5 N m on joint 1``."""
-    units = {joint.number: "N" if joint.sigma == PRISMATIC else "N m" for joint in robot.moving}
+    units = {joint.number: joint.torque_unit for joint in robot.moving}
     sizes = ", ".join(f"{rms:.3g} {units[joint]} on joint {joint}" for joint, rms in sorted(one.amplitude.items()))
     return _plain(f"{one.evidence}: rms torque {sizes}" if sizes else one.evidence)
 
@@ -134,7 +134,7 @@ def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequen
 
 def _signal_unit(key: str, joint: Joint) -> str:
     if key == "position_offset":
-        return "m" if joint.sigma == PRISMATIC else "rad"
+        return joint.position_unit
     return _UNITS.get(key, "")
 
 

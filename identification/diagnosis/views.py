@@ -44,7 +44,8 @@ class View:
 def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array]]:
     """What the residual of coordinate k is looked at against, by name: unit and values (N rows)."""
     motion, robot = scene.motion, scene.robot
-    unit = "m" if robot.moving[k].sigma == 1 else "rad"
+    joint = robot.moving[k]
+    unit = joint.position_unit
     signals = np.stack([motion.q[k], motion.qd[k], motion.qdd[k], scene.load[k], scene.t, _since_reversal(scene, k)])
     q, qd, qdd, load, t, since = run.decimated(signals)
     result = {
@@ -52,7 +53,7 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
         "q by direction": (unit, q),
         "qd": (f"{unit}/s", qd),
         "qdd": (f"{unit}/s2", qdd),
-        "load": ("N" if unit == "m" else "N m", load),
+        "load": (joint.torque_unit, load),
         "time": ("s", t),
         "time since reversal": ("s", since),
     }

@@ -8,7 +8,7 @@ import sympy
 
 from generator.errors import InputError, Place
 from generator.robot import fields
-from generator.robot.description import FIXED, PRISMATIC, Joint, Signals
+from generator.robot.description import FIXED, Joint, Signals
 from generator.robot.document import Entry, Items, Node
 
 #: A value beyond this is a mistake of its unit: no drive answers so late, no torque is known so badly.
@@ -27,7 +27,7 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     if entry is None:
         return Signals()
     moving = [joint for joint in joints if joint.sigma != FIXED]
-    position = ["m" if joint.sigma == PRISMATIC else "rad" for joint in moving]
+    position = [joint.position_unit for joint in moving]
     kinds: dict[str, tuple[Sequence[str], Check]] = {
         "position_offset": (position, _any),
         "torque_gain": (["1"] * len(moving), _gain),

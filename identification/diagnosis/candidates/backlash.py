@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.robot.description import Joint, Robot
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.scene import Scene
@@ -41,7 +41,6 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
-    prismatic = joint.sigma == PRISMATIC
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
     found = alike(
@@ -56,15 +55,15 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "backlash",
         "backlash",
         joint.number,
-        (Coefficient(f"gap{joint.number}", "m" if prismatic else "rad", 0.0),),
+        (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
         partial(_columns, LinkSides(k)),
         shapes=(
-            ShapeRange("gap", "m" if prismatic else "rad", narrow, wide, step=_FINE, vanishing=True),
-            ShapeRange("k", "N/m" if prismatic else "N m/rad", softest, stiffest, step=2 * _FINE),
+            ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),
+            ShapeRange("k", joint.stiffness_unit, softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
         given={"Iam": side.rotor},
-        units={"Iam": "kg" if prismatic else "kg m2"},
+        units={"Iam": joint.inertia_unit},
         kind=ELASTIC,
         joints=(joint.number,),
         variable="load",

@@ -44,7 +44,6 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
-    prismatic = joint.sigma == PRISMATIC
     low, high = stiffnesses(side)
     found = alike(side, [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
@@ -53,14 +52,14 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "joint_elasticity",
         "elasticity of the drive train",
         joint.number,
-        (Coefficient(f"compliance{joint.number}", "m/N" if prismatic else "rad/(N m)", 0.0),),
+        (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
         partial(_columns, LinkSides(k)),
         shapes=(
-            ShapeRange("k", "N/m" if prismatic else "N m/rad", low, high, step=_FINE),
+            ShapeRange("k", joint.stiffness_unit, low, high, step=_FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
         given={"Iam": side.rotor},
-        units={"Iam": "kg" if prismatic else "kg m2"},
+        units={"Iam": joint.inertia_unit},
         kind=ELASTIC,
         joints=(joint.number,),
         variable="frequency",

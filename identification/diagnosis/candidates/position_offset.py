@@ -29,13 +29,12 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(k: int, joint: Joint) -> Hypothesis:
-    prismatic = joint.sigma == PRISMATIC
-    largest = _LARGEST[prismatic]
+    largest = _LARGEST[joint.sigma == PRISMATIC]
     return Hypothesis(
         "position_offset",
         "offset of the encoder",
         joint.number,
-        (Coefficient(f"position_offset{joint.number}", "m" if prismatic else "rad", -largest, largest),),
+        (Coefficient(f"position_offset{joint.number}", joint.position_unit, -largest, largest),),
         partial(_columns, k),
         kind=SIGNAL,
         joints=(joint.number,),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from generator.review.markup import Content, Markup, element, join, table
-from generator.robot.description import PRISMATIC
 from identification.excitation.results import Excitation
 from identification.report.chart import COLOURS, ESTIMATED, Trace, axis, chart, line
 from identification.report.choice import choice
@@ -25,7 +24,7 @@ def render(found: Excitation) -> Markup:
 
 def _panel(found: Excitation, k: int) -> Markup:
     joint, motion, limits = found.robot.moving[k], found.motion, found.limits
-    unit = "m" if joint.sigma == PRISMATIC else "rad"
+    unit = joint.position_unit
     t = np.arange(motion.samples) / found.rate
     signals = (
         (f"q{joint.number}", unit, motion.q[k], (limits.lower[k], limits.upper[k])),
