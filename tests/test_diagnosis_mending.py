@@ -18,13 +18,14 @@ from identification.diagnosis.played import Player, play
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.roles import roles
 from identification.observation import Regressors
+from tests import diagnosed_arm
 from tests.plant.effect import Effect
 from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
-from tests.recorded import TRUTH, Recorded, two_links
+from tests.recorded import TRUTH, Recorded, parameters_text, two_links
 from tests.recorded import fourier as sines
 
 ARM = ROBOTS["three_axis"]
@@ -77,6 +78,18 @@ def test_the_code_is_generated_and_the_gap_closes_on_the_untouched_run(case: tup
     assert now.norm < 0.6 * was.norm
     assert now.relative_to_mean < was.relative_to_mean
     assert not done.notes
+
+
+@pytest.mark.parametrize(("prior", "stiffness"), [(None, 1e6), ("a", 1e6), ("b", 3e6)])
+def test_the_flexible_set_has_the_stiffness_of_the_prior(prior: str | None, stiffness: float, tmp_path: Path) -> None:
+    """In the place of that of an earlier diagnosis."""
+    told = {"a": 1e6, "b": 3e6, "diagnosed_flexible": 9e6}
+    sets = {name: {**diagnosed_arm.TRUTH, "k1": k} for name, k in told.items()}
+    _, (source,) = diagnosed_arm.recorded(tmp_path, [diagnosed_arm.torque("")])
+    path, out = tmp_path / "arm.yaml", tmp_path / "out"
+    path.write_text(f"{diagnosed_arm.ARM}flexible: [1]\n{parameters_text(sets)}")
+    diagnosed(path, read(path), Request([source], prior=prior), out, lambda *about: {})
+    assert read(out / "arm.yaml").parameter_sets["diagnosed_flexible"].values["k1"].value == stiffness
 
 
 def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp_path: Path) -> None:

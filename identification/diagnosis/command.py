@@ -54,7 +54,7 @@ def diagnosed(
     """
     if not wanted.dry:
         spare(path, [folder / f"{robot.name}.yaml"])
-    regressors = Regressors(robot if wanted.prior is None else preferring(robot, wanted.prior))
+    regressors = Regressors(preferring(robot, wanted.prior))
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)

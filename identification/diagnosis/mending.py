@@ -21,7 +21,7 @@ from identification.diagnosis.hypothesis import BODY, ELASTIC
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.played import Played, Player, aligned, compiled, play
 from identification.diagnosis.prepared import Prepared, prepared
-from identification.diagnosis.priors import prior_of
+from identification.diagnosis.priors import preferring, prior_of
 from identification.diagnosis.refit import SET, Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.stated_elasticity import stated
@@ -68,7 +68,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     aside = measured(found.found.offered)
     additions = [*map(_addition, found.findings), *aside]
     new = repaired(old_text, name, additions)
-    old_regressors, regressors = found.found.bank.scenes[0].regressors, Regressors(new.robot)
+    old_regressors = found.found.bank.scenes[0].regressors
+    regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, found.findings)
         said, unused = _description(found.findings), _unused(found.findings)

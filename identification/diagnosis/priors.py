@@ -26,12 +26,12 @@ _UNTOLD, _KNOWN, _ZERO = 0.05, 1e-4, 1e-3
 _EXACT = 1e-6
 
 
-def preferring(robot: Robot, name: str) -> Robot:
+def preferring(robot: Robot, name: str | None) -> Robot:
     """The robot with the set ``name``, if it has one, before the others: what no base parameter holds is told by the
     first set that has it.
     """
     sets = robot.parameter_sets
-    first = {name: sets[name]} if name in sets else {}
+    first = {name: sets[name]} if name is not None and name in sets else {}
     return replace(robot, parameter_sets={**first, **sets})
 
 
