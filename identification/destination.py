@@ -11,13 +11,19 @@ from identification.dataset import sidecar_of
 
 
 def destination(out: Path | None, name: str, robot: Robot, files: Sequence[Path | None], runs: Sequence[str]) -> Path:
-    """``out``, or ``identified/NAME``.
+    """``out``, or ``identified/NAME``; raises InputError as ``spare_inputs`` does.
 
-    Raises InputError where the new robot file would be written over one of ``files`` or over the sidecar of one of
-    ``runs``, a path or ``PATH@FROM:TO`` each. Ask before the computing, which can take long.
+    Ask before the computing, which can take long.
     """
     folder = out or Path("identified") / name
+    spare_inputs(folder, robot, files, runs)
+    return folder
+
+
+def spare_inputs(folder: Path, robot: Robot, files: Sequence[Path | None], runs: Sequence[str]) -> None:
+    """Raises InputError where the new robot file in ``folder`` would be written over one of ``files`` or over the
+    sidecar of one of ``runs``, a path or ``PATH@FROM:TO`` each.
+    """
     for source in (*files, *map(sidecar_of, runs)):
         if source is not None and source.exists():
             spare(source, [folder / f"{robot.name}.yaml"])
-    return folder

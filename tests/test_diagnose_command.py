@@ -248,3 +248,19 @@ def test_the_robot_file_is_not_written_over(
     # Nothing is written over the file without findings: the run that is missing is what stops it.
     done = command(*arguments, "--dry-run", capsys=capsys)
     assert done.err.strip().splitlines()[-1].startswith("error: gone.csv:1:1: there is no such file")
+
+
+def test_a_sidecar_is_not_written_over(
+    hidden: Case, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(hidden.folder)
+    run = Path("beside/three_axis.csv")
+    run.parent.mkdir()
+    run.write_bytes(Path("2.csv").read_bytes())
+    sidecar = run.with_suffix(".yaml")
+    sidecar.write_text("notes: a run\n")
+    done = command("diagnose", "arm.yaml", "1.csv", "--test", f"{run}@0:5", "--out", "beside", capsys=capsys)
+    assert done.status == 2
+    assert done.err.strip().splitlines()[-1] == (
+        f"error: {sidecar}:1:1: it would be written over {sidecar}, which is read, expected another --out"
+    )

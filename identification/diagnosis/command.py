@@ -11,9 +11,10 @@ from generator.cli.progress import stage
 from generator.errors import InputError
 from generator.review.words import plural
 from generator.robot.description import Robot
-from generator.writing import replace, replacing, spare
+from generator.writing import replace, replacing
 from identification import recipe as recipes
 from identification.dataset import Run, load
+from identification.destination import spare_inputs
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
@@ -50,10 +51,11 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used, before anything is looked for, and for a ``folder`` in which the mended robot would replace ``path``.
+    used, before anything is looked for, and for a ``folder`` in which the mended robot would replace a file that is
+    read.
     """
     if not wanted.dry:
-        spare(path, [folder / f"{robot.name}.yaml"])
+        spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
     regressors = Regressors(preferring(robot, wanted.prior))
     known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
