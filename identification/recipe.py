@@ -19,7 +19,7 @@ from generator.resources import data_folder
 from generator.robot import fields
 from generator.robot.description import PRISMATIC, REVOLUTE, Robot
 from generator.robot.document import Entry
-from generator.robot.readers import text_of, yaml
+from generator.robot.readers import document
 from identification.filtering import stages
 from identification.formula import Formula, formulas
 
@@ -35,7 +35,6 @@ _ENDS = 5.0
 #: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
 STANDSTILL = {REVOLUTE: 0.03, PRISMATIC: 0.005}
 JOINT, NONE = "joint", "none"
-_KIND = "a recipe"
 PARAMETERS, SAMPLES = "parameters", "samples"
 
 
@@ -133,8 +132,7 @@ def recipe_of(robot: str, given: Path | None = None) -> Recipe:
 
 def read(path: Path) -> Recipe:
     """The recipe that a YAML file says; raises InputError, with line and column, for what no recipe has."""
-    file = str(path)
-    root = yaml.read(text_of(path, file, _KIND), file, _KIND)
+    root = document(path, "a recipe")
     names = [one.name for one in of_class(Recipe)]
     keys = fields.table(root, "the recipe", (), ("description", *names))
     values: dict[str, object] = {"columns": formulas(keys.get("columns"))}

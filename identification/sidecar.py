@@ -11,11 +11,10 @@ from generator.errors import InputError, Place
 from generator.robot import fields
 from generator.robot.document import Entry, Text
 from generator.robot.parameters import INERTIAL
-from generator.robot.readers import text_of, yaml
+from generator.robot.readers import document
 from identification.formula import Formula, formulas
 
 _UNKNOWN = "unknown"
-_KIND = "the sidecar of a run"
 #: SI units of the ten parameters by stem.
 UNITS = {stem: unit for stem, unit, _ in INERTIAL}
 _NOT_NEGATIVE = ("XX", "YY", "ZZ", "M")
@@ -71,8 +70,7 @@ def read(run: Path) -> Sidecar:
     path = path_of(run)
     if not path.is_file():
         return Sidecar()
-    file = str(path)
-    root = yaml.read(text_of(path, file, _KIND), file, _KIND)
+    root = document(path, "the sidecar of a run")
     keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
     payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(

@@ -12,12 +12,11 @@ from generator.expressions import has_unit
 from generator.robot import fields
 from generator.robot.description import ParameterValue
 from generator.robot.document import Entry, Table
-from generator.robot.readers import text_of, yaml
+from generator.robot.readers import document
 from generator.units import parse_unit
 
 #: Unit of a value that the file gives as a number alone: the parameter's own, in SI.
 UNSTATED = ""
-_KIND = "a file of parameter values"
 
 
 def read(path: Path) -> dict[str, ParameterValue]:
@@ -25,7 +24,7 @@ def read(path: Path) -> dict[str, ParameterValue]:
 
     Raises InputError, with line and column, for what is not a table of finite numbers.
     """
-    root = yaml.read(text_of(path, str(path), _KIND), str(path), _KIND)
+    root = document(path, "a file of parameter values")
     return {name: _value(name, entry) for name, entry in fields.named(root, "the parameter file").items()}
 
 

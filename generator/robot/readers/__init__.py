@@ -9,6 +9,7 @@ from generator.discovery import modules
 from generator.errors import InputError, Place
 from generator.robot.content import robot_from
 from generator.robot.description import Robot
+from generator.robot.document import Node
 
 #: Bytes that no honest robot file reaches.
 _MAX_BYTES = 4_000_000
@@ -27,6 +28,16 @@ def read(path: Path | str) -> Robot:
     if reader is None:
         raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(readers))
     return robot_from(reader.read(text_of(path, file), file))
+
+
+def document(path: Path, expected: str) -> Node:
+    """The tree of a file in YAML that is not a robot's; JSON is read as the YAML that it is.
+
+    Raises InputError, saying what was ``expected``, for what cannot be read as such a file.
+    """
+    from generator.robot.readers import yaml
+
+    return yaml.read(text_of(path, str(path), expected), str(path), expected)
 
 
 def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
