@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,12 +41,7 @@ class Solution:
 
     def std(self, name: str) -> float:
         """Standard deviation of a parameter; infinite if it is hidden, zero if it was fixed."""
-        if name in self.hidden:
-            return float("inf")
-        if name not in self.names:
-            return 0.0
-        k = self.names.index(name)
-        return float(np.sqrt(self.covariance[k, k]))
+        return standard_deviation(name, self.names, self.hidden, self.covariance)
 
     def relative_std(self, name: str) -> float:
         """Standard deviation in % of the value (report eq. 45)."""
@@ -54,6 +49,16 @@ class Solution:
         if std == 0:
             return 0.0
         return 100 * std / value if value else float("inf")
+
+
+def standard_deviation(name: str, names: Sequence[str], hidden: Collection[str], covariance: Array) -> float:
+    """Of one of the estimated ``names``, whose covariance is p x p; infinite if it is hidden, zero if it is none."""
+    if name in hidden:
+        return float("inf")
+    if name not in names:
+        return 0.0
+    k = names.index(name)
+    return float(np.sqrt(covariance[k, k]))
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from identification.dataset import Run
+from identification.least_squares import standard_deviation
 from identification.output_error.criterion import Criterion, Point
 from identification.output_error.experiment import Experiment, experiment
 from identification.output_error.methods import methods
@@ -64,12 +65,7 @@ class Estimate:
 
     def std(self, name: str) -> float:
         """Standard deviation of a parameter [SI]; infinite if it is hidden, zero if it was fixed."""
-        if name in self.hidden:
-            return float("inf")
-        if name not in self.names:
-            return 0.0
-        k = self.names.index(name)
-        return float(np.sqrt(self.covariance[k, k]))
+        return standard_deviation(name, self.names, self.hidden, self.covariance)
 
 
 def estimate(
