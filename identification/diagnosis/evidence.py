@@ -89,7 +89,8 @@ class Weighing:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
-        self._known_drops: dict[tuple[int, ...], list[float]] = {}
+        #: By the columns of each of those chosen, of which one at its bounds has none.
+        self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self._seen = 0
         self.refresh()
 
@@ -240,7 +241,7 @@ class Weighing:
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
         """What each of the chosen explains beside the rest of them."""
-        key = tuple(columns_of(chosen))
+        key = tuple(one.columns for one in chosen)
         if key not in self._known_drops:
             self._known_drops[key] = [
                 self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen

@@ -2,7 +2,8 @@
 
 Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
 missing effect; those that hold the record's own noise stay away. Where a motion repeats, what its periods have in
-common is taken away too: only what differs between them is noise, whatever the model lacks.
+common is taken away too: only what differs between them is noise, whatever the model lacks. Both take noise with them,
+more of it where they are rich: what is left at a frequency is divided by its part that is free there.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.normal import inverse
-from identification.diagnosis.whitening import Colour, colour, stretches
+from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
 
@@ -22,10 +24,12 @@ Array = NDArray[np.float64]
 _RANK = 1e-7
 #: Rows that a column may use up: with more columns only the strongest directions are taken away.
 _ROWS = 8
+#: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
+_PART, _LEAST = 256, 0.1
 #: Rows of noise of the usual power that every run is taken to have beside its own.
 _DOUBT = 200
-#: Times that the colour is estimated, each from rows made white by the last.
-_PASSES = 2
+#: Times that the colour is estimated again, each from rows made white by the last.
+_AGAIN = 1
 
 
 def colours(bank: Bank, rounded: Sequence[Array] = ()) -> list[list[Colour]]:
@@ -39,39 +43,44 @@ def colours(bank: Bank, rounded: Sequence[Array] = ()) -> list[list[Colour]]:
 
 def _joint(bank: Bank, joint: int, rounded: Sequence[Array]) -> list[Colour]:
     """The colour of a joint's noise in each run."""
-    known: Colour | None = None
-    left: list[list[Array]] = []
-    freedom = 1.0
-    for _ in range(_PASSES):
-        left, freedom = _left(bank, joint, known, rounded)
-        known = colour([part for parts in left for part in parts], freedom)
-    assert known is not None
-    return [_scaled(known, parts, freedom) for parts in left]
+    left, free = _left(bank, joint, None, rounded)
+    for _ in range(_AGAIN):
+        left, free = _left(bank, joint, _colour(left, free), rounded)
+    known = _colour(left, free)
+    return [_scaled(known, parts, float(free.mean())) for parts in left]
 
 
-def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]) -> tuple[list[list[Array]], float]:
-    """Stretches of noise of each run, and the part of its variance that is left in them."""
+def _colour(left: list[list[Array]], free: Array) -> Colour:
+    """The colour of noise of which stretches of each run hold the part ``free``."""
+    return recoloured(colour([part for parts in left for part in parts]), free)
+
+
+def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]) -> tuple[list[list[Array]], Array]:
+    """Stretches of noise of each run, and the part of its power that is left in them, by frequency."""
     parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
     place = {number: i for i, number in enumerate(numbers)}
+    places = [np.array([place[number] for number in mine], dtype=int) for mine, *_ in parts]
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
-    rows = 0
-    for mine, columns, tau, kept in parts:
+    white = []
+    for at, (_, columns, tau, kept) in zip(places, parts, strict=True):
         x = np.concatenate([columns, tau[None]])
-        x = x[:, kept] if known is None else known.white(x, kept)
-        at = [*(place[number] for number in mine), len(numbers)]
-        gram[np.ix_(at, at)] += x @ x.T
-        rows += x.shape[1]
-    weights, rank = _explained(gram, sum(number < len(bank.base) for number in numbers), rows)
-    freedom = max(1 - rank / max(rows, 1), 0.1)
+        white.append(x[:, kept] if known is None else known.white(x, kept))
+        gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
+    rows = sum(x.shape[1] for x in white)
+    inside = _inside(gram[:-1, :-1], sum(number < len(bank.base) for number in numbers), rows)
+    weights = inside @ gram[:-1, -1]
     left: list[list[Array]] = []
-    shares = 0.0
-    for r, ((mine, columns, tau, kept), run) in enumerate(zip(parts, bank.runs, strict=True)):
-        e = tau - weights[[place[number] for number in mine]] @ columns
-        e, share = _between_periods(e, kept, run.period)
+    lost = np.zeros(_PART // 2 + 1)
+    for r, (at, x, (_, columns, tau, kept), run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
+        e = tau - weights[at] @ columns
+        e = _between_periods(e, kept, run.period)
         left.append(stretches(e + rounded[r] if rounded else e, kept))
-        shares += share * int(kept.sum()) / max(rows, 1)
-    return left, freedom * shares if rows else 1.0
+        whole = np.zeros(columns.shape)
+        whole[:, kept] = x[:-1]
+        lost += _power(_between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
+        lost += _common(kept, run.period)
+    return left, np.maximum(1 - _smooth(lost) / max(rows, 1), _LEAST)
 
 
 def _without_record(bank: Bank, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
@@ -92,38 +101,54 @@ def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
     return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
 
 
-def _explained(gram: Array, base: int, rows: int) -> tuple[Array, int]:
-    """Weights of the columns that explain the last one best, and how many directions they use.
+def _inside(gram: Array, base: int, rows: int) -> Array:
+    """What makes products of columns with a torque weights of columns that explain it: their inverse in the directions
+    that are taken away.
 
     The first ``base`` columns are those of the model, which all count if there are rows enough.
     """
     most = max(rows // _ROWS, 1)
     base = base if base < most else 0
     B = inverse(gram[:base, :base])
-    S = gram[base:, base:] - gram[base:, :base] @ B @ gram[:base, base:]
+    T = np.concatenate([-B @ gram[:base, base:], np.eye(len(gram) - base)])
+    S = gram[base:, base:] + gram[base:, :base] @ T[:base]
     size = np.sqrt(np.maximum(np.diag(gram)[base:], 1e-300))
     scaled = S / np.outer(size, size)
-    values, vectors = np.linalg.eigh((scaled[:-1, :-1] + scaled[:-1, :-1].T) / 2)
+    values, vectors = np.linalg.eigh((scaled + scaled.T) / 2)
     seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
     seen = seen[base - most :]
-    V = vectors[:, seen]
-    weights = V @ ((V.T @ scaled[:-1, -1]) / values[seen]) * size[-1] / size[:-1]
-    model = B @ (gram[:base, -1] - gram[:base, base:-1] @ weights)
-    return np.concatenate([model, weights]), base + len(seen)
+    T = T @ (vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
+    result = T @ T.T
+    result[:base, :base] += B
+    return np.asarray(result)
 
 
-def _between_periods(e: Array, kept: NDArray[np.bool_], period: int) -> tuple[Array, float]:
-    """What differs between the periods, and the part of the noise's variance that this keeps."""
-    count = len(e) // period if period else 0
+def _between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
+    """What differs between the periods of rows (... x N)."""
+    count = x.shape[-1] // period if period else 0
     if count < 2:
-        return e, 1.0
+        return x
     used = count * period
-    whole, there = e[:used].reshape(count, period), kept[:used].reshape(count, period)
-    times = there.sum(axis=0)
-    mean = np.where(there, whole, 0.0).sum(axis=0) / np.maximum(times, 1)
-    result = e.copy()
-    result[:used] = (whole - mean).reshape(-1)
-    rest = len(e) - used
-    result[used:] -= mean[:rest]
-    kept_rows = max(int(kept.sum()), 1)
-    return result, float(max(1 - (times > 0).sum() / kept_rows, 0.1))
+    whole, there = x[..., :used].reshape(*x.shape[:-1], count, period), kept[:used].reshape(count, period)
+    mean = np.where(there, whole, 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
+    return np.asarray(np.where(kept, x - np.tile(mean, count + 1)[..., : x.shape[-1]], x))
+
+
+def _common(kept: NDArray[np.bool_], period: int) -> float:
+    """Rows' worth of noise that is in what periods have in common."""
+    count = len(kept) // period if period else 0
+    return float(kept[: count * period].reshape(count, period).any(axis=0).sum()) if count > 1 else 0.0
+
+
+def _power(x: Array, inside: Array) -> Array:
+    """Power, by frequency, of white noise in what columns (k x N) explain."""
+    parts = -(-x.shape[1] // _PART)
+    whole = np.pad(x, ((0, 0), (0, parts * _PART - x.shape[1]))).reshape(len(x), parts, _PART)
+    X = np.fft.rfft(whole).reshape(len(x), -1)
+    power = np.einsum("ks,ks->s", X.conj(), inside @ X).real
+    return np.asarray(power.reshape(parts, -1).sum(axis=0))
+
+
+def _smooth(power: Array) -> Array:
+    """As fine as a colour tells frequencies apart."""
+    return np.asarray(uniform_filter1d(power, len(power) // ORDER, mode="mirror"))

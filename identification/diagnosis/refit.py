@@ -14,6 +14,7 @@ from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
 from identification.colour import inflation
 from identification.diagnosis.normal import Normal, Prior
+from identification.diagnosis.payload_body import PARAMETERS
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observation import Motion, Regressors
@@ -105,12 +106,11 @@ def refit(
 def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, float], std: Mapping[str, float]) -> Prior:
     """What is known of the base parameters once the last body carries a payload, and how well.
 
-    ``payload`` holds M, MX, MY, MZ [kg, kg m] in the tool frame and I [kg m2], the same about all axes.
+    ``payload`` holds coefficients of ``payload_body`` [SI].
     """
-    names = {"I": ("XX", "YY", "ZZ")}
     to_base = _payload_in_base(regressors)
     for name, value in payload.items():
-        direction = np.sum([to_base[:, INERTIAL.index(stem)] for stem in names.get(name, (name,))], axis=0)
+        direction = np.sum([to_base[:, INERTIAL.index(stem)] for stem in PARAMETERS[name]], axis=0)
         prior = prior.shifted(direction, value, std.get(name, 0.0))
     return prior
 

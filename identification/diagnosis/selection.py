@@ -145,7 +145,8 @@ class Selection:
                 if best is not None:
                     mine = self.weighing.of(self._shaped(best.variant, others), others)
                 place = chosen.index(one)
-                chosen[place : place + 1] = [mine.variant] if self._sound(mine, others) else []
+                standing = (self._two_common(mine, others) or [mine.variant]) if self._sound(mine, others) else []
+                chosen[place : place + 1] = standing
             if chosen == before:
                 break
         return chosen
@@ -203,19 +204,37 @@ class Selection:
     def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
         """Two that explain together what neither may alone."""
         single = self.weighing.evidence(chosen)[:_PAIRED]
+        _, pair = self._best_pair([one.variant for one in single], chosen)
+        return pair or None
+
+    def _two_common(self, mine: Evidence, others: Sequence[Variant]) -> list[Variant]:
+        """Two common effects of the joint that explain together as much as ``mine``, which is rare; none else."""
+        if likely(mine.variant, others):
+            return []
+        taken = {key_of(one) for one in others}
+        bank = self.weighing.bank
+        same = [one for one in bank.variants if common(one) and one.joints == mine.variant.joints]
+        drop, pair = self._best_pair([one for one in same if key_of(one) not in taken], others)
+        bic = drop - sum(len(one.columns) for one in pair) * np.log(self.weighing.normal.rows)
+        return [] if mine.bic > bic + _BETTER + _RARE * drop else pair
+
+    def _best_pair(self, offered: Sequence[Variant], chosen: Sequence[Variant]) -> tuple[float, list[Variant]]:
+        """The two of ``offered`` that explain most together beside ``chosen``, and how much; none where one does not
+        pass beside the other.
+        """
         S = self.weighing.normal.beside(columns_of(chosen))
         best: tuple[float, list[Variant]] = (0.0, [])
-        for one, other in combinations([each.variant for each in single], 2):
+        for one, other in combinations(offered, 2):
             at = np.array([*one.columns, *other.columns]) - self.weighing.normal.base
             bounds = [np.concatenate(pair) for pair in zip(one.bounds, other.bounds, strict=True)]
             size = np.diag(self.weighing.normal.gram)[[*one.columns, *other.columns]]
             _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
             if drop > best[0]:
                 best = (drop, [one, other])
-        pair = best[1]
+        drop, pair = best
         if pair and all(self.weighing.of(one, [*chosen, other]).passes for one, other in (pair, pair[::-1])):
-            return pair
-        return None
+            return drop, pair
+        return 0.0, []
 
     def _choice(self, one: Variant, others: Sequence[Variant]) -> Choice:
         mine = self.weighing.of(one, others)

@@ -11,11 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_toeplitz
 
 Array = NDArray[np.float64]
 
 #: Order of the autoregressive model.
 ORDER = 10
+#: Points of a spectrum that is as fine as any colour.
+_FREQUENCIES = 4097
 
 
 @dataclass(frozen=True)
@@ -45,14 +48,11 @@ class Colour:
         return np.asarray(2 * self.deviations[-1] ** 2 / rate / np.abs(z @ a) ** 2)
 
 
-def colour(stretches: Sequence[Array], freedom: float = 1.0, order: int = ORDER) -> Colour:
-    """The colour of a residual in stretches, by Burg's recursion over all of them together.
-
-    ``freedom`` is the part of the residual's rows that a fit left free: the variance is divided by it.
-    """
+def colour(stretches: Sequence[Array], order: int = ORDER) -> Colour:
+    """The colour of a residual in stretches, by Burg's recursion over all of them together."""
     parts = [e for e in stretches if len(e)]
     count = sum(map(len, parts))
-    power = sum(float(e @ e) for e in parts) / max(count, 1) / max(freedom, 0.05)
+    power = sum(float(e @ e) for e in parts) / max(count, 1)
     power = max(power, 1e-300)
     a = np.ones(1)
     filters, deviations = [a], [np.sqrt(power)]
@@ -68,6 +68,19 @@ def colour(stretches: Sequence[Array], freedom: float = 1.0, order: int = ORDER)
         deviations.append(np.sqrt(power))
         forward, backward = [f + k * b for f, b in pairs], [b + k * f for f, b in pairs]
     return Colour(tuple(filters), tuple(float(x) for x in deviations))
+
+
+def recoloured(one: Colour, free: Array) -> Colour:
+    """The colour of which a part ``free`` of the power is left, at frequencies evenly from none to half the rate."""
+    spectrum = one.spectrum(np.linspace(0.0, 0.5, _FREQUENCIES), 1.0) / 2
+    given = np.interp(np.linspace(0.0, 1.0, _FREQUENCIES), np.linspace(0.0, 1.0, len(free)), free)
+    r = np.fft.irfft(spectrum / given)
+    filters, deviations = [np.ones(1)], [float(np.sqrt(r[0]))]
+    for m in range(1, len(one.filters)):
+        a = np.concatenate([[1.0], solve_toeplitz(r[:m], -r[1 : m + 1])])
+        filters.append(a)
+        deviations.append(float(np.sqrt(max(a @ r[: m + 1], 0.0))))
+    return Colour(tuple(filters), tuple(deviations))
 
 
 def stretches(rows: Array, stretch: NDArray[np.bool_]) -> list[Array]:

@@ -1,0 +1,36 @@
+"""What the runs tell of a payload: its mass, first moments, and inertia about the origin of the tool's frame.
+
+Ten inertial parameters are often more than a run tells. What its weight and its swing show first are M, MX, MY and MZ;
+of its inertia first one number I, the same about all axes, and what differs from that only where the runs ask for it:
+far from the flange no body is round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from identification.diagnosis.hypothesis import Coefficient
+
+#: Inertial parameters, in the tool frame, of each of which a coefficient is so much, by the coefficient's name.
+PARAMETERS: Mapping[str, tuple[str, ...]] = {
+    "M": ("M",),
+    "MX": ("MX",),
+    "MY": ("MY",),
+    "MZ": ("MZ",),
+    "I": ("XX", "YY", "ZZ"),
+    "XX-I": ("XX",),
+    "YY-I": ("YY",),
+    "XY": ("XY",),
+    "XZ": ("XZ",),
+    "YZ": ("YZ",),
+}
+
+#: Those of a payload [SI], in the order of ``PARAMETERS``.
+COEFFICIENTS = (
+    Coefficient("M", "kg", 0.0),
+    Coefficient("MX", "kg m"),
+    Coefficient("MY", "kg m"),
+    Coefficient("MZ", "kg m"),
+    Coefficient("I", "kg m2", 0.0),
+    *(Coefficient(name, "kg m2", refines=True) for name in ("XX-I", "YY-I", "XY", "XZ", "YZ")),
+)
