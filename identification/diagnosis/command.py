@@ -15,6 +15,7 @@ from generator.writing import replace, replacing
 from identification import recipe as recipes
 from identification.dataset import Run, load
 from identification.destination import spare_inputs
+from identification.diagnosis import torque_band
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
@@ -84,7 +85,8 @@ def diagnosed(
 
     with replacing(folder, GENERATED) as fresh:
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
-        found = changed(found, notes=(*notes, *found.notes))
+        ended = [] if wanted.dry else torque_band.notes(found.found.bank.scenes)
+        found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

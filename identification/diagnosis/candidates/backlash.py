@@ -13,6 +13,7 @@ from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis
 from identification.diagnosis.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.torque_band import end
 
 Array = NDArray[np.float64]
 
@@ -25,12 +26,13 @@ _FINE = 0.1
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint without a gap in the robot's file and without an encoder on its link.
+    """One a joint without a gap in the robot's file and without an encoder on its link; none where recorded
+    torques lack what is quick (``torque_band``).
 
     The coefficient is the gap by the torque's size, the shape ``gap`` that by the times of its crossing; they agree
     where ``Iam``, the drive train's inertia, is known. ``k`` is the stiffness beyond the gap.
     """
-    if not scenes:
+    if not scenes or np.isfinite(end(scenes)):
         return []
     found = []
     for k, joint in enumerate(scenes[0].robot.moving):

@@ -14,6 +14,7 @@ from identification.diagnosis.link_side import LinkSide, LinkSides, Train, rotor
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.torque_band import end
 
 Array = NDArray[np.float64]
 
@@ -27,12 +28,13 @@ _FINE = 0.05
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """One a joint whose link has no encoder of its own: with one, ``identification.link_encoders`` tells the stiffness
-    without any torque that a model lacks. None where the robot's file states a stiffness (``stated_elasticity``).
+    without any torque that a model lacks. None where the robot's file states a stiffness (``stated_elasticity``), and
+    where recorded torques lack what is quick (``torque_band``), as those of elastic drive trains do.
 
     The coefficient is the compliance 1/k by the torque's size, the shape ``k`` the stiffness by the frequency of the
     swing; they agree where ``Iam``, the drive train's inertia, is known.
     """
-    if not scenes:
+    if not scenes or np.isfinite(end(scenes)):
         return []
     found = []
     known = [one.k for one in stated(scenes[0].robot)]

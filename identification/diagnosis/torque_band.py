@@ -1,0 +1,77 @@
+"""Where the band of the recorded torques ends, which the torques that the positions ask for go beyond.
+
+Torques that were filtered lack what is quick, and coarse positions ask for accelerations that never were. A link on a
+spring or in a gap follows as a filter does: either would be taken for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.prepared import RATE, windowed
+from identification.diagnosis.scene import Scene
+from identification.diagnosis.whitening import colour, stretches
+
+Array = NDArray[np.float64]
+
+#: Frequencies that are looked at, up to half the rate of the rows.
+_FREQUENCIES = 50
+#: Power of a torque, in parts of the model's, below which half of the amplitude is missing.
+_SHORT = 0.25
+#: Part of the joints that lack it at one frequency: above the band noise may hide it on one of them.
+_MOST = 0.75
+#: Least joints of which most are not one or two that swing.
+_SEVERAL = 3
+
+
+def end(scenes: Sequence[Scene]) -> float:
+    """The frequency [Hz] at which most joints' torques are no longer those of the positions; infinite where there is
+    none within the rows' band.
+
+    A drive train that swings lacks torque about a frequency of its own, and beyond it has its rotor's alone. That is of
+    one joint; a log's filter and its steps are of all.
+    """
+    rate = scenes[0].sampled.run.rate / _factor(scenes[0])
+    frequency = np.linspace(0, rate / 2, _FREQUENCIES + 1)[1:]
+    modelled = [_modelled(scene) for scene in scenes]
+    power = [_power(scenes, modelled, k, frequency, rate) for k in range(len(scenes[0].tau))]
+    short = np.quantile(power, _MOST, axis=0) < _SHORT
+    return float(frequency[np.argmax(short)]) if len(power) >= _SEVERAL and short.any() else np.inf
+
+
+def notes(scenes: Sequence[Scene]) -> list[str]:
+    """What is to be told where the band ends."""
+    frequency = end(scenes)
+    if np.isinf(frequency):
+        return []
+    return [
+        f"from about {frequency:.0f} Hz on the recorded torques are far less than the recorded positions ask for: "
+        "torques were filtered, or positions are coarse; elasticity and backlash of drive trains are not looked for"
+    ]
+
+
+def _factor(scene: Scene) -> int:
+    """Samples a row, as in a diagnosis; whatever divides a period."""
+    return max(round(scene.sampled.run.rate / RATE), 1)
+
+
+def _modelled(scene: Scene) -> Array:
+    """Torques (n x N) [N m, N] that the positions ask for, by the model and what was found beside it."""
+    return scene.model_torque if scene.beside is None else scene.model_torque + scene.beside.torque(scene)
+
+
+def _power(scenes: Sequence[Scene], modelled: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:
+    """The power density of a joint's recorded torque in parts of the model's, where the joint moves; 1 where it never
+    does. Reversals are left out, as in the rows: a model's friction jumps there, and a real one need not.
+    """
+    recorded: list[Array] = []
+    model: list[Array] = []
+    for scene, torque in zip(scenes, modelled, strict=True):
+        factor = _factor(scene)
+        kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
+        recorded += stretches(windowed(scene.tau[k], factor), kept)
+        model += stretches(windowed(torque[k], factor), kept)
+    return colour(recorded).spectrum(frequency, rate) / colour(model).spectrum(frequency, rate)
