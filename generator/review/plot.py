@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from generator.review.decimals import scientific
 from generator.review.markup import Markup, element, join
@@ -17,7 +18,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 58.0, 14.0, 26.0, 40.0
 
 @dataclass(frozen=True)
 class Curve:
-    """Values over the common abscissa, with a name for the legend."""
+    """Values over the common abscissa, with a name for the legend; the curve is interrupted where one is not finite."""
 
     name: str
     values: Sequence[float]
@@ -36,8 +37,8 @@ def plot(
 ) -> Markup:
     """Curves over ``x``; ``across`` and ``upward`` are the axes' labels with their units."""
     x_ticks = _ticks(min(x), max(x), 7)
-    lowest = min(min(curve.values) for curve in curves)
-    highest = max(max(curve.values) for curve in curves)
+    drawable = [value for curve in curves for value in curve.values if math.isfinite(value)]
+    lowest, highest = min(drawable, default=0.0), max(drawable, default=0.0)
     y_ticks = _ticks(lowest, highest, 6)
     low, high = min(lowest, y_ticks[0]), max(highest, y_ticks[-1])
 
@@ -66,10 +67,17 @@ def plot(
             text(at + (-5 if left else 5), _TOP + 11, marker.name, kind="tick", anchor="end" if left else "start"),
         ]
     for k, curve in enumerate(curves):
-        track = points(place(a, b) for a, b in zip(x, curve.values, strict=True))
-        drawn.append(element("polyline", element("title", curve.name), class_=f"curve curve-{k % 6}", points=track))
+        for piece in _pieces(x, curve.values):
+            track = points(place(a, b) for a, b in piece)
+            drawn.append(element("polyline", element("title", curve.name), class_=f"curve curve-{k % 6}", points=track))
     described = f"{upward} over {across}: {', '.join(curve.name for curve in curves)}."
     return svg(_WIDTH, _HEIGHT, title, described, join(*drawn, by="\n"), kind="plot")
+
+
+def _pieces(x: Sequence[float], values: Sequence[float]) -> list[list[tuple[float, float]]]:
+    """The stretches of a curve on which its values are finite."""
+    runs = groupby(zip(x, values, strict=True), key=lambda at: math.isfinite(at[1]))
+    return [list(run) for finite, run in runs if finite]
 
 
 def _ticks(low: float, high: float, most: int) -> list[float]:

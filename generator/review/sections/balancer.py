@@ -43,7 +43,8 @@ def _balancer(model: Model, function: Function, instance: Instance, outputs: Seq
     q = np.zeros((_SAMPLES, model.dof))
     q[:, [other.number for other in model.robot.moving].index(joint.number)] = positions
     sets = _sets(model, instance)
-    results = {name: evaluate(function, {"q": q, "parameters": values}) for name, values in sets.items()}
+    with np.errstate(all="ignore"):  # a gas chamber may end within the range
+        results = {name: evaluate(function, {"q": q, "parameters": values}) for name, values in sets.items()}
     degrees = joint.sigma != PRISMATIC
     shown = [float(mathematics.degrees(p)) if degrees else float(p) for p in positions]
     across = f"q{joint.number} [{'deg' if degrees else 'm'}]"
@@ -54,7 +55,7 @@ def _balancer(model: Model, function: Function, instance: Instance, outputs: Seq
     for output in outputs:
         name, symbol = output.signal.name, output.signal.units[0]
         curves = [Curve(label, [float(v) for v in result[name]]) for label, result in results.items()]
-        if all(np.array_equal(curve.values, curves[0].values) for curve in curves):
+        if all(np.array_equal(curve.values, curves[0].values, equal_nan=True) for curve in curves):
             curves = [Curve(name, curves[0].values)]
         picture = plot(f"{name} of the balancer", across, f"{name} [{unit(symbol)}]", shown, curves, markers)
         caption = f"{output.signal.meaning[:1].upper()}{output.signal.meaning[1:]}."
