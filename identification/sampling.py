@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.library import undefined
 from generator.errors import InputError
 from identification.dataset import Run
 from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
@@ -107,9 +108,7 @@ def _without_value(motion: Motion, regressors: Regressors) -> str:
         for name, column in zip(own, columns, strict=True)
         if not np.isfinite(column).all()
     }
-    guilty = [one for one in regressors.model.effects if names & {*one.names}]
-    # An effect that follows the load has no value where any other one has none.
-    first = min(guilty, key=lambda one: "load" in one.effect.needs, default=None)
+    first = undefined(regressors.model.effects, names)
     return "the robot's model" if first is None else f"{first.effect.title} on joint {first.joint.number}"
 
 

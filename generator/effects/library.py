@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -70,6 +70,13 @@ def states_of(instances: Iterable[Instance]) -> tuple[StateUse, ...]:
         for state, rate in zip(instance.effect.states, instance.effect.rates(instance.site), strict=True)
     ]
     return tuple(sorted(found, key=lambda one: (one.joint.number, one.state.stem)))
+
+
+def undefined(instances: Iterable[Instance], names: Collection[str]) -> Instance | None:
+    """The effect to blame where the columns of the parameters ``names`` have no real value, None if it is no effect."""
+    guilty = [one for one in instances if not set(names).isdisjoint(one.names)]
+    # An effect that follows the load has no value where any other one has none.
+    return min(guilty, key=lambda one: "load" in one.effect.needs, default=None)
 
 
 @cache

@@ -11,11 +11,12 @@ from typing import TypeAlias
 import numpy as np
 import sympy
 
-from generator.effects.library import Instance, effects_of, motor_side, states_of
+from generator.effects.library import Instance, effects_of, motor_side, states_of, undefined
 from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
+from generator.robot.undefined import hardly_defined
 from generator.symbolic.absorption import absorbed
 from generator.symbolic.bodies import INERTIAL, Body, body
 from generator.symbolic.dynamics import Dynamics
@@ -24,7 +25,7 @@ from generator.symbolic.flexible import FlexibleDynamics
 from generator.symbolic.frames import Chain, build_chain
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.lowering import lower
-from generator.symbolic.sparse import Columns, sampled
+from generator.symbolic.sparse import Columns, HardlyDefined, sampled
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.strategy import PROJECTED, TEXTBOOK, Strategies, choose
 from generator.symbolic.vectors import Array
@@ -107,11 +108,18 @@ class Model:
         """Columns of the standard regressor over random states, one after the other.
 
         ``parameters`` are the signals of parameters that the columns read; what effects read beside the motion is
-        random, and so are the standard parameters behind a load.
+        random, and so are the standard parameters behind a load. Raises InputError for an effect that is defined hardly
+        anywhere.
         """
         loads = np.random.default_rng(1).uniform(0.3, 3.0, len(self.standard_parameters))
         varying = {STATES: len(self.effect_states), WARMTH: self.dof}
-        return sampled(self.program, columns, self.dof, {STANDARD: loads, **parameters}, varying)
+        try:
+            return sampled(self.program, columns, self.dof, {STANDARD: loads, **parameters}, varying)
+        except HardlyDefined as found:
+            guilty = undefined(self.effects, found.names)
+            if guilty is None:
+                raise
+            raise hardly_defined(self.robot, guilty.effect.id, guilty.joint.number) from None
 
     @cached_property
     def base_parameters(self) -> tuple[Parameter, ...]:

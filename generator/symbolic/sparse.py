@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,17 @@ from generator.symbolic.vectors import Array, zeros
 
 #: Columns by parameter name, each {row: entry}.
 Columns = Mapping[str, Mapping[int, Node]]
+
+#: Times that states are drawn, until effects are defined at enough of them.
+_DRAWS = 500
+
+
+class HardlyDefined(Exception):
+    """At nearly all states some columns have no real value; ``names`` are theirs."""
+
+    def __init__(self, names: Collection[str]) -> None:
+        super().__init__(f"no real value at nearly all states: {', '.join(names)}")
+        self.names = names
 
 
 def dense(program: Program, columns: Columns, rows: int) -> Array:
@@ -43,23 +54,34 @@ def sampled(
 
     ``given`` are further input signals, the same in all states; ``varying`` the sizes of those that vary as the motion.
 
-    States where an effect is not defined (a gas chamber pressed beyond its end) are left out.
+    States where an effect is not defined (a gas chamber pressed beyond its end) are left out, and others drawn where
+    these are more than half. Raises HardlyDefined where that does not help.
     """
     samples = 3 * (12 + len(columns) // max(dof, 1))
     random = np.random.default_rng(0)
     sizes = {**dict.fromkeys(("q", "qd", "qdd"), dof), **varying}
-    inputs = {name: random.uniform(-3.0, 3.0, (samples, size)) for name, size in sizes.items()}
-    nodes = [entry for column in columns.values() for entry in column.values()]
-    with np.errstate(all="ignore"):
-        values = evaluate_nodes(program.reachable(nodes), {**inputs, **given})
-    result = {}
-    for name, column in columns.items():
-        rows = np.zeros((samples, dof))
+    reachable = program.reachable([entry for column in columns.values() for entry in column.values()])
+    drawn: list[NDArray[np.float64]] = []
+    for _ in range(_DRAWS):
+        inputs = {name: random.uniform(-3.0, 3.0, (samples, size)) for name, size in sizes.items()}
+        with np.errstate(all="ignore"):
+            values = evaluate_nodes(reachable, {**inputs, **given})
+        rows = _rows(columns, values, samples, dof)
+        finite = np.isfinite(rows)
+        drawn.append(rows[:, finite.all(axis=(0, 2))])
+        if 2 * sum(part.shape[1] for part in drawn) >= samples:
+            together = np.concatenate(drawn, axis=1)
+            return {name: together[k].ravel() for k, name in enumerate(columns)}
+    raise HardlyDefined([name for name, defined in zip(columns, finite, strict=True) if not defined.all()])
+
+
+def _rows(columns: Columns, values: Mapping[Node, NDArray[np.float64]], samples: int, dof: int) -> NDArray[np.float64]:
+    """The columns' entries (columns x samples x dof)."""
+    rows = np.zeros((len(columns), samples, dof))
+    for k, column in enumerate(columns.values()):
         for row, entry in column.items():
-            rows[:, row] = values[entry]
-        result[name] = rows
-    defined = np.all([np.isfinite(rows).all(axis=1) for rows in result.values()], axis=0)
-    return {name: rows[defined].ravel() for name, rows in result.items()}
+            rows[k, :, row] = values[entry]
+    return rows
 
 
 def packed(program: Program, columns: Columns, rows: int) -> Array:
