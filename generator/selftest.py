@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from generator.reference import sample
 from generator.reference.joint_effects import LAWS
 from generator.reference.quantities import NAMES, reference
-from generator.reference.sample import payload, physical_parameters, positions, signal
+from generator.reference.sample import payload, physical_parameters, signal
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.function import Function, Signal
 from generator.symbolic.model import STANDARD, Model
@@ -51,12 +52,13 @@ def cases(model: Model) -> tuple[Case, ...]:
     given = {name: ParameterValue(value, "") for name, value in values.items()}
     parameters = tuple(float(value) for value in parameter_vector(model, given))
     standard = tuple(values[parameter.name] for parameter in model.standard_parameters)
+    positions = [_positions(model, state) for state in range(_STATES)]
     result = []
     for function in model.functions.values():
         if function.name.removesuffix(_PACKED) not in NAMES or ("regressor" in function.name and not complete):
             continue
         for state in range(_STATES):
-            inputs = {s.name: _input(model, s, state, standard) for s in function.inputs}
+            inputs = {s.name: _input(s, state, positions[state], standard) for s in function.inputs}
             tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
             outputs = _outputs(model, known, function, values, inputs)
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
@@ -85,13 +87,17 @@ def _acting_as_weight(model: Model) -> set[str]:
     return {name for name, into in grouped.items() if name not in rotors or any(t.startswith("Off") for t in into)}
 
 
-def _input(model: Model, wanted: Signal, state: int, standard: tuple[float, ...]) -> tuple[float, ...]:
-    """A signal of one state: positions within the limits, a physical payload, else numbers of mixed signs."""
+def _positions(model: Model, state: int) -> tuple[float, ...]:
+    """Of the joints, within the limits, and the elongations of the elastic ones."""
+    return (*sample.positions(model.robot, state), *signal(len(model.elastic), state, 0.01))
+
+
+def _input(wanted: Signal, state: int, positions: tuple[float, ...], standard: tuple[float, ...]) -> tuple[float, ...]:
+    """A signal of one state: some of its positions, a physical payload, else numbers of mixed signs."""
     if wanted.name == STANDARD:
         return standard
     if wanted.name == "q":
-        elongations = signal(len(model.elastic), state, 0.01)
-        return (*positions(model.robot, state), *elongations)[: wanted.size]
+        return positions[: wanted.size]
     if wanted.name == "payload":
         return tuple(payload(state))
     if wanted.name == "width":

@@ -86,6 +86,15 @@ class Acting:
         columns = self.law.torque(self._at(q, qd, qdd, beside))
         return {name: column * self.shares for name, column in self._named(columns).items()}
 
+    def is_defined(self, q: Array) -> bool:
+        """Whether all that it tells is a number at the positions ``q`` (n), at rest: a gas chamber has an end."""
+        at = replace(self._at(q), states=(Decimal(0),) * len(self.law.states))
+        try:
+            told = [*self.law.torque(at), *self.law.pull(at), *self.law.potential(at), *self.law.rates(at)]
+        except ArithmeticError:
+            return False
+        return all(number.is_finite() for number in told)
+
     def rates(self, q: Array, qd: Array, beside: Beside) -> dict[str, Decimal]:
         """Time derivatives of its states by their names."""
         rates = self.law.rates(self._at(q, qd, None, beside))

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from decimal import localcontext
+from itertools import islice
 from random import Random
 
 import numpy as np
 
-from generator.reference.joint_effects import LAWS
+from generator.reference.arithmetic import CONTEXT, decimals
+from generator.reference.joint_effects import LAWS, acting
 from generator.reference.matter import INERTIAL
-from generator.robot.description import PRISMATIC, Robot
+from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.robot.undefined import hardly_defined
+
+#: Positions drawn until every effect has a value.
+_TRIES = 1000
+#: Room around a position in which effects have values too [rad, m]: more than what a drive train is stretched by, and
+#: enough to stay away from the edge, where torques grow without bound.
+_ROOM = 0.1
 
 #: Range of a parameter that is not listed below.
 _USUAL = (0.5, 2.0)
@@ -88,14 +99,37 @@ def payload(seed: int) -> list[float]:
 
 
 def positions(robot: Robot, seed: int) -> list[float]:
-    """Joint positions (n) inside the limits, a turn or a metre either way where there are none, of three decimals."""
-    draw, result = Random(seed), []
-    for joint in robot.moving:
-        reach = 1.0 if joint.sigma == PRISMATIC else 3.1
-        lower = -reach if joint.lower is None else float(joint.lower)
-        upper = reach if joint.upper is None else float(joint.upper)
-        result.append(round(lower + (upper - lower) * draw.uniform(0.02, 0.98), 3))
-    return result
+    """Joint positions (n) inside the limits, a turn or a metre either way where there are none, of three decimals.
+
+    Every effect has a value there and close by; one without a law here is taken to have it. Raises InputError where
+    no such positions are found.
+    """
+    draw = Random(seed)
+    with localcontext(CONTEXT):
+        uses = [use for use in robot.effects if use.effect in LAWS]
+        effects = [(use.effect, one) for use in uses for one in acting(replace(robot, effects=(use,)))]
+        for _ in range(_TRIES):
+            q = [_position(joint, draw) for joint in robot.moving]
+            around = [decimals(_shifted(robot, q, by)) for by in (0.0, -_ROOM, _ROOM)]
+            undefined = ((name, one.number) for name, one in effects if not all(map(one.is_defined, around)))
+            first = list(islice(undefined, 1))
+            if not first:
+                return q
+    raise hardly_defined(robot, *first[0])
+
+
+def _position(joint: Joint, draw: Random) -> float:
+    reach = 1.0 if joint.sigma == PRISMATIC else 3.1
+    lower = -reach if joint.lower is None else float(joint.lower)
+    upper = reach if joint.upper is None else float(joint.upper)
+    return round(lower + (upper - lower) * draw.uniform(0.02, 0.98), 3)
+
+
+def _shifted(robot: Robot, q: Sequence[float], by: float) -> list[float]:
+    """All positions moved ``by`` as much, as far as the limits let them."""
+    lower = (-np.inf if joint.lower is None else float(joint.lower) for joint in robot.moving)
+    upper = (np.inf if joint.upper is None else float(joint.upper) for joint in robot.moving)
+    return [min(max(x + by, least), most) for x, least, most in zip(q, lower, upper, strict=True)]
 
 
 def signal(size: int, seed: int, scale: float = 1.0) -> list[float]:
