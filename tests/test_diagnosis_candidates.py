@@ -161,7 +161,8 @@ def test_effects_that_were_found_act_in_what_depends_on_the_torque(robots: Calla
     scene, truth, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
     (payload,) = offered([scene], "payload", 0)
     acts = [j for j in range(6) if np.abs(payload.columns(scene, {})[:, j]).any()]
-    variant = Variant(payload, {}, tuple(range(len(payload.coefficients))), tuple(acts), tuple(range(5)))
+    every = tuple(range(len(payload.coefficients)))
+    variant = Variant(payload, {}, every, tuple(acts), every)
     x, _ = fitted(payload.columns(scene, {}), truth, np.ones_like(rows(truth), dtype=bool), scene)
     acting = Acting((variant,), tuple(x.tolist()))
     loaded = replace(scene, beside=acting)

@@ -7,6 +7,7 @@ import pytest
 
 from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.hypothesis import ShapeRange
+from identification.diagnosis.selection import Selection
 from tests.matrices import hypothesis
 from tests.test_diagnosis_selection import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 
@@ -41,3 +42,29 @@ def test_a_joint_has_one_balancer() -> None:
     first, second = data.column(), data.column()
     offered = [fixed("gas_balancer", first), fixed("spring_balancer", second)]
     assert names(search(data.bank(3.0 * first + 2.8 * second, offered))) == {"gas_balancer"}
+
+
+def test_what_is_at_its_bounds_hides_none_of_the_others() -> None:
+    """Evidence beside two, one of them without a column, is that beside the other."""
+    data = Data(15)
+    first, second, none = data.column(), data.column(), data.column()
+    one = data.bank(3.0 * first, [fixed("first", first), fixed("second", second), fixed("none", none)])
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    a, b, c = one.variants
+    alone = weighing.of(b, [a])
+    beside = weighing.of(b, [a, c.only([])])
+    assert beside.drop == pytest.approx(alone.drop)
+    assert beside.why_not == alone.why_not
+
+
+@pytest.mark.parametrize(("more", "found"), [(0.02, {"viscous_friction", "coulomb_friction"}), (2.0, {"rare"})])
+def test_two_common_effects_stand_in_the_place_of_a_rare_one(more: float, found: set[str]) -> None:
+    """That explains by itself what they do together, and hardly more."""
+    data = Data(16)
+    viscous, coulomb, law = data.column(), data.column(), data.column()
+    rare = viscous + coulomb + more * law
+    common = [fixed("viscous_friction", viscous), fixed("coulomb_friction", coulomb)]
+    one = data.bank(3.0 * rare, [*common, fixed("rare", rare)])
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    chosen = Selection(weighing).search([one.variants[2]])
+    assert names(chosen) == found

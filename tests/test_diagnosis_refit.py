@@ -205,13 +205,13 @@ def test_standard_deviations_are_those_of_the_noise_s_colour(time: float, known:
 def test_a_payload_is_one_of_base_parameters(name: str) -> None:
     regressors = Regressors(robot_of(find_robot(name).read_text(encoding="utf-8"), name))
     nothing = Prior(np.zeros(len(regressors.names)), 100.0 * np.eye(len(regressors.names)))
-    payload = {"M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5, "I": 0.04}
+    payload = {"M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5, "I": 0.04, "XX-I": 0.01, "XZ": -0.02}
     prior = with_payload(nothing, regressors, payload, {"M": 0.3})
     std = np.sqrt(np.diag(np.linalg.inv(prior.precision)))
     assert (std >= 0.1 - 1e-12).all()
     assert std.max() > 0.1
     along = motion(regressors.model.robot, 5).part(0, 50)
-    ten = {"XX": 0.04, "YY": 0.04, "ZZ": 0.04, "M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5}
+    ten = {"XX": 0.05, "XZ": -0.02, "YY": 0.04, "ZZ": 0.04, "M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5}
     order = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
     body = np.array([ten.get(stem, 0.0) for stem in order])
     expected = np.stack([body @ columns for columns in regressors.payload(along)])

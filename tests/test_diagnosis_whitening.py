@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import linalg, signal
 
-from identification.diagnosis.whitening import Colour, colour, stretches
+from identification.diagnosis.whitening import Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
 
@@ -104,6 +104,15 @@ def test_the_spectrum_holds_the_power() -> None:
     assert ratio.min() > 0.7
 
 
-def test_freedom_makes_up_for_what_a_fit_took() -> None:
-    e = process(5000, 9)
-    assert colour([e], freedom=0.8).deviations[0] == pytest.approx(colour([e]).deviations[0] / np.sqrt(0.8))
+def test_what_was_taken_away_at_a_frequency_is_given_back_there() -> None:
+    whole = colour([process(100_000, 9)])
+    half = recoloured(whole, np.full(65, 0.5))
+    assert half.deviations == pytest.approx(np.array(whole.deviations) * np.sqrt(2), rel=1e-3)
+    for one, other in zip(half.filters, whole.filters, strict=True):
+        assert one == pytest.approx(other, abs=1e-3)
+    # Slow parts twice as large, quick ones as they are.
+    free = np.linspace(0.5, 1.0, 65)
+    slow = recoloured(whole, free)
+    rate = 50.0
+    at = np.linspace(0.0, rate / 2, 65)
+    assert slow.spectrum(at, rate) * free == pytest.approx(whole.spectrum(at, rate), rel=0.03)

@@ -92,7 +92,8 @@ def diagnose(
     first, last = (seen(found, weights) for weights in (found.start, found.weights))
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
     bounces = _bounces(found)
-    open_ = [] if dry else [lack for lack in last.lack if _large(lack, before, bounces.get(lack.joint, 0.0))]
+    explained = _explained(found)
+    open_ = [] if dry else [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
     disagreeing = disagreements(found)
     open_ = open_ or _doubtful(found, last, disagreeing)
     after = located(last, open_)
@@ -141,15 +142,25 @@ def _bounces(found: Search) -> dict[int, float]:
     return result
 
 
-def _large(lack: Lack, before: Where, bounces: float) -> bool:
-    """Whether what a joint's model lacks is more than noise, and not small beside what was explained there, or beside
-    what the file explains by a link that ``bounces``.
+def _explained(found: Search) -> dict[int, float]:
+    """By the joint's number, the rms beside the noise's of what was found there."""
+    bank, result = found.bank, {}
+    for k, joint in enumerate(bank.scenes[0].robot.moving):
+        first, last = (
+            np.concatenate([bank.residual(r, k, weights) for r in range(len(bank.runs))])
+            for weights in (found.start, found.weights)
+        )
+        result[joint.number] = float(np.sqrt(max(float(first @ first - last @ last), 0.0) / max(len(first), 1)))
+    return result
+
+
+def _large(lack: Lack, explained: float, bounces: float) -> bool:
+    """Whether what a joint's model lacks is more than noise, and not small beside what was ``explained`` there, or
+    beside what the file explains by a link that ``bounces``.
     """
     if lack.burst is not None:
         return True
-    first = next(one.size for one in before.lack if one.joint == lack.joint)
-    explained = float(np.sqrt(max(first**2 - lack.size**2, 0.0) + bounces**2))
-    return lack.p < _CHANCE and lack.size > max(_told_from(lack), _PART * explained)
+    return lack.p < _CHANCE and lack.size > max(_told_from(lack), _PART * float(np.hypot(explained, bounces)))
 
 
 def _little(lacks: Sequence[Lack]) -> list[str]:

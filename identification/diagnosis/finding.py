@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
-from identification.diagnosis.evidence import Evidence, Key, columns_of, key_of
+from identification.diagnosis.evidence import BALANCERS, Evidence, Key, columns_of, key_of
 from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
@@ -136,7 +136,8 @@ class Finding:
 
 
 def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tuple[Finding, ...]:
-    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``.
+    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``, and a balancer
+    whose geometry the runs do not tell.
 
     ``disagreements`` tell in words, by effect and joint, how the runs disagree on an amplitude.
     """
@@ -167,7 +168,13 @@ def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tup
                 disagreements.get(key_of(variant), ""),
             )
         )
-    return tuple(sorted(result, key=lambda one: -one.evidence.drop))
+    told = [replace(one, status=TENTATIVE) if _any_spring(one) else one for one in result]
+    return tuple(sorted(told, key=lambda one: -one.evidence.drop))
+
+
+def _any_spring(one: Finding) -> bool:
+    """Whether it is a balancer whose geometry the runs do not tell: any torque of the position looks like one."""
+    return one.hypothesis.effect in BALANCERS and not one.determined
 
 
 def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
