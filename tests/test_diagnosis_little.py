@@ -42,3 +42,19 @@ def test_what_has_no_name_is_told(tmp_path: Path) -> None:
     assert [one.hypothesis.effect for one in found.findings] == ["coulomb_friction"]
     (note,) = found.notes
     assert "times the noise on joint 1; a diagnosis of the new robot file may show what it is" in note
+
+
+def test_what_does_not_repeat_is_large_all_the_same(tmp_path: Path) -> None:
+    """Friction that warms up explains far more than a bump does, though no period has it in common with the others."""
+
+    def warming(q: Array, qd: Array) -> Array:
+        warmth = 1 - np.exp(-0.01 * np.arange(len(q)) / 25.0)
+        bump = 1.7 * (np.exp(-(((q - 0.5) / 0.1) ** 2)) - np.exp(-(((q + 0.3) / 0.1) ** 2)))
+        return np.asarray(-warmth * (12.0 * qd + 6.0 * np.sign(qd)) + bump)
+
+    regressors, sources = recorded(tmp_path, [warming] * 3)
+    found = diagnosis_of(sources, regressors)
+    assert found.verdict == NAMED
+    assert "warm_friction" in [one.hypothesis.effect for one in found.findings]
+    assert found.after.lack[0].p < 1e-4
+    assert found.after.lack[0].size > max(0.2, found.before.lack[0].size / 2)
