@@ -79,7 +79,7 @@ def recoloured(one: Colour, free: Array) -> Colour:
     for m in range(1, len(one.filters)):
         a = np.concatenate([[1.0], solve_toeplitz(r[:m], -r[1 : m + 1])])
         filters.append(a)
-        deviations.append(float(np.sqrt(max(a @ r[: m + 1], 0.0))))
+        deviations.append(float(np.sqrt(np.maximum(a @ r[: m + 1], 0.0))))
     return Colour(tuple(filters), tuple(deviations))
 
 
