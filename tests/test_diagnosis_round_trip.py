@@ -72,7 +72,7 @@ def test_what_was_found_and_added_is_not_found_again(
         ("gear_ratio", 0.08, "gear_ratio"),
         ("encoder_offset", 0.05, "position_offset"),
         ("delay", 4e-3, "torque_delay"),
-        ("torque_constant_drift", 0.3, "torque_drift"),
+        ("torque_constant_drift", 0.5, "torque_drift"),
         ("base_tilt", 0.05, "base_tilt"),
     ],
 )
