@@ -85,7 +85,7 @@ def diagnosed(
 
     with replacing(folder, GENERATED) as fresh:
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
-        ended = [] if wanted.dry else torque_band.notes(found.found.bank.scenes)
+        ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
         found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):

@@ -89,10 +89,11 @@ def diagnose(
     trial = along(found, test)
     found, gone = confirmed(found, trial)
     told("looking where the residual is")
-    first, last = (seen(found, weights) for weights in (found.start, found.weights))
+    start, weights = found.start, found.weights
+    first, last = seen(found, start), seen(found, weights)
     before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
-    bounces = _bounces(found)
-    explained = _explained(found)
+    bounces = _bounces(found, weights)
+    explained = _explained(found, start, weights)
     open_ = [] if dry else [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
     disagreeing = disagreements(found)
     open_ = open_ or _doubtful(found, last, disagreeing)
@@ -116,8 +117,8 @@ def diagnose(
         tuple(runs),
         found,
         steps(found, trial),
-        tuple(_residuals(found, found.start)),
-        tuple(_residuals(found, found.weights)),
+        tuple(_residuals(found, start)),
+        tuple(_residuals(found, weights)),
         tuple(notes),
     )
 
@@ -128,11 +129,11 @@ def _invisible(found: Search) -> tuple[Hypothesis, ...]:
     return tuple(one for one in found.weighing.invisible() if (one.effect, one.joint) not in chosen)
 
 
-def _bounces(found: Search) -> dict[int, float]:
+def _bounces(found: Search, values: Mapping[int, float]) -> dict[int, float]:
     """By the joint's number, the rms of the file's backlash beside the noise's, of which no file tells all: how a link
     bounces the smallest error changes.
     """
-    bank, values, result = found.bank, found.weights, {}
+    bank, result = found.bank, {}
     for one in stated(bank.scenes[0].robot):
         if one.gap:
             numbers = [bank.base.index(name) for name in names_of_backlash(one.number)]
@@ -142,13 +143,12 @@ def _bounces(found: Search) -> dict[int, float]:
     return result
 
 
-def _explained(found: Search) -> dict[int, float]:
+def _explained(found: Search, start: Mapping[int, float], weights: Mapping[int, float]) -> dict[int, float]:
     """By the joint's number, the rms beside the noise's of what was found there."""
     bank, result = found.bank, {}
     for k, joint in enumerate(bank.scenes[0].robot.moving):
         first, last = (
-            np.concatenate([bank.residual(r, k, weights) for r in range(len(bank.runs))])
-            for weights in (found.start, found.weights)
+            np.concatenate([bank.residual(r, k, values) for r in range(len(bank.runs))]) for values in (start, weights)
         )
         result[joint.number] = float(np.sqrt(max(float(first @ first - last @ last), 0.0) / max(len(first), 1)))
     return result

@@ -11,21 +11,7 @@ from collections.abc import Mapping
 
 from identification.diagnosis.hypothesis import Coefficient
 
-#: Inertial parameters, in the tool frame, of each of which a coefficient is so much, by the coefficient's name.
-PARAMETERS: Mapping[str, tuple[str, ...]] = {
-    "M": ("M",),
-    "MX": ("MX",),
-    "MY": ("MY",),
-    "MZ": ("MZ",),
-    "I": ("XX", "YY", "ZZ"),
-    "XX-I": ("XX",),
-    "YY-I": ("YY",),
-    "XY": ("XY",),
-    "XZ": ("XZ",),
-    "YZ": ("YZ",),
-}
-
-#: Those of a payload [SI], in the order of ``PARAMETERS``.
+#: Those of a payload [SI].
 COEFFICIENTS = (
     Coefficient("M", "kg", 0.0),
     Coefficient("MX", "kg m"),
@@ -34,3 +20,9 @@ COEFFICIENTS = (
     Coefficient("I", "kg m2", 0.0),
     *(Coefficient(name, "kg m2", refines=True) for name in ("XX-I", "YY-I", "XY", "XZ", "YZ")),
 )
+
+#: Those that are not called as the one inertial parameter, in the tool frame, of which they are so much.
+_OTHERS = {"I": ("XX", "YY", "ZZ"), "XX-I": ("XX",), "YY-I": ("YY",)}
+
+#: Inertial parameters, in the tool frame, of each of which a coefficient is so much, by the coefficient's name.
+PARAMETERS: Mapping[str, tuple[str, ...]] = {one.name: _OTHERS.get(one.name, (one.name,)) for one in COEFFICIENTS}

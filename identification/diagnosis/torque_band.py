@@ -36,8 +36,7 @@ def end(scenes: Sequence[Scene]) -> float:
     """
     rate = scenes[0].sampled.run.rate / _factor(scenes[0])
     frequency = np.linspace(0, rate / 2, _FREQUENCIES + 1)[1:]
-    modelled = [_modelled(scene) for scene in scenes]
-    power = [_power(scenes, modelled, k, frequency, rate) for k in range(len(scenes[0].tau))]
+    power = [_power(scenes, k, frequency, rate) for k in range(len(scenes[0].tau))]
     short = np.quantile(power, _MOST, axis=0) < _SHORT
     return float(frequency[np.argmax(short)]) if len(power) >= _SEVERAL and short.any() else np.inf
 
@@ -58,20 +57,16 @@ def _factor(scene: Scene) -> int:
     return max(round(scene.sampled.run.rate / RATE), 1)
 
 
-def _modelled(scene: Scene) -> Array:
-    """Torques (n x N) [N m, N] that the positions ask for, by the model and what was found beside it."""
-    return scene.model_torque if scene.beside is None else scene.model_torque + scene.beside.torque(scene)
-
-
-def _power(scenes: Sequence[Scene], modelled: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:
-    """The power density of a joint's recorded torque in parts of the model's, where the joint moves; 1 where it never
-    does. Reversals are left out, as in the rows: a model's friction jumps there, and a real one need not.
+def _power(scenes: Sequence[Scene], k: int, frequency: Array, rate: float) -> Array:
+    """The power density of a joint's recorded torque in parts of that by the model and what was found beside it, where
+    the joint moves; 1 where it never does. Reversals are left out, as in the rows: a model's friction jumps there, and
+    a real one need not.
     """
     recorded: list[Array] = []
     model: list[Array] = []
-    for scene, torque in zip(scenes, modelled, strict=True):
+    for scene in scenes:
         factor = _factor(scene)
         kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
         recorded += stretches(windowed(scene.tau[k], factor), kept)
-        model += stretches(windowed(torque[k], factor), kept)
+        model += stretches(windowed(scene.torque[k], factor), kept)
     return colour(recorded).spectrum(frequency, rate) / colour(model).spectrum(frequency, rate)
