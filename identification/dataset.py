@@ -6,7 +6,7 @@ A run is a file, or a part of it: ``A.csv@2:8`` is the run from 2 s to 8 s by th
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError, Place
+from generator.review.words import listed, plural
 from generator.robot.description import Robot
 from identification import checks, corrections, readers, sidecar
 from identification.drive_train import driven
@@ -26,6 +27,7 @@ from identification.signals import (
     FURTHER,
     POSITIONS,
     WRENCH,
+    Measured,
     joint_positions,
     joint_torques,
     measured,
@@ -42,11 +44,11 @@ class Run:
     """One run of n joints and N samples, samples along the last axis.
 
     ``q`` [rad, m] and ``tau`` [N m, N] are on the joint side (n x N); ``start`` and ``period`` in s. ``empty`` tells
-    that the run is known to carry no payload. ``unusable`` marks samples whose effort was cut off. ``by_motors`` tells
-    that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of the drives (n x N) is
-    there where the robot file says it. ``others`` are the file's further columns of known meaning by name (N each).
-    ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a part of, the
-    run's own where they are not given. ``notes`` tell every repair.
+    that the run is known to carry no payload. ``unusable`` marks samples that were lost or whose effort was cut off.
+    ``by_motors`` tells that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of
+    the drives (n x N) is there where the robot file says it. ``others`` are the file's further columns of known meaning
+    by name (N each). ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a
+    part of, the run's own where they are not given. ``notes`` tell every repair.
     """
 
     name: str
@@ -200,18 +202,16 @@ def _run(
     stretches = checks.torques(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
     notes = [*recording.notes]
-    for one in stretches:
-        name, rows = effort.names[one.coordinate], one.end - one.start
-        notes.append(f"{where(one.start, name)}: {name} is cut off for {rows} rows, which are left out")
-    for name, values in zip(effort.names, effort.values, strict=True):
-        if (held := checks.repeats(values)) > 1:
-            notes.append(f"{where(None, name)}: {name} keeps each value for {held} rows: it was logged more slowly")
-    if ticks.uneven is not None:
-        notes.append(f"{where(None, 't')}: times are uneven; samples were interpolated to {ticks.rate:.6g} Hz")
-        q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
+    notes += _told(stretches, effort, where)
     unusable = checks.left_out(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
+    lost = ticks.lost
+    if ticks.uneven or lost.any():
+        how = f"{plural(int(lost.sum()), 'sample')} of {len(lost)} are lost" if lost.any() else "times are uneven"
+        notes.append(f"{where(None, 't')}: {how}; samples were interpolated to {ticks.rate:.6g} Hz")
+        q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
+        unusable = _left_out(ticks, unusable, len(tau))
     place = where(None, "t")
     began = {name: value for name, value in beginning.began.items() if name == "t" or name.startswith("temp")}
     run = Run(
@@ -256,10 +256,31 @@ def _known(name: str, robot: Robot) -> bool:
     return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
 
 
+def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: checks.Where) -> Iterator[str]:
+    """What is to be told of efforts that are cut off, or were logged more slowly than positions."""
+    for k, name in enumerate(effort.names):
+        mine = [one for one in stretches if one.coordinate == k]
+        if mine:
+            rows = sum(one.end - one.start for one in mine)
+            first = f", the first time here in {plural(len(mine), 'stretch')}" if len(mine) > 1 else ""
+            yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{first}, which are left out"
+    held = {name: checks.repeats(values) for name, values in zip(effort.names, effort.values, strict=True)}
+    for rows in sorted({count for count in held.values() if count > 1}):
+        names = [name for name, count in held.items() if count == rows]
+        keep = f"{names[0]} keeps" if len(names) == 1 else f"{listed(names)} keep"
+        were = "it was" if len(names) == 1 else "they were"
+        yield f"{where(None, names[0])}: {keep} each value for {rows} rows: {were} logged more slowly"
+
+
 def _evened(ticks: Clock, x: Array) -> Array:
-    """Samples at even times, by a cubic spline through the uneven ones."""
-    t = ticks.uneven
-    assert t is not None
-    even = np.clip(ticks.start + ticks.period * np.arange(len(t)), t[0], t[-1])
-    result: Array = make_interp_spline(t, x, axis=-1)(even)
+    """Samples at even times, by a cubic spline through the rows."""
+    result: Array = make_interp_spline(ticks.t, x, axis=-1)(ticks.even)
     return result
+
+
+def _left_out(ticks: Clock, unusable: NDArray[np.bool_] | None, n: int) -> NDArray[np.bool_] | None:
+    """Samples (n x N) that are lost, or whose row is ``unusable``; None without any."""
+    result = np.tile(ticks.lost, (n, 1))
+    if unusable is not None:
+        result[:, ticks.sample] = unusable
+    return result if result.any() else None

@@ -53,9 +53,9 @@ class Pose:
     """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
     the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
 
-    ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands or nearly does. ``at``
-    are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the mean torques of the drive
-    trains (n), weight included.
+    ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands, nearly does, or its
+    current is cut off. ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the
+    mean torques of the drive trains (n), weight included.
     """
 
     run: Run
@@ -160,7 +160,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     at = q[:, inner].mean(axis=1)
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
-    turning = _turning(qd[:, inner], filters)
+    cut = np.zeros(run.q.shape, dtype=bool) if run.unusable is None else run.unusable
+    turning = _turning(qd[:, inner], cut[:, inner], filters)
     return Pose(
         run,
         filters,
@@ -175,9 +176,11 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     )
 
 
-def _turning(qd: Array, filters: Filters) -> Array:
-    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill."""
-    fast = np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)
+def _turning(qd: Array, cut: NDArray[np.bool_], filters: Filters) -> Array:
+    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill or a
+    current that is ``cut`` off.
+    """
+    fast = (np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)) & ~cut
     reach = round(filters.rate / filters.cutoff / 2)
     steady = np.array([kept_rows(~one, filters.factor, reach) for one in fast])
     result: Array = np.sign(qd[:, kept_indices(qd.shape[1], filters.factor)]) * steady

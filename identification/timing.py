@@ -1,10 +1,11 @@
-"""The time column: even, increasing, without gaps; or one line that says where it is not."""
+"""The time column: even, increasing, without gaps but single lost samples; or one line that says where it is not."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.review.words import plural
@@ -12,20 +13,43 @@ from identification.recording import Array, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
 _EVEN, _GAP = 0.02, 0.5
+#: Samples in a row that a spline stands for, and the part of a run that may be lost.
+_IN_A_ROW, _LOST = 4, 0.01
 
 
 @dataclass(frozen=True)
 class Clock:
-    """Start and period [s] of a run; ``uneven`` times (N) [s] where its samples must be moved to even ones."""
+    """Times ``t`` [s] of the M rows of a recording, each the sample number ``sample`` of a run that begins at ``start``
+    and has one every ``period`` [s].
+    """
 
     start: float
     period: float
-    uneven: Array | None = None
+    t: Array
+    sample: NDArray[np.int_]
 
     @property
     def rate(self) -> float:
         """Samples per second [Hz]."""
         return 1 / self.period
+
+    @property
+    def even(self) -> Array:
+        """Times (N) [s] of the run's samples, none of them before the first row or after the last."""
+        even = self.start + self.period * np.arange(self.sample[-1] + 1)
+        return np.clip(even, self.t[0], self.t[-1])
+
+    @property
+    def uneven(self) -> bool:
+        """Whether rows are not at the times of their samples."""
+        return bool(np.max(np.abs(self.t - self.start - self.period * self.sample)) > _EVEN * self.period)
+
+    @property
+    def lost(self) -> NDArray[np.bool_]:
+        """Samples (N) of which there is no row."""
+        result = np.ones(self.sample[-1] + 1, dtype=bool)
+        result[self.sample] = False
+        return result
 
 
 def clock(recording: Recording, first: int = 0) -> Clock:
@@ -47,14 +71,21 @@ def clock(recording: Recording, first: int = 0) -> Clock:
     usual = float(np.median(steps))
     early = float(np.median(steps[: max(2, len(steps) // 50)]))
     reference = early if abs(early / usual - 1) > _GAP else usual
-    gaps = np.flatnonzero(np.abs(steps - reference) > _GAP * reference)
+    samples = _samples(steps, reference)
+    gaps = np.flatnonzero(np.abs(steps - samples * reference) > _GAP * reference)
     if gaps.size:
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
         raise InputError(
             recording.where(first + k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part"
         )
-    period = float(t[-1] - t[0]) / (len(t) - 1)
-    even = t[0] + period * np.arange(len(t))
-    uneven = bool(np.max(np.abs(t - even)) > _EVEN * period)
-    return Clock(float(t[0]), period, t if uneven else None)
+    sample = np.concatenate([[0], np.cumsum(samples)])
+    return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
+
+
+def _samples(steps: Array, usual: float) -> NDArray[np.int_]:
+    """How many samples each step is: more than one where a few are lost, in a recording that lost few."""
+    samples: NDArray[np.int_] = np.rint(steps / usual).astype(int)
+    lost = np.maximum(samples - 1, 0)
+    few = lost.max() <= _IN_A_ROW and lost.sum() <= _LOST * len(steps)
+    return np.maximum(samples, 1) if few else np.ones_like(samples)

@@ -43,6 +43,7 @@ def test_cut_off_torques_neither_name_nor_shift_anything(
     fit, validate, test = sources[:1], sources[1:runs][:1], sources[2:runs]
     found, new, _ = diagnosed(path, read(path), Request(fit, validate, test), tmp_path / "out", lambda *about: {})
     assert found.verdict == NOTHING
+    assert sum("tau1 is cut off for" in note for note in found.notes) == runs
     assert new is not None
     assert not new.notes
     for name in ("ZZ1", "MX1", "Fv1", "Fc1"):

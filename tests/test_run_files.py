@@ -337,6 +337,27 @@ def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path
     assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
 
 
+def test_single_lost_samples_are_interpolated_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    lost = [300, 700, 701, 702, 1200]
+    kept = Recorded({name: np.delete(values, lost) for name, values in good.columns.items()})
+    run = load(str(kept.save(tmp_path / "a.csv")), robot)
+    assert "5 samples of 1600 are lost; samples were interpolated to 200 Hz" in run.notes[0]
+    assert run.samples == 1600
+    assert run.unusable is not None
+    for row in run.unusable:
+        assert np.flatnonzero(row).tolist() == lost
+    present = np.delete(np.arange(1600), lost)
+    assert np.abs(run.q - stacked(good, "q"))[:, present].max() < 1e-9
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
+
+
+@pytest.mark.parametrize("lost", [range(500, 505), range(10, 1590, 40)])
+def test_many_lost_samples_are_refused(lost: range, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    kept = Recorded({name: np.delete(values, list(lost)) for name, values in good.columns.items()})
+    with pytest.raises(InputError, match="time steps by"):
+        load(str(kept.save(tmp_path / "a.csv")), robot)
+
+
 def test_slowly_logged_torques_are_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     held = good.with_columns(tau1=np.repeat(good.columns["tau1"][::4], 4))
     run = load(str(held.save(tmp_path / "a.csv")), robot)

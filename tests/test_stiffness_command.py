@@ -165,6 +165,19 @@ def test_force_steps_without_noise(tmp_path: Path) -> None:
     assert found.stiffness["k6"].refused == "fx fy fz has no lever arm about joint 6 in any pose"
 
 
+def test_currents_at_their_limit_are_left_out_of_torque_constants(tmp_path: Path) -> None:
+    limited = pressed(tmp_path / "straight.csv", STRAIGHT, noise=1e-3, orient=True)
+    lines = Path(limited).read_text().splitlines()
+    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
+    columns = dict(zip(names, values, strict=True))
+    lowest, highest = columns["i2"].min(), columns["i2"].max()
+    columns["i2"] = np.minimum(columns["i2"], lowest + 0.8 * (highest - lowest))
+    limited = str(Recorded(columns).save(Path(limited)))
+    found = force_steps(ROBOT, [limited], {f"Ia{j}": value for j, value in enumerate(IA, 1)})
+    assert any("i2 is cut off for" in note for note in found.notes)
+    assert found.constants["kt2"].value == pytest.approx(KT[1], rel=0.01)
+
+
 def test_one_component_through_the_wrists_centre_shows_the_arm_alone(tmp_path: Path) -> None:
     runs = [
         pressed(tmp_path / "a.csv", STRAIGHT, orient=True),

@@ -78,6 +78,7 @@ def diagnosed(
             raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
         # What cannot be played at the end is refused now.
         tests = [ready(source) for source in chosen.test]
+    notes += [note for run in (*fit, *held, *last) for note in run.notes]
 
     def told(text: str) -> None:
         with stage(text):
