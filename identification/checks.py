@@ -18,6 +18,8 @@ from identification.signals import Measured
 _BEYOND = 0.05
 #: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
+#: Steps of an encoder at once within a sample from which a motion is abrupt.
+_ABRUPT = 2.5
 #: Time [s] over which a speed is looked at.
 _WINDOW = 0.05
 #: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
@@ -99,14 +101,17 @@ def _speed(x: Array, name: str, period: float, where: Where) -> None:
 
 
 def _held(x: Array, steps: Array, name: str, where: Where) -> None:
-    """A position that stops dead at its highest or lowest value and leaves it as abruptly is cut off."""
+    """A position that stops dead at its highest or lowest value and leaves it as abruptly is cut off; an encoder's
+    single step is not abrupt.
+    """
     moving = np.quantile(steps, 0.9)
+    resolution = np.min(steps, where=steps > 1e-3 * moving, initial=np.inf)
     for stretch in _flat(x):
         if stretch.start == 0 or stretch.end == len(x):
             continue
         before, after = steps[stretch.start - 1], steps[stretch.end - 1]
         inner = steps[stretch.start - 2] if stretch.start > 1 else 0.0
-        if min(before + inner, after) > 0.3 * moving > 0:
+        if min(before + inner, after) > max(0.3 * moving, _ABRUPT * resolution) > 0:
             problem = f"{name} stays at {x[stretch.start]:.6g} from here for {stretch.end - stretch.start} rows"
             raise InputError(where(stretch.start, name), problem, "a position that is not cut off")
 

@@ -337,6 +337,13 @@ def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path
     assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
 
 
+def test_a_coarse_encoder_that_rests_at_the_end_of_its_way_is_not_cut_off(
+    good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    coarse = np.round(cut_off(good).columns["q1"] / 0.05) * 0.05
+    assert load(str(good.with_columns(q1=coarse).save(tmp_path / "a.csv")), robot).samples == 1600
+
+
 def test_single_lost_samples_are_interpolated_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     lost = [300, 700, 701, 702, 1200]
     kept = Recorded({name: np.delete(values, lost) for name, values in good.columns.items()})
