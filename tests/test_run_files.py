@@ -340,7 +340,7 @@ def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path
 def test_a_coarse_encoder_that_rests_at_the_end_of_its_way_is_not_cut_off(
     good: Recorded, robot: Robot, tmp_path: Path
 ) -> None:
-    coarse = np.round(cut_off(good).columns["q1"] / 0.05) * 0.05
+    coarse = np.round(cut_off(good).columns["q1"] / 0.004) * 0.004
     assert load(str(good.with_columns(q1=coarse).save(tmp_path / "a.csv")), robot).samples == 1600
 
 
