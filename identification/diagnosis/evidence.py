@@ -18,6 +18,7 @@ from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import Normal, Prior, bounded
+from identification.diagnosis.rounding import Pretence
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -53,6 +54,8 @@ _ELSEWHERE = "other motion, or the base mounted another way: along these runs it
 _MAIN = 0.5
 #: Times its low end below which what vanishes there has vanished.
 _VANISHED = 1.1
+#: Part of what an effect explains that is not of rounding.
+_TRUE = 0.5
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
@@ -89,6 +92,7 @@ class Weighing:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
+        self._pretence = Pretence(bank, train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self._seen = 0
@@ -185,6 +189,8 @@ class Weighing:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
+        if self._true(variant, others) < _TRUE * drop:
+            return replace(one, why_not="what it explains is rounding of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
@@ -221,6 +227,13 @@ class Weighing:
         less = self.beside(variant.only(rest), others)[1] if rest else 0.0
         count = len(variant.columns) - len(rest)
         return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
+
+    def _true(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What a variant explains beside others without what rounding of the positions makes it explain."""
+        part = self.normal.part(variant.columns, columns_of(others))
+        size = np.diag(self.normal.gram)[list(variant.columns)]
+        products = part[:-1, -1] - self._pretence.products(variant)
+        return bounded(part[:-1, :-1], products, *variant.bounds, size)[1]
 
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""

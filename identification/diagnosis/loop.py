@@ -14,6 +14,7 @@ from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.evidence import Weighing, columns_of
 from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.maps import maps
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
 from identification.diagnosis.prepared import Prepared
@@ -118,7 +119,7 @@ def search(
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
         rounded = tuple(rounding(run, scene) for run, scene in zip(clear, scenes, strict=True))
-        bank.whiten(colours(bank, rounded))
+        bank.whiten(colours(bank, rounded, maps(clear, scenes)))
         weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)

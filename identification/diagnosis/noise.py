@@ -19,6 +19,8 @@ from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
+#: Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint along a run.
+_Rows = tuple[list[int], Array, Array, NDArray[np.bool_]]
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
@@ -32,20 +34,24 @@ _DOUBT = 200
 _AGAIN = 1
 
 
-def colours(bank: Bank, rounded: Sequence[Array] = ()) -> list[list[Colour]]:
+def colours(bank: Bank, rounded: Sequence[Array] = (), maps: Sequence[Sequence[Array]] = ()) -> list[list[Colour]]:
     """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell.
 
-    ``rounded`` (n x rows each) counts as noise too, though periods may have it in common.
+    ``rounded`` (n x rows each) counts as noise too, though periods may have it in common. ``maps`` are, by joint and
+    run, rows (m x rows) of what may act beside all hypotheses, if there are any.
     """
-    every = [_joint(bank, joint, [one[joint] for one in rounded]) for joint in range(bank.dof)]
+    every = [
+        _joint(_columns(bank, joint, maps[joint] if maps else ()), bank, [one[joint] for one in rounded])
+        for joint in range(bank.dof)
+    ]
     return [[colours[r] for colours in every] for r in range(len(bank.runs))]
 
 
-def _joint(bank: Bank, joint: int, rounded: Sequence[Array]) -> list[Colour]:
+def _joint(parts: Sequence[_Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
     """The colour of a joint's noise in each run."""
-    left, free = _left(bank, joint, None, rounded)
+    left, free = _left(parts, bank, None, rounded)
     for _ in range(_AGAIN):
-        left, free = _left(bank, joint, _colour(left, free), rounded)
+        left, free = _left(parts, bank, _colour(left, free), rounded)
     known = _colour(left, free)
     return [_scaled(known, parts, float(free.mean())) for parts in left]
 
@@ -55,9 +61,10 @@ def _colour(left: list[list[Array]], free: Array) -> Colour:
     return recoloured(colour([part for parts in left for part in parts]), free)
 
 
-def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]) -> tuple[list[list[Array]], Array]:
+def _left(
+    parts: Sequence[_Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
+) -> tuple[list[list[Array]], Array]:
     """Stretches of noise of each run, and the part of its power that is left in them, by frequency."""
-    parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
     numbers = sorted({number for part in parts for number in part[0]})
     place = {number: i for i, number in enumerate(numbers)}
     places = [np.array([place[number] for number in mine], dtype=int) for mine, *_ in parts]
@@ -68,7 +75,9 @@ def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]
         white.append(x[:, kept] if known is None else known.white(x, kept))
         gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
     rows = sum(x.shape[1] for x in white)
-    inside = _inside(gram[:-1, :-1], sum(number < len(bank.base) for number in numbers), rows)
+    first, model = (sum(least <= number < len(bank.base) for number in numbers) for least in (numbers[0], 0))
+    most = _most(rows)
+    inside = _inside(gram[:-1, :-1], first, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
     weights = inside @ gram[:-1, -1]
     left: list[list[Array]] = []
     lost = np.zeros(_PART // 2 + 1)
@@ -83,7 +92,26 @@ def _left(bank: Bank, joint: int, known: Colour | None, rounded: Sequence[Array]
     return left, np.maximum(1 - _smooth(lost) / max(rows, 1), _LEAST)
 
 
-def _without_record(bank: Bank, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
+def _columns(bank: Bank, joint: int, maps: Sequence[Array]) -> list[_Rows]:
+    """Raw rows of a joint in each run with all that may act, ``maps`` too where there are rows enough."""
+    parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
+    model = {number for mine, *_ in parts for number in mine if number < len(bank.base)}
+    more = len(maps[0]) if maps else 0
+    if not more or _most(sum(int(kept.sum()) for *_, kept in parts)) <= len(model) + more:
+        return parts
+    numbers = [*range(-more, 0)]
+    return [
+        ([*numbers, *mine], np.concatenate([rows, columns]), tau, kept)
+        for (mine, columns, tau, kept), rows in zip(parts, maps, strict=True)
+    ]
+
+
+def _most(rows: int) -> int:
+    """Columns that may use up rows."""
+    return max(rows // _ROWS, 1)
+
+
+def _without_record(bank: Bank, run: int, joint: int) -> _Rows:
     """Raw rows of a joint without columns that hold the record's own noise."""
     noisy = {number for one in bank.variants if one.hypothesis.recorded for number in one.columns}
     numbers, columns, tau, kept = bank.raw(run, joint)
@@ -101,14 +129,10 @@ def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
     return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
 
 
-def _inside(gram: Array, base: int, rows: int) -> Array:
+def _inside(gram: Array, base: int, most: int) -> Array:
     """What makes products of columns with a torque weights of columns that explain it: their inverse in the directions
-    that are taken away.
-
-    The first ``base`` columns are those of the model, which all count if there are rows enough.
+    that are taken away: all of the first ``base`` columns, and ``most`` of the others.
     """
-    most = max(rows // _ROWS, 1)
-    base = base if base < most else 0
     B = inverse(gram[:base, :base])
     T = np.concatenate([-B @ gram[:base, base:], np.eye(len(gram) - base)])
     S = gram[base:, base:] + gram[base:, :base] @ T[:base]
@@ -116,7 +140,7 @@ def _inside(gram: Array, base: int, rows: int) -> Array:
     scaled = S / np.outer(size, size)
     values, vectors = np.linalg.eigh((scaled + scaled.T) / 2)
     seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
-    seen = seen[base - most :]
+    seen = seen[max(len(seen) - most, 0) :]
     T = T @ (vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
     result = T @ T.T
     result[:base, :base] += B

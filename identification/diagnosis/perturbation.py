@@ -25,10 +25,10 @@ def sensitivity(torque_on: Callable[[Motion], Array], motion: Motion, change: Mo
     up to their squares, but for the signs of friction: the step is small in the positions alone.
     """
     if about:
-        return (torque_on(_moved(motion, change, about)) - torque_on(motion)) / about
+        return (torque_on(moved(motion, change, about)) - torque_on(motion)) / about
     largest = float(np.abs(change.q).max())
     step = _STEP / largest if largest > 0 else 1.0
-    return (torque_on(_moved(motion, change, step)) - torque_on(_moved(motion, change, -step))) / (2 * step)
+    return (torque_on(moved(motion, change, step)) - torque_on(moved(motion, change, -step))) / (2 * step)
 
 
 def change_of(scene: Scene, k: int, x: Array) -> Motion:
@@ -58,7 +58,8 @@ def quicker(motion: Motion, k: int) -> Motion:
     return replace(motion, qdd=qdd)
 
 
-def _moved(motion: Motion, change: Motion, step: float) -> Motion:
+def moved(motion: Motion, change: Motion, step: float) -> Motion:
+    """The motion with ``step`` times a change added."""
     return replace(
         motion, q=motion.q + step * change.q, qd=motion.qd + step * change.qd, qdd=motion.qdd + step * change.qdd
     )

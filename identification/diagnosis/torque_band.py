@@ -23,8 +23,9 @@ _FREQUENCIES = 50
 _SHORT = 0.25
 #: Part of the joints that lack it at one frequency: above the band noise may hide it on one of them.
 _MOST = 0.75
-#: Least joints of which most are not one or two that swing.
-_SEVERAL = 3
+#: Least joints of which most are not one or two that swing; and of fewer, the power at the rows' highest frequencies
+#: that a rotor makes by itself.
+_SEVERAL, _ROTOR = 3, 0.05
 
 
 def end(scenes: Sequence[Scene]) -> float:
@@ -32,13 +33,15 @@ def end(scenes: Sequence[Scene]) -> float:
     none within the rows' band.
 
     A drive train that swings lacks torque about a frequency of its own, and beyond it has its rotor's alone. That is of
-    one joint; a log's filter and its steps are of all.
+    one joint; a log's filter and its steps are of all, and leave less than a rotor of what is quick.
     """
     rate = scenes[0].sampled.run.rate / _factor(scenes[0])
     frequency = np.linspace(0, rate / 2, _FREQUENCIES + 1)[1:]
-    power = [_power(scenes, k, frequency, rate) for k in range(len(scenes[0].tau))]
-    short = np.quantile(power, _MOST, axis=0) < _SHORT
-    return float(frequency[np.argmax(short)]) if len(power) >= _SEVERAL and short.any() else np.inf
+    power = np.quantile([_power(scenes, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
+    short = power < _SHORT
+    if len(scenes[0].tau) < _SEVERAL:
+        short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR)
+    return float(frequency[np.argmax(short)]) if short.any() else np.inf
 
 
 def notes(scenes: Sequence[Scene]) -> list[str]:
