@@ -130,7 +130,7 @@ def identify(
     if options.draws:
         solution = bootstrapped(problem, solution, trained, options.draws, rows)
     full = _estimate(problem, solution, factors, tests)
-    notes += suspect(trained, regressors, full.train)
+    notes += suspect([one.sampled for one in trained], regressors, full.train)
     reduced, solution = essential(problem, options.ratio, options.growth)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)

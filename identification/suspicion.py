@@ -17,8 +17,8 @@ from identification.factors import Factor, triangular
 from identification.filtering import smoothed
 from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
-from identification.observed import Observed
 from identification.residuals import Residuals
+from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
@@ -33,18 +33,14 @@ _THINNED = 1500
 _FEWEST = 3
 
 
-def suspect(runs: Sequence[Observed], regressors: Regressors, residuals: Residuals) -> list[str]:
+def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> list[str]:
     """Doubts about a fit; raises InputError where columns are swapped and where the model does not explain the data."""
-    each = residuals.per_joint
-    bad = [k for k, one in each.items() if one.rows and one.relative_to_mean > _DOUBTFUL]
-    if not bad:
-        return []
-    for run in runs:
-        _swapped(run, regressors, bad)
-    total = residuals.total.relative_to_mean
-    if total > _REFUSED:
+    ordered(runs, regressors, residuals)
+    each, total = residuals.per_joint, residuals.total.relative_to_mean
+    bad = _doubtful(residuals)
+    if bad and total > _REFUSED:
         problem = f"the model of {regressors.model.robot.name} leaves {total:.0f} % of the torques unexplained"
-        raise InputError(runs[0].sampled.run.place, problem, "a run of this robot, in rad and N m")
+        raise InputError(runs[0].run.place, problem, "a run of this robot, in rad and N m")
     numbers = [joint.number for joint in regressors.model.robot.moving]
     return [
         f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained"
@@ -53,8 +49,18 @@ def suspect(runs: Sequence[Observed], regressors: Regressors, residuals: Residua
     ]
 
 
-def _swapped(run: Observed, regressors: Regressors, bad: Sequence[int]) -> None:
-    one = run.sampled
+def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
+    """Raises InputError where two joints' columns are swapped."""
+    if bad := _doubtful(residuals):
+        for one in runs:
+            _swapped(one, regressors, bad)
+
+
+def _doubtful(residuals: Residuals) -> list[int]:
+    return [k for k, one in residuals.per_joint.items() if one.rows and one.relative_to_mean > _DOUBTFUL]
+
+
+def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
     tau = smoothed(one.tau, one.filters.order, one.filters.cutoff, one.filters.rate)
     thin = np.unique(np.linspace(0, one.motion.samples - 1, _THINNED).astype(int))
     motion = one.motion.at(thin)

@@ -17,6 +17,7 @@ from identification.dataset import Run, load
 from identification.destination import spare_inputs
 from identification.diagnosis import torque_band
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
+from identification.diagnosis.doubts import doubts
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import notes_of, preferring, prior_of
@@ -87,7 +88,7 @@ def diagnosed(
     with replacing(folder, GENERATED) as fresh:
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
         ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
-        found = changed(found, notes=(*notes, *found.notes, *ended))
+        found = changed(found, notes=(*notes, *found.notes, *doubts(found, wanted.dry), *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

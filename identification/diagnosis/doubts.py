@@ -1,0 +1,56 @@
+"""Whether the runs are of this robot, with columns, units and signs as they are said to be."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.errors import InputError
+from identification.diagnosis.diagnosis import Diagnosis
+from identification.residuals import Residual, Residuals
+from identification.suspicion import ordered, suspect
+
+Array = NDArray[np.float64]
+
+#: Correlation of a run's torques with what the model makes of them from which their signs are others.
+_REVERSED = -0.5
+
+
+def doubts(found: Diagnosis, dry: bool) -> list[str]:
+    """What is to be told of joints that stay unexplained though everything was looked for.
+
+    Raises InputError where columns are swapped, where the torques of a run have another sign than those of the others,
+    and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained.
+    """
+    bank = found.found.bank
+    runs = [run.sampled for run in bank.runs]
+    regressors, left = bank.scenes[0].regressors, _left(found)
+    if dry:
+        ordered(runs, regressors, left)
+        return []
+    _alike(found)
+    return suspect(runs, regressors, left)
+
+
+def _left(found: Diagnosis) -> Residuals:
+    """What the model with the findings leaves of each joint in the rows that count."""
+    runs, each = found.found.bank.runs, {}
+    for k in range(found.found.bank.dof):
+        e, tau = (
+            np.concatenate([rows[k][run.kept[k]] for run, rows in zip(runs, signals, strict=True)])
+            for signals in (found.residuals_after, [run.tau for run in runs])
+        )
+        spread = tau - tau.mean() if len(tau) else tau
+        each[k] = Residual(len(tau), *(float(np.linalg.norm(x)) for x in (e, tau, spread)))
+    return Residuals(each)
+
+
+def _alike(found: Diagnosis) -> None:
+    for run, e in zip(found.found.bank.runs, found.residuals_after, strict=True):
+        tau, model = run.tau[run.kept], (run.tau - e)[run.kept]
+        if tau @ model < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(model):
+            raise InputError(
+                run.sampled.run.place,
+                "the torques have another sign than those of the other runs",
+                "one sign in all runs; a sidecar can change it",
+            )
