@@ -32,7 +32,7 @@ from identification.signals import (
     joint_torques,
     measured,
 )
-from identification.timing import Clock, clock
+from identification.timing import Clock, clock, jitters
 
 #: Time [s] to which parts of runs are told.
 _CLOSE = 1e-6
@@ -206,6 +206,9 @@ def _run(
     unusable = checks.left_out(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
+    if jitters(ticks, q):
+        ticks = ticks.steady
+        notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
     lost = ticks.lost
     if ticks.uneven or lost.any():
         how = f"{plural(int(lost.sum()), 'sample')} of {len(lost)} are lost" if lost.any() else "times are uneven"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,10 @@ from identification.recording import Array, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
 _EVEN, _GAP = 0.02, 0.5
+#: By how much, in periods, a clock that jitters is late at most.
+_LATE = 0.4
 #: Samples in a row that a spline stands for, and the part of a run that may be lost.
-_IN_A_ROW, _LOST = 4, 0.01
+_IN_A_ROW, _LOST = 4, 0.02
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,11 @@ class Clock:
     def uneven(self) -> bool:
         """Whether rows are not at the times of their samples."""
         return bool(np.max(np.abs(self.t - self.start - self.period * self.sample)) > _EVEN * self.period)
+
+    @property
+    def steady(self) -> Clock:
+        """The clock of rows that were taken at even times, whatever ``t`` says."""
+        return replace(self, t=np.asarray(self.start + self.period * self.sample))
 
     @property
     def lost(self) -> NDArray[np.bool_]:
@@ -74,6 +81,9 @@ def clock(recording: Recording, first: int = 0) -> Clock:
     samples = _samples(steps, reference)
     gaps = np.flatnonzero(np.abs(steps - samples * reference) > _GAP * reference)
     if gaps.size:
+        even = _even(t)
+        if _jittered(t, even):
+            return Clock(float(even[0]), float(even[1] - even[0]), t, np.arange(len(t)))
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
         raise InputError(
@@ -81,6 +91,34 @@ def clock(recording: Recording, first: int = 0) -> Clock:
         )
     sample = np.concatenate([[0], np.cumsum(samples)])
     return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
+
+
+def _even(t: Array) -> Array:
+    """The even times that are nearest to others."""
+    number = np.arange(len(t))
+    return np.asarray(np.polyval(np.polyfit(number, t, 1), number))
+
+
+def _jittered(t: Array, even: Array) -> bool:
+    """Whether times are so close to ``even`` ones that none is lost."""
+    period = float(even[1] - even[0])
+    return bool(np.max(np.abs(t - even)) < _LATE * period and np.max(np.diff(t)) < (1 + 2 * _LATE) * period)
+
+
+def jitters(ticks: Clock, x: Array) -> bool:
+    """Whether signals (n x M) that are smooth are smoother without the unevenness of their rows' times: it is of the
+    clock, not of the rows.
+    """
+    return ticks.uneven and _rough(ticks.steady.t, x) < _rough(ticks.t, x)
+
+
+def _rough(t: Array, x: Array) -> float:
+    """How far rows are from the cubics through the two before and the two after each."""
+    near = np.stack([t[:-4], t[1:-3], t[3:-1], t[4:]]) - t[2:-2]
+    weights = [np.prod([b / (b - a) for b in np.delete(near, i, axis=0)], axis=0) for i, a in enumerate(near)]
+    values = np.stack([x[:, :-4], x[:, 1:-3], x[:, 3:-1], x[:, 4:]])
+    off = np.einsum("im,inm->nm", np.array(weights), values) - x[:, 2:-2]
+    return float(np.sum(np.mean(np.abs(off), axis=1)))
 
 
 def _samples(steps: Array, usual: float) -> NDArray[np.int_]:

@@ -337,6 +337,18 @@ def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path
     assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
 
 
+@pytest.mark.parametrize("size", [0.1, 0.35])
+def test_rows_at_even_times_whose_clock_jitters_are_taken_as_even(
+    size: float, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    t = good.columns["t"].copy()
+    t[1:-1] += 0.005 * np.random.default_rng(1).uniform(-size, size, 1598)
+    run = load(str(good.with_columns(t=t).save(tmp_path / "a.csv")), robot)
+    assert "times jitter; positions are smoother at even ones, which were taken" in run.notes[0]
+    assert len(run.notes) == 1
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-9
+
+
 def test_a_coarse_encoder_that_rests_at_the_end_of_its_way_is_not_cut_off(
     good: Recorded, robot: Robot, tmp_path: Path
 ) -> None:

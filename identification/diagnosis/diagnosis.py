@@ -35,7 +35,7 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 LOCATED = "located"
 
 #: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint; chance.
-_SMALL, _PART, _CHANCE = 0.2, 0.5, 1e-4
+_SMALL, _PART, _CHANCE = 0.2, 0.3, 1e-4
 #: Where nothing repeats the noise is not known apart from the model, and more must stay.
 _SMALL_APERIODIC = 0.5
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
@@ -99,7 +99,8 @@ def diagnose(
     open_ = open_ or _doubtful(found, last, disagreeing)
     after = located(last, open_)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
-    named = findings(found, not open_, disagreeing)
+    beyond = {one.joint: one.size for one in last.lack if one.p < _CHANCE and one.size > _told_from(one)}
+    named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]

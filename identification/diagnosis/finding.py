@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
-from identification.diagnosis.evidence import BALANCERS, Evidence, Key, columns_of, key_of
-from identification.diagnosis.hypothesis import Hypothesis, on_joints
+from identification.diagnosis.evidence import BALANCERS, SPRINGS, Evidence, Key, columns_of, key_of
+from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.shape_uncertainty import deviations
@@ -26,6 +26,9 @@ BETWEEN = "other_ripple"
 #: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
 #: its zero means nothing.
 _VAGUE = 0.5
+#: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
+#: to where it rests, which any torque of the position looks like.
+_LEFT, _PULLED = 1.0, 0.15
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 #: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
@@ -128,6 +131,11 @@ class Finding:
         return (*coefficients, *shape)
 
     @property
+    def main(self) -> tuple[Value, ...]:
+        """Its coefficients but those that refine it."""
+        return tuple(self.parameters[c.name] for c in self.hypothesis.coefficients if not c.refines)
+
+    @property
     def determined(self) -> bool:
         """Whether the runs tell its values one by one, and not only the torque that they make together."""
         shapes = {one.name: one for one in self.hypothesis.shapes}
@@ -135,11 +143,14 @@ class Finding:
         return all(std <= _VAGUE * sizes[name] for name, std in self.shape_std.items())
 
 
-def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tuple[Finding, ...]:
-    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``, and a balancer
-    whose geometry the runs do not tell.
+def findings(
+    found: Search, firm: bool, disagreements: Mapping[Key, str], left: Mapping[int, float]
+) -> tuple[Finding, ...]:
+    """The choices of a search, the one with the most evidence first; all tentative where not ``firm``, and each that
+    any other torque may be.
 
-    ``disagreements`` tell in words, by effect and joint, how the runs disagree on an amplitude.
+    ``disagreements`` tell in words, by effect and joint, how the runs disagree on an amplitude. ``left`` is what stays
+    beyond chance on joints, by number, beside the noise.
     """
     columns = columns_of(found.variants)
     solution, _ = found.weighing.normal.solution(columns)
@@ -168,13 +179,29 @@ def findings(found: Search, firm: bool, disagreements: Mapping[Key, str]) -> tup
                 disagreements.get(key_of(variant), ""),
             )
         )
-    told = [replace(one, status=TENTATIVE) if _any_spring(one) else one for one in result]
+    pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
+    several = {number for number in pulled if pulled.count(number) > 1}
+    told = [replace(one, status=TENTATIVE) if _any_torque(one, left, several) else one for one in result]
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
-def _any_spring(one: Finding) -> bool:
-    """Whether it is a balancer whose geometry the runs do not tell: any torque of the position looks like one."""
-    return one.hypothesis.effect in BALANCERS and not one.determined
+def _any_torque(one: Finding, left: Mapping[int, float], several: Collection[int]) -> bool:
+    """Whether its torque is known and its law is not: it leaves too much of it, it is one of ``several`` springs on a
+    joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
+    """
+    effect, kind = one.hypothesis.effect, one.hypothesis.kind
+    if effect in SPRINGS and set(one.joints) & set(several):
+        return True
+    part = _PULLED if effect in SPRINGS else _LEFT
+    if max(left.get(number, 0.0) for number in one.joints) > part * one.evidence.size:
+        return True
+    if effect in BALANCERS:
+        return not one.determined or any(map(_vague, one.main))
+    return kind == BODY and _vague(one.main[0])
+
+
+def _vague(one: Value) -> bool:
+    return not one.value or (one.std or 0.0) > _VAGUE * abs(one.value)
 
 
 def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:

@@ -1,16 +1,21 @@
-"""What noise alone leaves of a run that was not looked at, from the noise that was measured on the others."""
+"""What noise alone leaves of a run that was not looked at, from the noise that was measured on the others; and where
+that is so much that it is hardly noise.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.words import listed
 from identification.diagnosis.bank import Bank
 
 Array = NDArray[np.float64]
 
 #: Points of the integral over the frequency.
 _POINTS = 400
+#: Part of the torque's spread from which noise is more than a sensor's.
+_LOUD = 0.1
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:
@@ -26,3 +31,19 @@ def noise_floor(bank: Bank, k: int, rate: float) -> float:
     """Root mean square [N m, N] of the noise of coordinate k in rows at ``rate`` [Hz], those of the diagnosis."""
     frequency = np.linspace(0.0, rate / 2, _POINTS)
     return float(np.sqrt(np.trapezoid(density(bank, k, frequency), frequency)))
+
+
+def notes(bank: Bank) -> list[str]:
+    """What is to be told of joints on which much counts as noise: whatever it is, nothing else was looked for in it."""
+    loud = []
+    for k, joint in enumerate(bank.scenes[0].robot.moving):
+        tau = np.concatenate([run.tau[k][run.kept[k]] for run in bank.runs])
+        filters = bank.runs[0].sampled.filters
+        if len(tau) and (floor := noise_floor(bank, k, filters.rate / filters.factor)) > _LOUD * np.std(tau):
+            loud.append(f"{100 * floor / np.std(tau):.0f} % on joint {joint.number}")
+    if not loud:
+        return []
+    return [
+        f"much of the torques' spread counts as noise, {listed(loud)}: it neither repeats nor follows the motion, and "
+        "what makes it is not looked for"
+    ]

@@ -14,7 +14,7 @@ from generator.robot.description import Joint, Robot
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.evidence import BALANCERS
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import rotor_inertia
+from identification.diagnosis.link_side import LinkSide, rotor_inertia
 from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.warming import warm_up_times
@@ -32,6 +32,8 @@ _FELT = 0.01
 _WARMING = 0.2
 #: A usual time constant of the warmth [s], by which the runs are judged where the robot's file says nothing of it.
 _WARM_UP = 60.0
+#: Part of the inertia that a joint feels that is its rotor's where the model has no rotors.
+_SHARE = 0.5
 #: What an effect shows in, by what its columns are made of; the first that fits.
 _VARIABLES = (
     ("warmth", "time"),
@@ -147,7 +149,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
 def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
     zero, unit = 0.0, 1.0
     if shape.relative == "rotor":
-        unit = rotor_inertia(scenes[0], k)
+        unit = rotor_inertia(scenes[0], k) or _SHARE * float(np.min(LinkSide(scenes[0], k, 0.0).inertia))
         if unit <= 0:
             return ()
     if shape.relative == "speed":

@@ -105,6 +105,8 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
         yield f"No other effect of the library is as likely in its place{' on any of them' if several else ''}."
+    elif subject.found.verdict == NAMED:
+        yield "That such a torque acts is sure; that this is its law is not."
     if one.disagreement:
         yield f"Its size {one.disagreement}: it drifts, or something else makes it."
 
