@@ -76,6 +76,20 @@ def test_an_elastic_drive_train_ends_no_band(arm: Known, hidden: Effect) -> None
     assert end([scene(arm, hidden)]) == np.inf
 
 
+def test_of_one_joint_alone_what_is_less_than_a_rotor_is_no_drive_train(arm: Known) -> None:
+    def only(one: Scene) -> Scene:
+        return replace(one, sampled=replace(one.sampled, tau=one.tau[1:2]))
+
+    def band(one: Scene) -> float:
+        return end([only(one)])
+
+    noisy = scene(arm)
+    noise = 1e-3 * np.std(noisy.tau) * np.random.default_rng(1).normal(size=noisy.tau.shape)
+    noisy = replace(noisy, sampled=replace(noisy.sampled, tau=noisy.tau + noise))
+    assert band(noisy) == band(scene(arm, Effect("joint_flexibility", 2, 1.1e-5))) == np.inf
+    assert CUTOFF / 2 < band(slow(noisy)) < 3 * CUTOFF
+
+
 def test_what_one_joint_lacks_may_be_its_drive_train(arm: Known) -> None:
     assert end([slow(scene(arm), slice(1, 2))]) == np.inf
 

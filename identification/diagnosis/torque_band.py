@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 _FREQUENCIES = 50
 #: Power of a torque, in parts of the model's, below which half of the amplitude is missing.
 _SHORT = 0.25
+#: Part of the mean power density that is none, as of the spectra of what never was recorded.
+_NOTHING = 1e-9
 #: Part of the joints that lack it at one frequency: above the band noise may hide it on one of them.
 _MOST = 0.75
 #: Least joints of which most are not one or two that swing; and of fewer, the power at the rows' highest frequencies
@@ -72,4 +74,6 @@ def _power(scenes: Sequence[Scene], k: int, frequency: Array, rate: float) -> Ar
         kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
         recorded += stretches(windowed(scene.tau[k], factor), kept)
         model += stretches(windowed(scene.torque[k], factor), kept)
-    return colour(recorded).spectrum(frequency, rate) / colour(model).spectrum(frequency, rate)
+    asked = colour(model).spectrum(frequency, rate)
+    nothing = _NOTHING * asked.mean()
+    return np.asarray((colour(recorded).spectrum(frequency, rate) + nothing) / (asked + nothing))

@@ -1,0 +1,81 @@
+"""Rounded positions make an elastic drive train appear that is not there: as much of it as is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.robot.readers import read
+from identification.diagnosis.bank import Bank
+from identification.diagnosis.candidates import elasticity
+from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NOTHING
+from identification.diagnosis.rounding import Pretence, steps
+from identification.diagnosis.scene import Scene
+from identification.observation import Regressors
+from tests.diagnosed_arm import ARM, TRUTH, ready
+from tests.matrices import WHITE
+from tests.recorded import Recorded, fourier
+
+#: One of 4096 steps of a motor behind a gear of 60.
+STEP, FINE = 2 * np.pi / 4096 / 60, 1e-13
+RATE = 500.0
+
+
+def rounded(folder: Path, count: int, noise: float, step: float) -> tuple[Regressors, list[str]]:
+    """Runs of the arm with the torques of its true motion, and positions in steps."""
+    path = folder / "arm.yaml"
+    path.write_text(ARM)
+    robot = read(path)
+    regressors, draw, sources = Regressors(robot), np.random.default_rng(5), []
+    for seed in range(1, count + 1):
+        t, motion = fourier(robot, 20.0, RATE, seed, slowest=0.2)
+        tau = regressors.torques(TRUTH, motion)[0] + noise * draw.normal(size=len(t))
+        q = step * np.round(motion.q[0] / step)
+        sources.append(str(Recorded({"t": t, "q1": q, "tau1": tau}).save(folder / f"{seed}.csv")))
+    return regressors, sources
+
+
+def test_steps_are_found_where_the_smallest_difference_is_of_several() -> None:
+    number = np.cumsum(np.random.default_rng(2).integers(3, 40, 2000))
+    assert steps(STEP * number[None]) == pytest.approx([STEP], rel=1e-9)
+
+
+def alone(folder: Path, step: float) -> Bank:
+    """One run without noise, beside the true model."""
+    regressors, (source,) = rounded(folder, 1, 0.0, step)
+    run = ready(source, regressors)
+    return Bank([run], [Scene(run.sampled, regressors, TRUTH)])
+
+
+def test_the_products_that_rounding_makes_are_as_large_as_told(tmp_path: Path) -> None:
+    (hypothesis,) = elasticity.hypotheses(alone(tmp_path, FINE).scenes)
+    one = alone(tmp_path, 4 * STEP)
+    variants = [variant for shape in hypothesis.variants if (variant := one.add(hypothesis, shape)) is not None]
+    one.whiten([[WHITE]])
+    pretence = Pretence(one, [0])
+    left = one.residual(0, 0, {one.base.index(name): value for name, value in TRUTH.items()})
+    assert variants
+    for variant in variants:
+        numbers, rows = one.white(0, 0)
+        product = rows[numbers.index(variant.columns[0])] @ left
+        assert pretence.products(variant)[0] == pytest.approx(product, rel=0.3)
+
+
+def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
+    one = alone(tmp_path, FINE)
+    (hypothesis,) = elasticity.hypotheses(one.scenes)
+    variant = one.add(hypothesis, hypothesis.variants[0])
+    assert variant is not None
+    one.whiten([[WHITE]])
+    assert not Pretence(one, [0]).products(variant).any()
+
+
+@pytest.mark.parametrize(("step", "noise"), [(STEP, 0.4), (2 * STEP, 1.0)])
+def test_an_arm_with_an_ordinary_encoder_is_not_called_elastic(step: float, noise: float, tmp_path: Path) -> None:
+    _, sources = rounded(tmp_path, 3, noise, step)
+    path = tmp_path / "arm.yaml"
+    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    assert (found.verdict, found.findings) == (NOTHING, ())
