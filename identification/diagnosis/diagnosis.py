@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed
 from generator.robot.description import Robot
+from identification.diagnosis import odd_run
 from identification.diagnosis.confirmation import confirmed
 from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.finding import Finding, findings
@@ -104,6 +105,8 @@ def diagnose(
     if named:
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
+    if open_:
+        notes += odd_run.notes(found)
     if named and not open_:
         notes += _little([lack for lack in last.lack if lack.joint not in bounces])
     return Diagnosis(

@@ -113,6 +113,12 @@ class Weighing:
         runs = (*self.train, *self.validate)
         return Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
 
+    def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
+        """What a fit of the base and of ``columns`` to some runs leaves in the mean square above that of the noise."""
+        normal = Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
+        solution, _ = normal.solution(columns)
+        return max(normal.misfit(columns, solution) / max(normal.rows, 1) - 1, 0.0)
+
     def _gram(self, runs: Sequence[int]) -> Array:
         total = self.bank.grams[runs[0]].copy()
         for r in runs[1:]:
