@@ -21,8 +21,8 @@ from identification.outcome import Value
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
-#: Stands for whatever makes a ripple that is none of the library's.
-BETWEEN = "other_ripple"
+#: Stand for whatever makes a ripple, or a torque of the position, that is none of the library's.
+BETWEEN, ELSE = "other_ripple", "other_torque"
 #: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
 #: its zero means nothing.
 _VAGUE = 0.5
@@ -181,23 +181,29 @@ def findings(
         )
     pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    told = [replace(one, status=TENTATIVE) if _any_torque(one, left, several) else one for one in result]
+    told = [_doubted(one, left, several) for one in result]
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
-def _any_torque(one: Finding, left: Mapping[int, float], several: Collection[int]) -> bool:
-    """Whether its torque is known and its law is not: it leaves too much of it, it is one of ``several`` springs on a
-    joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
+def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) -> Finding:
+    """Tentative where its torque is known and its law is not: it leaves too much of it, it is one of ``several``
+    springs on a joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
-    if effect in SPRINGS and set(one.joints) & set(several):
-        return True
-    part = _PULLED if effect in SPRINGS else _LEFT
-    if max(left.get(number, 0.0) for number in one.joints) > part * one.evidence.size:
-        return True
-    if effect in BALANCERS:
-        return not one.determined or any(map(_vague, one.main))
-    return kind == BODY and _vague(one.main[0])
+    remains = max(left.get(number, 0.0) for number in one.joints) / one.evidence.size
+    any_torque = effect in SPRINGS and (remains > _PULLED or not set(one.joints).isdisjoint(several))
+    any_torque |= effect in BALANCERS and (not one.determined or any(map(_vague, one.main)))
+    if any_torque:
+        return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, _other_torque(one)))
+    if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
+        return replace(one, status=TENTATIVE)
+    return one
+
+
+def _other_torque(one: Finding) -> Alternative:
+    title = "another torque of the position"
+    range_ = "motion over the joint's whole range, with another payload"
+    return Alternative(ELSE, title, one.joints, f"{title} on {on_joints(one.joints)}", one.evidence.score, range_)
 
 
 def _vague(one: Value) -> bool:
