@@ -25,7 +25,7 @@ from identification.robust import robust
 from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
 from identification.sidecar import Payload
-from identification.suspicion import suspect
+from identification.suspicion import directed, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0
@@ -131,6 +131,8 @@ def identify(
         solution = bootstrapped(problem, solution, trained, options.draws, rows)
     full = _estimate(problem, solution, factors, tests)
     notes += suspect([one.sampled for one in trained], regressors, full.train)
+    std = {name: solution.std(name) for name in full.sought if name not in solution.hidden}
+    directed(trained[0].sampled.run.place, regressors.model, solution.values, std)
     reduced, solution = essential(problem, options.ratio, options.growth)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)

@@ -6,13 +6,14 @@ explains the torques far better, the columns are refused and named.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
+from generator.symbolic.model import Model
 from identification.factors import Factor, triangular
 from identification.filtering import smoothed
 from identification.least_squares import Problem
@@ -25,6 +26,8 @@ Array = NDArray[np.float64]
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.
 _DOUBTFUL, _REFUSED = 10.0, 50.0
+#: Standard deviations from which a parameter's sign is told, and how many must tell it.
+_SURE, _SEVERAL = 4.0, 2
 #: By how much the product of the joints' residuals must fall.
 _BETTER = 20.0
 #: Samples that the fits are repeated on.
@@ -54,6 +57,17 @@ def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
     if bad := _doubtful(residuals):
         for one in runs:
             _swapped(one, regressors, bad)
+
+
+def directed(place: Place, model: Model, values: Mapping[str, float], std: Mapping[str, float]) -> None:
+    """Raises InputError where all that a fit shows of parameters that cannot be negative is far below that: the torques
+    have the other sign. ``std`` are standard deviations by name, of what was fitted and shows.
+    """
+    bounded = [one.name for one in model.base_parameters if one.lower == 0.0 and std.get(one.name)]
+    shown = [values[name] for name in bounded if abs(values[name]) > _SURE * std[name]]
+    if len(shown) >= _SEVERAL and max(shown) < 0:
+        problem = "all friction and inertia that the torques show alone is negative"
+        raise InputError(place, problem, "torques of the drives on the joints; a sidecar can change their sign")
 
 
 def _doubtful(residuals: Residuals) -> list[int]:

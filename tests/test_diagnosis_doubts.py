@@ -10,6 +10,7 @@ import pytest
 from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
+from identification.inverse_model import identify
 from tests.diagnosed_arm import recorded, torque
 from tests.recorded import Recorded
 
@@ -34,3 +35,11 @@ def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
 def test_runs_of_which_most_stays_unexplained_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"1.csv:1:1: the model of arm leaves \d+ % of the torques unexplained"):
         diagnose(tmp_path, [1.0, 1000.0])
+
+
+def test_torques_that_all_have_the_other_sign_are_refused(tmp_path: Path) -> None:
+    message = "1.csv:1:1: all friction and inertia that the torques show alone is negative, expected torques of the dri"
+    with pytest.raises(InputError, match=message):
+        diagnose(tmp_path, [-1.0, -1.0])
+    with pytest.raises(InputError, match=message):
+        identify(read(tmp_path / "arm.yaml"), [tmp_path / "1.csv"])

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from generator.errors import InputError
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.residuals import Residual, Residuals
-from identification.suspicion import ordered, suspect
+from identification.suspicion import directed, ordered, suspect
 
 Array = NDArray[np.float64]
 
@@ -19,7 +19,7 @@ _REVERSED = -0.5
 def doubts(found: Diagnosis, dry: bool) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
-    Raises InputError where columns are swapped, where the torques of a run have another sign than those of the others,
+    Raises InputError where columns are swapped, where the torques have the other sign, in all runs or in one of them,
     and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained.
     """
     bank = found.found.bank
@@ -29,6 +29,9 @@ def doubts(found: Diagnosis, dry: bool) -> list[str]:
         ordered(runs, regressors, left)
         return []
     _alike(found)
+    base, values = bank.base, found.found.values
+    std = np.sqrt(np.diag(found.found.covariance))[: len(base)]
+    directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)))
     return suspect(runs, regressors, left)
 
 

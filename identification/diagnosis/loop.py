@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 #: Times that columns which depend on the model are made anew with what was found.
 _PASSES = 3
 #: Times that the model is fitted before, where columns of it depend on its values.
-_SETTLING = 5
+_FITS = 5
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def first_values(
 ) -> dict[str, float]:
     """Base parameters of the model without anything new, each joint weighted by its own residual."""
     values: dict[str, float] = {}
-    for _ in range(_SETTLING if _depends(regressors) else 1):
+    for _ in range(_FITS if _depends(regressors) else 1):
         bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
         values = _values(bank, _weighted(bank, train, prior))
     return values
