@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError, Place
-from generator.review.words import listed, plural
+from generator.review.words import listed
 from generator.robot.description import Robot
 from identification import checks, corrections, readers, sidecar
 from identification.drive_train import driven
@@ -211,7 +211,9 @@ def _run(
         notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
     lost = ticks.lost
     if ticks.uneven or lost.any():
-        how = f"{plural(int(lost.sum()), 'sample')} of {len(lost)} are lost" if lost.any() else "times are uneven"
+        uneven = ["times are uneven"] if ticks.uneven else []
+        gone = [f"{int(lost.sum())} of {len(lost)} samples are missing"] if lost.any() else []
+        how = " and ".join([*uneven, *gone])
         notes.append(f"{where(None, 't')}: {how}; samples were interpolated to {ticks.rate:.6g} Hz")
         q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
         unusable = _left_out(ticks, unusable, len(tau))
@@ -239,7 +241,11 @@ def _corrected(run: Run, robot: Robot) -> Run:
     """The run with its torques and further columns as they truly were, and with the warmth of the drives."""
     warmth = corrections.warmth(run.rises, run.elapsed, robot, run.place)
     marks = [one for one in (run.unusable, corrections.saturated(run.tau, robot)) if one is not None]
-    unusable = corrections.moved(np.logical_or.reduce(marks), robot, run.period) if marks else None
+    unusable = None
+    if marks:
+        # A lost sample lacks its position as well, which no delay moves.
+        bad = np.logical_or.reduce(marks)
+        unusable = corrections.moved(bad, robot, run.period) | bad
     tau = corrections.true_torques(run.tau, robot, run.period, warmth)
     others = corrections.true_links(run.others, robot, run.period)
     kept = corrections.whole(run.samples, robot, run.period)
@@ -265,8 +271,8 @@ def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: checks.W
         mine = [one for one in stretches if one.coordinate == k]
         if mine:
             rows = sum(one.end - one.start for one in mine)
-            first = f", the first time here in {plural(len(mine), 'stretch')}" if len(mine) > 1 else ""
-            yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{first}, which are left out"
+            several = f" in {len(mine)} stretches, of which here is the first" if len(mine) > 1 else ""
+            yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{several}, which are left out"
     held = {name: checks.repeats(values) for name, values in zip(effort.names, effort.values, strict=True)}
     for rows in sorted({count for count in held.values() if count > 1}):
         names = [name for name, count in held.items() if count == rows]
@@ -277,7 +283,7 @@ def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: checks.W
 
 def _evened(ticks: Clock, x: Array) -> Array:
     """Samples at even times, by a cubic spline through the rows."""
-    result: Array = make_interp_spline(ticks.t, x, axis=-1)(ticks.even)
+    result: Array = make_interp_spline(ticks.t, x, k=min(3, len(ticks.t) - 1), axis=-1)(ticks.even)
     return result
 
 

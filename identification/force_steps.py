@@ -54,7 +54,7 @@ class Pose:
     the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
 
     ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands, nearly does, or its
-    current is cut off. ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the
+    sample is unusable. ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the
     mean torques of the drive trains (n), weight included.
     """
 
@@ -160,8 +160,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     at = q[:, inner].mean(axis=1)
     i = _about_mean(signals[3]) if with_current else None
     held = _held(at, wrench, generated)
-    cut = np.zeros(run.q.shape, dtype=bool) if run.unusable is None else run.unusable
-    turning = _turning(qd[:, inner], cut[:, inner], filters)
+    unusable = np.zeros(run.q.shape, dtype=bool) if run.unusable is None else run.unusable
+    turning = _turning(qd[:, inner], unusable[:, inner], filters)
     return Pose(
         run,
         filters,
@@ -176,11 +176,11 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     )
 
 
-def _turning(qd: Array, cut: NDArray[np.bool_], filters: Filters) -> Array:
-    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill or a
-    current that is ``cut`` off.
+def _turning(qd: Array, unusable: NDArray[np.bool_], filters: Filters) -> Array:
+    """Directions at the decimated samples, zero within half a period of the filter's cut-off from a standstill or from
+    what is ``unusable``.
     """
-    fast = (np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)) & ~cut
+    fast = (np.abs(qd) > _TURNING * np.abs(qd).max(axis=1, keepdims=True)) & ~unusable
     reach = round(filters.rate / filters.cutoff / 2)
     steady = np.array([kept_rows(~one, filters.factor, reach) for one in fast])
     result: Array = np.sign(qd[:, kept_indices(qd.shape[1], filters.factor)]) * steady

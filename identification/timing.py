@@ -1,4 +1,4 @@
-"""The time column: even, increasing, without gaps but single lost samples; or one line that says where it is not."""
+"""The time column: even, increasing, without gaps but few lost samples; or one line that says where it is not."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ from identification.recording import Array, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
 _EVEN, _GAP = 0.02, 0.5
-#: By how much, in periods, a clock that jitters is late at most.
-_LATE = 0.4
+#: By how much, in periods, a clock that jitters is early or late at most, and the part of the positions' roughness by
+#: its times that is left without it.
+_OFF, _SMOOTHER = 0.4, 0.5
 #: Samples in a row that a spline stands for, and the part of a run that may be lost.
-_IN_A_ROW, _LOST = 4, 0.02
+_IN_A_ROW, _LOST = 4, 0.1
+#: Steps in a row of which this many are of several samples at another rate.
+_WINDOW, _SEVERAL = 4, 3
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,8 @@ class Clock:
 def clock(recording: Recording, first: int = 0) -> Clock:
     """The clock of the rows from ``first`` of a recording.
 
-    Raises InputError for a missing column, times that do not increase, gaps and a change of the rate.
+    Raises InputError for a missing column, times that do not increase, gaps of more than a few samples and a change of
+    the rate.
     """
     if "t" not in recording.columns:
         raise InputError(recording.where(None, "t"), "there is no column t", "times in s")
@@ -79,51 +83,58 @@ def clock(recording: Recording, first: int = 0) -> Clock:
     early = float(np.median(steps[: max(2, len(steps) // 50)]))
     reference = early if abs(early / usual - 1) > _GAP else usual
     samples = _samples(steps, reference)
+    sample = np.concatenate([[0], np.cumsum(samples)])
     gaps = np.flatnonzero(np.abs(steps - samples * reference) > _GAP * reference)
+    if not gaps.size and np.any(samples > 1) and not _near(t, sample):
+        gaps = np.flatnonzero(samples > 1)
     if gaps.size:
-        even = _even(t)
-        if _jittered(t, even):
-            return Clock(float(even[0]), float(even[1] - even[0]), t, np.arange(len(t)))
+        if _near(t, np.arange(len(t))):
+            start, period = _line(t, np.arange(len(t)))
+            return Clock(start, period, t, np.arange(len(t)))
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
         raise InputError(
             recording.where(first + k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part"
         )
-    sample = np.concatenate([[0], np.cumsum(samples)])
     return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
 
 
-def _even(t: Array) -> Array:
-    """The even times that are nearest to others."""
-    number = np.arange(len(t))
-    return np.asarray(np.polyval(np.polyfit(number, t, 1), number))
+def _line(t: Array, sample: NDArray[np.int_]) -> tuple[float, float]:
+    """Start and period of the even times that are nearest to those of samples."""
+    period, start = np.polyfit(sample, t, 1)
+    return float(start), float(period)
 
 
-def _jittered(t: Array, even: Array) -> bool:
-    """Whether times are so close to ``even`` ones that none is lost."""
-    period = float(even[1] - even[0])
-    return bool(np.max(np.abs(t - even)) < _LATE * period and np.max(np.diff(t)) < (1 + 2 * _LATE) * period)
+def _near(t: Array, sample: NDArray[np.int_]) -> bool:
+    """Whether times are near even ones, and no step is so long that a sample may be missing."""
+    start, period = _line(t, sample)
+    off = np.abs(t - start - period * sample)
+    longest = np.max(np.diff(t) - (np.diff(sample) - 1) * period)
+    return bool(np.max(off) < _OFF * period and longest < (1 + 2 * _OFF) * period)
 
 
 def jitters(ticks: Clock, x: Array) -> bool:
-    """Whether signals (n x M) that are smooth are smoother without the unevenness of their rows' times: it is of the
-    clock, not of the rows.
+    """Whether signals (n x M) that are smooth are far smoother without the unevenness of their rows' times: it is of
+    the clock, not of the rows. A clock that drifts is uneven and as smooth.
     """
-    return ticks.uneven and _rough(ticks.steady.t, x) < _rough(ticks.t, x)
+    if not ticks.uneven or len(ticks.t) < 5 or np.max(np.abs(ticks.t - ticks.steady.t)) > 2 * _OFF * ticks.period:
+        return False
+    return _rough(ticks.steady.t, x) < _SMOOTHER * _rough(ticks.t, x)
 
 
 def _rough(t: Array, x: Array) -> float:
-    """How far rows are from the cubics through the two before and the two after each."""
+    """How far rows are from the cubics through the two before and the two after each, in parts of their spread."""
     near = np.stack([t[:-4], t[1:-3], t[3:-1], t[4:]]) - t[2:-2]
     weights = [np.prod([b / (b - a) for b in np.delete(near, i, axis=0)], axis=0) for i, a in enumerate(near)]
     values = np.stack([x[:, :-4], x[:, 1:-3], x[:, 3:-1], x[:, 4:]])
     off = np.einsum("im,inm->nm", np.array(weights), values) - x[:, 2:-2]
-    return float(np.sum(np.mean(np.abs(off), axis=1)))
+    return float(np.sum(np.mean(np.abs(off), axis=1) / np.maximum(np.ptp(x, axis=1), 1e-12)))
 
 
 def _samples(steps: Array, usual: float) -> NDArray[np.int_]:
     """How many samples each step is: more than one where a few are lost, in a recording that lost few."""
     samples: NDArray[np.int_] = np.rint(steps / usual).astype(int)
     lost = np.maximum(samples - 1, 0)
-    few = lost.max() <= _IN_A_ROW and lost.sum() <= _LOST * len(steps)
+    slower = np.convolve(lost > 0, np.ones(_WINDOW)).max() >= _SEVERAL
+    few = lost.max() <= _IN_A_ROW and lost.sum() <= _LOST * len(steps) and not slower
     return np.maximum(samples, 1) if few else np.ones_like(samples)

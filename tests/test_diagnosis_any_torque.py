@@ -10,7 +10,7 @@ from scipy.signal import lfilter
 from generator.robot.readers import read
 from identification.diagnosis import noise_floor
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.finding import ELSE, TENTATIVE
+from identification.diagnosis.finding import OTHER_TORQUE, TENTATIVE
 from identification.observation import Regressors
 from tests.diagnosed_arm import ARM, NOISE, STAYS, TRUTH, diagnosis_of, recorded, torque
 from tests.recorded import Array, Recorded, fourier
@@ -24,7 +24,7 @@ def test_a_soft_contact_is_firmly_no_balancer_and_no_spring(tmp_path: Path) -> N
     found = diagnosis_of(sources, regressors)
     (one,) = found.findings
     assert (one.hypothesis.effect, one.status) == ("spring_balancer", TENTATIVE)
-    assert ELSE in [other.effect for other in one.alternatives]
+    assert OTHER_TORQUE in [other.effect for other in one.alternatives]
 
 
 def loaded(folder: Path, share: float, rotor: float) -> Diagnosis:

@@ -17,8 +17,8 @@ from identification.dataset import Run, load
 from identification.destination import spare_inputs
 from identification.diagnosis import noise_floor, torque_band
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
-from identification.diagnosis.doubts import doubts
 from identification.diagnosis.mending import GENERATED, Mended, mended
+from identification.diagnosis.plausibility import doubts
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import notes_of, preferring, prior_of
 from identification.diagnosis.results import document
@@ -53,8 +53,8 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used, before anything is looked for, and for a ``folder`` in which the mended robot would replace a file that is
-    read.
+    used and for a ``folder`` in which the mended robot would replace a file that is read, before anything is looked
+    for; and at the end for runs that are not of this robot (``plausibility``).
     """
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
@@ -89,7 +89,7 @@ def diagnosed(
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
         ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
         ended += noise_floor.notes(found.found.bank)
-        found = changed(found, notes=(*notes, *found.notes, *doubts(found, wanted.dry), *ended))
+        found = changed(found, notes=(*notes, *found.notes, *doubts(found, known, wanted.dry), *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.errors_in_variables import Pretence
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
-from identification.diagnosis.normal import Normal, Prior, bounded
-from identification.diagnosis.rounding import Pretence
+from identification.diagnosis.normal import Normal, Prior, bounded, inverse
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -195,7 +195,7 @@ class Weighing:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
-        if self._true(variant, others) < _TRUE * drop:
+        if self._without_rounding(variant, others) < _TRUE * drop:
             return replace(one, why_not="what it explains is rounding of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
@@ -234,12 +234,23 @@ class Weighing:
         count = len(variant.columns) - len(rest)
         return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
 
-    def _true(self, variant: Variant, others: Sequence[Variant]) -> float:
+    def _without_rounding(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What a variant explains beside others without what rounding of the positions makes it explain."""
         part = self.normal.part(variant.columns, columns_of(others))
+        products = part[:-1, -1] - self.pretended(variant, others)
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        products = part[:-1, -1] - self._pretence.products(variant)
         return bounded(part[:-1, :-1], products, *variant.bounds, size)[1]
+
+    def pretended(self, variant: Variant, others: Sequence[Variant]) -> Array:
+        """Of the products of a variant's columns beside others with the torque, what rounding of the positions makes
+        (k): the columns beside which they stand are of the same positions.
+        """
+        if self._pretence.nothing:
+            return np.zeros(len(variant.columns))
+        beside, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
+        of_others = np.concatenate([self._pretence.base, *map(self._pretence.of, others)])
+        explained = inverse(G[np.ix_(beside, beside)]) @ of_others
+        return np.asarray(self._pretence.of(variant) - G[np.ix_(variant.columns, beside)] @ explained)
 
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What the laws of others that act on the same joints may leave although they are the right ones."""

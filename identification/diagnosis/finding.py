@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
 #: Stand for whatever makes a ripple, or a torque of the position, that is none of the library's.
-BETWEEN, ELSE = "other_ripple", "other_torque"
+OTHER_RIPPLE, OTHER_TORQUE = "other_ripple", "other_torque"
 #: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
 #: its zero means nothing.
 _VAGUE = 0.5
@@ -190,7 +190,8 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
     springs on a joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
-    remains = max(left.get(number, 0.0) for number in one.joints) / one.evidence.size
+    most = max(one.joints, key=lambda number: one.amplitude.get(number, 0.0))
+    remains = left.get(most, 0.0) / one.evidence.size
     any_torque = effect in SPRINGS and (remains > _PULLED or not set(one.joints).isdisjoint(several))
     any_torque |= effect in BALANCERS and (not one.determined or any(map(_vague, one.main)))
     if any_torque:
@@ -203,7 +204,9 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
 def _other_torque(one: Finding) -> Alternative:
     title = "another torque of the position"
     range_ = "motion over the joint's whole range, with another payload"
-    return Alternative(ELSE, title, one.joints, f"{title} on {on_joints(one.joints)}", one.evidence.score, range_)
+    return Alternative(
+        OTHER_TORQUE, title, one.joints, f"{title} on {on_joints(one.joints)}", one.evidence.score, range_
+    )
 
 
 def _vague(one: Value) -> bool:
@@ -216,7 +219,9 @@ def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
         title = "ripple whose order is no whole number"
         turns = "more turns of the joint in one run: they tell the order more closely"
         place = mine.joints or (mine.joint,)
-        found.append(Alternative(BETWEEN, title, place, f"{title} on {on_joints(place)}", one.evidence.score, turns))
+        found.append(
+            Alternative(OTHER_RIPPLE, title, place, f"{title} on {on_joints(place)}", one.evidence.score, turns)
+        )
     return tuple(found)
 
 

@@ -118,7 +118,7 @@ def search(
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
-        rounded = tuple(rounding(run, scene) for run, scene in zip(clear, scenes, strict=True))
+        rounded = tuple(rounding(run, scene, r) for r, (run, scene) in enumerate(zip(clear, scenes, strict=True)))
         bank.whiten(colours(bank, rounded, maps(clear, scenes)))
         weighing = Weighing(bank, train, validate, prior)
         told("weighing the evidence")

@@ -22,7 +22,8 @@ _FADING = (0.1, 0.4)
 
 
 def maps(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> list[list[Array]]:
-    """By joint and run, rows (m x rows) of what may act on it, the same m in all runs; none where a motion repeats.
+    """By joint and run, rows (m x rows) of what may act on it, the same m in all runs; none where one of them
+    repeats.
 
     The torque at places of the range, forward and backward, and at speeds; what other joints' speeds drag, and drag
     against the joint's own motion; and what fades after a reversal.

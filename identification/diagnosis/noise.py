@@ -19,7 +19,8 @@ from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
-#: Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint along a run.
+#: Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint along a run. Numbers are those of the bank;
+#: below 0 they are of what may act beside the model and all hypotheses.
 _Rows = tuple[list[int], Array, Array, NDArray[np.bool_]]
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
@@ -75,9 +76,9 @@ def _left(
         white.append(x[:, kept] if known is None else known.white(x, kept))
         gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
     rows = sum(x.shape[1] for x in white)
-    first, model = (sum(least <= number < len(bank.base) for number in numbers) for least in (numbers[0], 0))
-    most = _most(rows)
-    inside = _inside(gram[:-1, :-1], first, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
+    taken, most = sum(number < len(bank.base) for number in numbers), _most(rows)
+    model = sum(0 <= number < len(bank.base) for number in numbers)
+    inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
     weights = inside @ gram[:-1, -1]
     left: list[list[Array]] = []
     lost = np.zeros(_PART // 2 + 1)
@@ -93,17 +94,24 @@ def _left(
 
 
 def _columns(bank: Bank, joint: int, maps: Sequence[Array]) -> list[_Rows]:
-    """Raw rows of a joint in each run with all that may act, ``maps`` too where there are rows enough."""
+    """Raw rows of a joint in each run with all that may act; with ``maps`` and with the model's columns once more for
+    each run by itself, which may be another one there, where there are rows enough.
+    """
     parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
-    model = {number for mine, *_ in parts for number in mine if number < len(bank.base)}
-    more = len(maps[0]) if maps else 0
-    if not more or _most(sum(int(kept.sum()) for *_, kept in parts)) <= len(model) + more:
+    if not maps:
         return parts
-    numbers = [*range(-more, 0)]
-    return [
-        ([*numbers, *mine], np.concatenate([rows, columns]), tau, kept)
-        for (mine, columns, tau, kept), rows in zip(parts, maps, strict=True)
-    ]
+    p, more = len(bank.base), len(maps[0])
+    model = len({number for mine, *_ in parts for number in mine if number < p})
+    most = _most(sum(int(kept.sum()) for *_, kept in parts))
+    if most <= model + more:
+        return parts
+    apart = most > model + more + model * len(parts)
+    result = []
+    for r, ((mine, columns, tau, kept), rows) in enumerate(zip(parts, maps, strict=True)):
+        own = [i for i, number in enumerate(mine) if number < p and apart]
+        numbers = [*range(-more, 0), *(mine[i] - more - (r + 1) * p for i in own), *mine]
+        result.append((numbers, np.concatenate([rows, columns[own], columns]), tau, kept))
+    return result
 
 
 def _most(rows: int) -> int:

@@ -44,6 +44,6 @@ def notes(bank: Bank) -> list[str]:
     if not loud:
         return []
     return [
-        f"much of the torques' spread counts as noise, {listed(loud)}: it neither repeats nor follows the motion, and "
-        "what makes it is not looked for"
+        f"much of the torques' spread counts as noise, {listed(loud)}: it repeats with no period and follows from no "
+        "column of the search"
     ]

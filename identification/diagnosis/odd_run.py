@@ -15,7 +15,7 @@ _OTHER = "another load, zero, unit, sign or temperature"
 def notes(found: Search) -> list[str]:
     """What is to be told of them, if there are such."""
     runs, columns = (*found.train, *found.validate), columns_of(found.variants)
-    if len(runs) < 2:
+    if len({found.bank.runs[r].sampled.run.file for r in runs}) < len(runs):
         return []
     whole = found.weighing.excess(runs, columns)
     left = {r: found.weighing.excess([other for other in runs if other != r], columns) / whole for r in runs if whole}
@@ -23,6 +23,6 @@ def notes(found: Search) -> list[str]:
     names = [found.bank.runs[r].sampled.run.file for r in gone]
     if len(runs) == len(gone) == 2:
         return [f"{listed(names)} do not agree, each alone is explained: look for {_OTHER} in one of them"]
-    if len(gone) == 1 and all(left[r] > _STAYS for r in left if r not in gone):
+    if len(runs) > 2 and len(gone) == 1 and all(left[r] > _STAYS for r in left if r not in gone):
         return [f"without {names[0]} the other runs agree: look for {_OTHER} there"]
     return []

@@ -106,7 +106,7 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
     elif one.status == FIRM:
         yield f"No other effect of the library is as likely in its place{' on any of them' if several else ''}."
     elif subject.found.verdict == NAMED:
-        yield "That such a torque acts is sure; that this is its law is not."
+        yield "That such a torque acts is sure; that this makes it is not."
     if one.disagreement:
         yield f"Its size {one.disagreement}: it drifts, or something else makes it."
 

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from generator.robot.readers import read
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.candidates import elasticity
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING
-from identification.diagnosis.rounding import Pretence, steps
+from identification.diagnosis.errors_in_variables import Pretence
+from identification.diagnosis.evidence import Weighing
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.rounding import steps
 from identification.diagnosis.scene import Scene
 from identification.observation import Regressors
 from tests.diagnosed_arm import ARM, TRUTH, ready
 from tests.matrices import WHITE
 from tests.recorded import Recorded, fourier
+
+Array = NDArray[np.float64]
 
 #: One of 4096 steps of a motor behind a gear of 60.
 STEP, FINE = 2 * np.pi / 4096 / 60, 1e-13
@@ -61,7 +68,22 @@ def test_the_products_that_rounding_makes_are_as_large_as_told(tmp_path: Path) -
     for variant in variants:
         numbers, rows = one.white(0, 0)
         product = rows[numbers.index(variant.columns[0])] @ left
-        assert pretence.products(variant)[0] == pytest.approx(product, rel=0.3)
+        assert pretence.of(variant)[0] == pytest.approx(product, rel=0.3)
+
+
+def test_what_the_model_explains_of_a_column_pretends_nothing(tmp_path: Path) -> None:
+    """The model's columns are of the same rounded positions."""
+
+    def columns(scene: Scene, shape: Mapping[str, float]) -> Array:
+        return scene.torque_of(TRUTH, scene.motion)[None]
+
+    one = alone(tmp_path, 4 * STEP)
+    variant = one.add(Hypothesis("gain", "gain", 1, (Coefficient("c", "1"),), columns), {})
+    assert variant is not None
+    one.whiten([[WHITE]])
+    weighing = Weighing(one, (0,), (), None)
+    assert abs(Pretence(one, [0]).of(variant)[0]) > 400
+    assert abs(weighing.pretended(variant, [])[0]) < 1
 
 
 def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
@@ -70,7 +92,7 @@ def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
     variant = one.add(hypothesis, hypothesis.variants[0])
     assert variant is not None
     one.whiten([[WHITE]])
-    assert not Pretence(one, [0]).products(variant).any()
+    assert not Pretence(one, [0]).of(variant).any()
 
 
 @pytest.mark.parametrize(("step", "noise"), [(STEP, 0.4), (2 * STEP, 1.0)])

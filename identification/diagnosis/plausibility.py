@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from identification.diagnosis.diagnosis import Diagnosis
+from identification.diagnosis.normal import Prior
+from identification.diagnosis.prepared import Prepared
 from identification.residuals import Residual, Residuals
 from identification.suspicion import directed, ordered, suspect
 
@@ -16,11 +18,12 @@ Array = NDArray[np.float64]
 _REVERSED = -0.5
 
 
-def doubts(found: Diagnosis, dry: bool) -> list[str]:
+def doubts(found: Diagnosis, known: Prior | None, dry: bool) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
     Raises InputError where columns are swapped, where the torques have the other sign, in all runs or in one of them,
-    and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained.
+    and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained. Parameters
+    that were ``known`` beforehand tell a sign as well.
     """
     bank = found.found.bank
     runs = [run.sampled for run in bank.runs]
@@ -28,7 +31,11 @@ def doubts(found: Diagnosis, dry: bool) -> list[str]:
     if dry:
         ordered(runs, regressors, left)
         return []
-    _alike(found)
+    for run, scene, e in zip(bank.runs, bank.scenes, found.residuals_after, strict=True):
+        _alike(run, run.tau - e, "those of the other runs")
+        if known is not None:
+            mean = dict(zip(bank.base, known.mean.tolist(), strict=False))
+            _alike(run, run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion)), "the known parameters")
     base, values = bank.base, found.found.values
     std = np.sqrt(np.diag(found.found.covariance))[: len(base)]
     directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)))
@@ -48,12 +55,9 @@ def _left(found: Diagnosis) -> Residuals:
     return Residuals(each)
 
 
-def _alike(found: Diagnosis) -> None:
-    for run, e in zip(found.found.bank.runs, found.residuals_after, strict=True):
-        tau, model = run.tau[run.kept], (run.tau - e)[run.kept]
-        if tau @ model < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(model):
-            raise InputError(
-                run.sampled.run.place,
-                "the torques have another sign than those of the other runs",
-                "one sign in all runs; a sidecar can change it",
-            )
+def _alike(run: Prepared, model: Array, whose: str) -> None:
+    """Raises InputError where a run's torques are far from those (n x rows) of a model, the other way."""
+    tau, told = run.tau[run.kept], model[run.kept]
+    if tau @ told < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(told):
+        problem = f"the torques have another sign than {whose}"
+        raise InputError(run.sampled.run.place, problem, "one sign in all runs; a sidecar can change it")

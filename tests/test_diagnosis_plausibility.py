@@ -11,18 +11,23 @@ from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.inverse_model import identify
-from tests.diagnosed_arm import recorded, torque
+from tests.diagnosed_arm import ARM, TRUTH, recorded, torque
 from tests.recorded import Recorded
 
+#: What the arm's file knows beforehand.
+_UNITS = {"ZZ1": "kg m2", "MX1": "kg m", "MY1": "kg m", "Fv1": "N m s/rad", "Fc1": "N m", "Off1": "N m"}
+_VALUES = "".join(f"      {name}: {{value: {value}, unit: {_UNITS[name]}}}\n" for name, value in TRUTH.items())
+SET = f"parameters:\n  known:\n    description: d\n    source: s\n    values:\n{_VALUES}"
 
-def diagnose(folder: Path, factors: list[float]) -> None:
-    """Of runs whose torques are multiplied by ``factors``."""
-    _, sources = recorded(folder, [torque("")] * len(factors))
+
+def diagnose(folder: Path, factors: list[float], prior: str | None = None) -> None:
+    """Of runs whose torques are multiplied by ``factors``, with a set of the true parameters as ``prior``."""
+    _, sources = recorded(folder, [torque("")] * len(factors), ARM + SET)
     for source, factor in zip(sources, factors, strict=True):
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
         Recorded({"t": t, "q1": q, "tau1": factor * tau}).save(Path(source))
     path = folder / "arm.yaml"
-    diagnosed(path, read(path), Request(sources), folder / "out", lambda *about: {})
+    diagnosed(path, read(path), Request(sources, prior=prior), folder / "out", lambda *about: {})
 
 
 def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
@@ -43,3 +48,8 @@ def test_torques_that_all_have_the_other_sign_are_refused(tmp_path: Path) -> Non
         diagnose(tmp_path, [-1.0, -1.0])
     with pytest.raises(InputError, match=message):
         identify(read(tmp_path / "arm.yaml"), [tmp_path / "1.csv"])
+
+
+def test_torques_of_another_sign_than_what_was_known_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"1.csv:1:1: the torques have another sign than the known parameters"):
+        diagnose(tmp_path, [-1.0], "known")
