@@ -156,3 +156,8 @@ def recorded(
         for stem, rows in (("q", motion.q), ("tau", tau))
     ]
     return Recorded({"t": t, **named[0], **named[1]})
+
+
+def stacked(run: Recorded, stem: str) -> Array:
+    """Signals of the two links (2 x N)."""
+    return np.stack([run.columns[f"{stem}{j}"] for j in (1, 2)])

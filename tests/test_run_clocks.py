@@ -1,0 +1,75 @@
+"""Times of a run: uneven, of a clock that jitters or drifts, with samples that were lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification.dataset import load
+from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    return two_links(tmp_path_factory.mktemp("robot")).model.robot
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+    return recorded(two_links(tmp_path_factory.mktemp("runs")), TRUTH, duration=8.0)
+
+
+def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    t = good.columns["t"].copy()
+    t[1:-1] += 0.001 * np.sin(np.arange(1598))
+    shaken = {name: np.interp(t, good.columns["t"], good.columns[name]) for name in ("q1", "q2", "tau1", "tau2")}
+    run = load(str(Recorded({"t": t, **shaken}).save(tmp_path / "a.csv")), robot)
+    assert "times are uneven; samples were interpolated to 200 Hz" in run.notes[0]
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
+
+
+@pytest.mark.parametrize("size", [0.1, 0.35])
+def test_rows_at_even_times_whose_clock_jitters_are_taken_as_even(
+    size: float, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    t = good.columns["t"].copy()
+    t[1:-1] += 0.005 * np.random.default_rng(1).uniform(-size, size, 1598)
+    run = load(str(good.with_columns(t=t).save(tmp_path / "a.csv")), robot)
+    assert "times jitter; positions are smoother at even ones, which were taken" in run.notes[0]
+    assert len(run.notes) == 1
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-9
+
+
+def test_a_clock_that_drifts_is_right(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    """Positions in steps are as rough by even times as by true ones."""
+    t = good.columns["t"] + 5e-3 * np.sin(2 * np.pi * good.columns["t"] / 8.0)
+    at = {name: np.interp(t, good.columns["t"], good.columns[name]) for name in ("q1", "q2", "tau1", "tau2")}
+    for name in ("q1", "q2"):
+        at[name] = 2e-5 * np.round(at[name] / 2e-5)
+    run = load(str(Recorded({"t": t, **at}).save(tmp_path / "a.csv")), robot)
+    assert "times are uneven; samples were interpolated" in run.notes[0]
+
+
+def test_single_lost_samples_are_interpolated_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    lost = [300, 700, 701, 702, 1200]
+    kept = Recorded({name: np.delete(values, lost) for name, values in good.columns.items()})
+    run = load(str(kept.save(tmp_path / "a.csv")), robot)
+    assert "5 of 1600 samples are missing; samples were interpolated to 200 Hz" in run.notes[0]
+    assert run.samples == 1600
+    assert run.unusable is not None
+    for row in run.unusable:
+        assert np.flatnonzero(row).tolist() == lost
+    present = np.delete(np.arange(1600), lost)
+    assert np.abs(run.q - stacked(good, "q"))[:, present].max() < 1e-9
+    assert np.abs(run.q - stacked(good, "q")).max() < 1e-4
+
+
+@pytest.mark.parametrize("lost", [range(500, 505), range(10, 1590, 5), range(1500, 1520, 2)])
+def test_many_lost_samples_are_refused(lost: range, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    kept = Recorded({name: np.delete(values, list(lost)) for name, values in good.columns.items()})
+    with pytest.raises(InputError, match="time steps by"):
+        load(str(kept.save(tmp_path / "a.csv")), robot)
