@@ -192,8 +192,10 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     most = max(one.joints, key=lambda number: one.amplitude.get(number, 0.0))
     remains = left.get(most, 0.0) / one.evidence.size
-    any_torque = effect in SPRINGS and (remains > _PULLED or not set(one.joints).isdisjoint(several))
-    any_torque |= effect in BALANCERS and (not one.determined or any(map(_vague, one.main)))
+    any_torque = effect in SPRINGS and (
+        remains > _PULLED or not set(one.joints).isdisjoint(several) or any(map(_vague, one.main))
+    )
+    any_torque |= effect in BALANCERS and not one.determined
     if any_torque:
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, _other_torque(one)))
     if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
