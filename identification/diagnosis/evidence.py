@@ -103,30 +103,26 @@ class Weighing:
         if self._seen == self.bank.count:
             return
         self._seen = self.bank.count
-        p = len(self.bank.base)
-        self.normal = Normal(self._gram(self.train), p, self._count(self.train), self._prior)
+        self.normal = self._normal(self.train)
         self._rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
 
     @property
     def all(self) -> Normal:
         """Of the fitted and the validating runs."""
-        runs = (*self.train, *self.validate)
-        return Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
+        return self._normal((*self.train, *self.validate))
 
     def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
         """What a fit of the base and of ``columns`` to some runs leaves in the mean square above that of the noise."""
-        normal = Normal(self._gram(runs), len(self.bank.base), self._count(runs), self._prior)
+        normal = self._normal(runs)
         solution, _ = normal.solution(columns)
         return max(normal.misfit(columns, solution) / max(normal.rows, 1) - 1, 0.0)
 
-    def _gram(self, runs: Sequence[int]) -> Array:
+    def _normal(self, runs: Sequence[int]) -> Normal:
         total = self.bank.grams[runs[0]].copy()
         for r in runs[1:]:
             total += self.bank.grams[r]
-        return total
-
-    def _count(self, runs: Sequence[int]) -> int:
-        return sum(int(self.bank.rows(r).sum()) for r in runs)
+        rows = sum(int(self.bank.rows(r).sum()) for r in runs)
+        return Normal(total, len(self.bank.base), rows, self._prior)
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""

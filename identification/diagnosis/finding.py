@@ -197,18 +197,12 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
     )
     any_torque |= effect in BALANCERS and not one.determined
     if any_torque:
-        return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, _other_torque(one)))
+        whole = "motion over the joint's whole range, with another payload"
+        other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
+        return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)
     return one
-
-
-def _other_torque(one: Finding) -> Alternative:
-    title = "another torque of the position"
-    range_ = "motion over the joint's whole range, with another payload"
-    return Alternative(
-        OTHER_TORQUE, title, one.joints, f"{title} on {on_joints(one.joints)}", one.evidence.score, range_
-    )
 
 
 def _vague(one: Value) -> bool:
@@ -221,10 +215,13 @@ def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
         title = "ripple whose order is no whole number"
         turns = "more turns of the joint in one run: they tell the order more closely"
         place = mine.joints or (mine.joint,)
-        found.append(
-            Alternative(OTHER_RIPPLE, title, place, f"{title} on {on_joints(place)}", one.evidence.score, turns)
-        )
+        found.append(_unnamed(OTHER_RIPPLE, title, place, one.evidence, turns))
     return tuple(found)
+
+
+def _unnamed(effect: str, title: str, joints: tuple[int, ...], evidence: Evidence, experiment: str) -> Alternative:
+    """Something of no law that explains as much."""
+    return Alternative(effect, title, joints, f"{title} on {on_joints(joints)}", evidence.score, experiment)
 
 
 def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:

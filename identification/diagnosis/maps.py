@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.reversals import since_reversal
 from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
@@ -50,7 +51,7 @@ def _columns(scene: Scene, k: int, ends: tuple[float, float], fastest: float) ->
     place = _tents(q, ends, _PLACES)
     speed = _tents(qd[k], (-fastest, fastest), _SPEEDS)
     others = np.delete(qd, k, axis=0)
-    fading = [sign * np.exp(-_since(sign) * scene.period / time) for time in _FADING]
+    fading = [sign * np.exp(-since_reversal(scene, k) / time) for time in _FADING]
     return np.concatenate([place, sign * place, speed, others, sign * np.abs(others), fading])
 
 
@@ -59,10 +60,3 @@ def _tents(x: Array, ends: tuple[float, float], count: int) -> Array:
     lower, upper = ends
     at = (x - lower) / max(upper - lower, 1e-12) * (count - 1)
     return np.asarray(np.maximum(1 - np.abs(at - np.arange(count)[:, None]), 0.0))
-
-
-def _since(sign: Array) -> NDArray[np.int_]:
-    """Samples since a sign changed (N)."""
-    number = np.arange(len(sign))
-    changed = np.concatenate([[True], sign[1:] != sign[:-1]])
-    return np.asarray(number - np.maximum.accumulate(np.where(changed, number, 0)))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.reversals import since_reversal
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
 from identification.drive_train import coupling
@@ -46,7 +47,7 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
     motion, robot = scene.motion, scene.robot
     joint = robot.moving[k]
     unit = joint.position_unit
-    signals = np.stack([motion.q[k], motion.qd[k], motion.qdd[k], scene.load[k], scene.t, _since_reversal(scene, k)])
+    signals = np.stack([motion.q[k], motion.qd[k], motion.qdd[k], scene.load[k], scene.t, since_reversal(scene, k)])
     q, qd, qdd, load, t, since = run.decimated(signals)
     result = {
         "q": (unit, q),
@@ -120,14 +121,6 @@ def _of_means(noise: Sequence[Colour], rows: Sequence[int]) -> float:
     """Variance of a mean of noise times the rows in it: its power density at rest, that of white noise at least."""
     each = [max(one.deviations[-1] / abs(float(one.filters[-1].sum())), one.deviations[0]) ** 2 for one in noise]
     return float(np.average(each, weights=rows))
-
-
-def _since_reversal(scene: Scene, k: int) -> Array:
-    """Time since the joint's speed last changed its sign [s] (N)."""
-    sign = np.sign(scene.motion.qd[k])
-    turned = np.concatenate([[True], sign[1:] * sign[:-1] < 0])
-    last = np.maximum.accumulate(np.where(turned, np.arange(len(sign)), 0))
-    return np.asarray((np.arange(len(sign)) - last) * scene.period)
 
 
 def strongest(found: Sequence[View]) -> tuple[str, Mapping[str, float]]:
