@@ -33,18 +33,16 @@ def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int
 
 
 def bank(runs: Sequence[Any]) -> Bank:
-    """The runs' base columns and torques; a scene is its run's number, carries nothing and is not rounded."""
+    """The runs' base columns and torques; a scene is its run's number and carries nothing."""
     names = tuple(f"p{i}" for i in range(len(runs[0].sampled.motion)))
     robot = SimpleNamespace(moving=(), flexible=(), effects=(), parameter_sets={})
     regressors = SimpleNamespace(names=names, structure=[names], base=lambda motion: [motion[:, 0]])
     regressors.model = SimpleNamespace(effects=())
-    still = SimpleNamespace(run=SimpleNamespace(q=np.zeros((1, 1))))
     scenes: Any = [
         SimpleNamespace(
             regressors=regressors,
             robot=robot,
             number=r,
-            sampled=still,
             carried=lambda motion: np.zeros(motion.shape[1:]),
         )
         for r in range(len(runs))

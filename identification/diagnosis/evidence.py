@@ -7,7 +7,7 @@ is not at the end of what was tried, and its coefficients are within their physi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.errors_in_variables import Pretence
+from identification.diagnosis.errors_in_variables import Pretence, Redrawn
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import Normal, Prior, bounded, inverse
@@ -54,7 +54,7 @@ _ELSEWHERE = "other motion, or the base mounted another way: along these runs it
 _MAIN = 0.5
 #: Times its low end below which what vanishes there has vanished.
 _VANISHED = 1.1
-#: Part of what an effect explains that is not of rounding.
+#: Part of what an effect explains that is not of the noise of positions.
 _TRUE = 0.5
 #: Hypotheses, by what they explain, that are held against the validating runs.
 _JUDGED = 16
@@ -85,14 +85,23 @@ class Evidence:
 class Weighing:
     """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
 
-    Without any to validate each fitted run is predicted by the others.
+    Without any to validate each fitted run is predicted by the others. ``redrawn`` are runs, by number, with the noise
+    of their positions once more.
     """
 
-    def __init__(self, bank: Bank, train: Sequence[int], validate: Sequence[int], prior: Prior | None) -> None:
+    def __init__(
+        self,
+        bank: Bank,
+        train: Sequence[int],
+        validate: Sequence[int],
+        prior: Prior | None,
+        redrawn: Mapping[int, Redrawn] | None = None,
+    ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
-        self._pretence = Pretence(bank, train)
+        self._noisy = dict(redrawn or {})
+        self._pretence = self._pretences(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self._seen = 0
@@ -110,6 +119,20 @@ class Weighing:
     def all(self) -> Normal:
         """Of the fitted and the validating runs."""
         return self._normal((*self.train, *self.validate))
+
+    def fitted(self, variants: Sequence[Variant], validating: bool = False) -> tuple[Array, Array]:
+        """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train or to those that
+        validate too, without what noise of the positions takes of them; and their covariance.
+        """
+        normal, runs = (self.all, (*self.train, *self.validate)) if validating else (self.normal, self.train)
+        solution, covariance = normal.solution(columns_of(variants))
+        pretence = self._pretences(runs) if validating else self._pretence
+        if pretence.nothing:
+            return solution, covariance
+        return solution - covariance @ pretence.beside(variants), covariance
+
+    def _pretences(self, runs: Sequence[int]) -> Pretence:
+        return Pretence(self.bank, {r: self._noisy[r] for r in runs if r in self._noisy})
 
     def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
         """What a fit of the base and of ``columns`` to some runs leaves in the mean square above that of the noise."""
@@ -191,8 +214,8 @@ class Weighing:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
-        if self._without_rounding(variant, others) < _TRUE * drop:
-            return replace(one, why_not="what it explains is rounding of the positions")
+        if self._without_position_noise(variant, others) < _TRUE * drop:
+            return replace(one, why_not="what it explains is noise of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
@@ -230,22 +253,21 @@ class Weighing:
         count = len(variant.columns) - len(rest)
         return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
 
-    def _without_rounding(self, variant: Variant, others: Sequence[Variant]) -> float:
-        """What a variant explains beside others without what rounding of the positions makes it explain."""
+    def _without_position_noise(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What a variant explains beside others without what noise of the positions makes it explain."""
         part = self.normal.part(variant.columns, columns_of(others))
         products = part[:-1, -1] - self.pretended(variant, others)
         size = np.diag(self.normal.gram)[list(variant.columns)]
         return bounded(part[:-1, :-1], products, *variant.bounds, size)[1]
 
     def pretended(self, variant: Variant, others: Sequence[Variant]) -> Array:
-        """Of the products of a variant's columns beside others with the torque, what rounding of the positions makes
+        """Of the products of a variant's columns beside others with the torque, what noise of the positions makes
         (k): the columns beside which they stand are of the same positions.
         """
         if self._pretence.nothing:
             return np.zeros(len(variant.columns))
         beside, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
-        of_others = np.concatenate([self._pretence.base, *map(self._pretence.of, others)])
-        explained = inverse(G[np.ix_(beside, beside)]) @ of_others
+        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)
         return np.asarray(self._pretence.of(variant) - G[np.ix_(variant.columns, beside)] @ explained)
 
     def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:

@@ -153,7 +153,7 @@ def findings(
     beyond chance on joints, by number, beside the noise.
     """
     columns = columns_of(found.variants)
-    solution, _ = found.weighing.normal.solution(columns)
+    solution, _ = found.weighing.fitted(found.variants)
     std, shape_std = deviations(found, columns, solution)
     place = {number: len(found.bank.base) + i for i, number in enumerate(columns)}
     result = []

@@ -12,6 +12,7 @@ from identification.diagnosis import stated_elasticity
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.errors_in_variables import redrawn
 from identification.diagnosis.evidence import Weighing, columns_of
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.maps import maps
@@ -57,34 +58,29 @@ class Search:
     @property
     def start(self) -> dict[int, float]:
         """Values of the base columns without the choices, by number, fitted to all runs."""
-        return self._fitted(self.weighing.all, ())
+        return self._fitted((), True)
 
     @property
     def weights(self) -> dict[int, float]:
         """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
         not look like something that the model lacks.
         """
-        return self._fitted(self.weighing.all, self._columns)
+        return self._fitted(self.variants, True)
 
     @property
     def trained(self) -> dict[int, float]:
         """The same, fitted to the runs number ``train`` alone."""
-        return self._fitted(self.weighing.normal, self._columns)
-
-    @property
-    def _columns(self) -> list[int]:
-        return columns_of(self.variants)
+        return self._fitted(self.variants, False)
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
-        columns = columns_of([one.evidence.variant for one in choices])
-        solution, covariance = self.weighing.normal.solution(columns)
+        solution, covariance = self.weighing.fitted([one.evidence.variant for one in choices])
         values = _values(self.bank, solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
-    def _fitted(self, normal: Normal, columns: Sequence[int]) -> dict[int, float]:
-        solution, _ = normal.solution(columns)
-        return dict(zip([*range(len(self.bank.base)), *columns], solution.tolist(), strict=True))
+    def _fitted(self, variants: Sequence[Variant], validating: bool) -> dict[int, float]:
+        solution, _ = self.weighing.fitted(variants, validating)
+        return dict(zip([*range(len(self.bank.base)), *columns_of(variants)], solution.tolist(), strict=True))
 
 
 def search(
@@ -119,13 +115,13 @@ def search(
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
         rounded = tuple(rounding(run, scene, r) for r, (run, scene) in enumerate(zip(clear, scenes, strict=True)))
-        bank.whiten(colours(bank, rounded, maps(clear, scenes)))
-        weighing = Weighing(bank, train, validate, prior)
+        noisy = redrawn(clear, scenes)
+        bank.whiten(colours(bank, rounded, maps(clear, scenes), noisy))
+        weighing = Weighing(bank, train, validate, prior, noisy)
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
-        columns = columns_of(chosen)
-        solution, covariance = weighing.normal.solution(columns)
+        solution, covariance = weighing.fitted(chosen)
         values = _values(bank, solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         depends = acting.again or (regressors.reads_load and bool(acting.variants))

@@ -1,27 +1,27 @@
 """The noise of each joint in each run: what is left when everything that may act has been taken away.
 
 Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
-missing effect; those that hold the record's own noise stay away. Where a motion repeats, what its periods have in
+missing effect; those that hold the record's own noise stay away, and columns of positions that are not exact explain no
+more than they would of exact ones. Where a motion repeats, what its periods have in
 common is taken away too: only what differs between them is noise, whatever the model lacks. Both take noise with them,
 more of it where they are rich: what is left at a frequency is divided by its part that is free there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from identification.diagnosis.bank import Bank
+from identification.diagnosis.errors_in_variables import Redrawn
 from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
-#: Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint along a run. Numbers are those of the bank;
-#: below 0 they are of what may act beside the model and all hypotheses.
-_Rows = tuple[list[int], Array, Array, NDArray[np.bool_]]
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
@@ -33,19 +33,73 @@ _PART, _LEAST = 256, 0.1
 _DOUBT = 200
 #: Times that the colour is estimated again, each from rows made white by the last.
 _AGAIN = 1
+#: Power of white noise from which that of positions is looked at.
+_NOISY = 0.05
 
 
-def colours(bank: Bank, rounded: Sequence[Array] = (), maps: Sequence[Sequence[Array]] = ()) -> list[list[Colour]]:
+@dataclass(frozen=True)
+class _Rows:
+    """Column ``numbers``, ``columns`` (k x N), torque ``tau`` (N) and ``kept`` rows (N) of a joint along a run.
+
+    Numbers are those of the bank; below 0 they are of what may act beside the model and all hypotheses. ``noise``
+    (k + 1 x N) is what as much noise of the positions once more makes of the columns and of the model's torque.
+    """
+
+    numbers: list[int]
+    columns: Array
+    tau: Array
+    kept: NDArray[np.bool_]
+    noise: Array | None = None
+
+
+def colours(
+    bank: Bank,
+    rounded: Sequence[Array] = (),
+    maps: Sequence[Sequence[Array]] = (),
+    redrawn: Mapping[int, Redrawn] | None = None,
+) -> list[list[Colour]]:
     """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell.
 
     ``rounded`` (n x rows each) counts as noise too, though periods may have it in common. ``maps`` are, by joint and
-    run, rows (m x rows) of what may act beside all hypotheses, if there are any.
+    run, rows (m x rows) of what may act beside all hypotheses, if there are any. Runs whose positions are noisy are
+    ``redrawn``, by number.
     """
     every = [
-        _joint(_columns(bank, joint, maps[joint] if maps else ()), bank, [one[joint] for one in rounded])
-        for joint in range(bank.dof)
+        _of_joint(bank, k, [one[k] for one in rounded], maps[k] if maps else (), redrawn or {}) for k in range(bank.dof)
     ]
     return [[colours[r] for colours in every] for r in range(len(bank.runs))]
+
+
+def _of_joint(
+    bank: Bank, joint: int, rounded: Sequence[Array], maps: Sequence[Array], redrawn: Mapping[int, Redrawn]
+) -> list[Colour]:
+    """The colour of a joint's noise in each run."""
+    plain = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
+    found = _joint(_columns(plain, bank, maps), bank, rounded)
+    torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
+    if not torques or np.mean(np.concatenate(torques, axis=1) ** 2) < _NOISY:
+        return found
+    noisy = _with_noise(plain, bank, joint, redrawn)
+    return _joint(_columns(noisy, bank, maps), bank, rounded)
+
+
+def _with_noise(parts: Sequence[_Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn]) -> list[_Rows]:
+    """With what noise of the positions makes of the rows of a joint in each run."""
+    whose = {number: (one, i) for one in bank.variants for i, number in enumerate(one.columns)}
+    result = []
+    for r, part in enumerate(parts):
+        noise = np.zeros((len(part.numbers) + 1, len(part.tau)))
+        if r in redrawn:
+            base = redrawn[r].base[joint]
+            for row, number in zip(noise, part.numbers, strict=False):
+                if number in whose:
+                    one, i = whose[number]
+                    row[:] = redrawn[r].of(one)[i, joint]
+                else:
+                    row[:] = base.get(bank.base[number], 0.0)
+            noise[-1] = redrawn[r].torque[joint]
+        result.append(replace(part, noise=noise))
+    return result
 
 
 def _joint(parts: Sequence[_Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
@@ -66,51 +120,62 @@ def _left(
     parts: Sequence[_Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
 ) -> tuple[list[list[Array]], Array]:
     """Stretches of noise of each run, and the part of its power that is left in them, by frequency."""
-    numbers = sorted({number for part in parts for number in part[0]})
+    numbers = sorted({number for part in parts for number in part.numbers})
     place = {number: i for i, number in enumerate(numbers)}
-    places = [np.array([place[number] for number in mine], dtype=int) for mine, *_ in parts]
+    places = [np.array([place[number] for number in part.numbers], dtype=int) for part in parts]
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
+    pretended = np.zeros(len(numbers))
     white = []
-    for at, (_, columns, tau, kept) in zip(places, parts, strict=True):
-        x = np.concatenate([columns, tau[None]])
-        white.append(x[:, kept] if known is None else known.white(x, kept))
+    for at, part in zip(places, parts, strict=True):
+        white.append(_white(known, np.concatenate([part.columns, part.tau[None]]), part.kept))
         gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
+        if part.noise is not None:
+            noise = _white(known, part.noise, part.kept)
+            pretended[at] -= noise[:-1] @ noise[-1]
     rows = sum(x.shape[1] for x in white)
     taken, most = sum(number < len(bank.base) for number in numbers), _most(rows)
     model = sum(0 <= number < len(bank.base) for number in numbers)
     inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
-    weights = inside @ gram[:-1, -1]
+    weights = inside @ (gram[:-1, -1] - pretended)
     left: list[list[Array]] = []
     lost = np.zeros(_PART // 2 + 1)
-    for r, (at, x, (_, columns, tau, kept), run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
-        e = tau - weights[at] @ columns
-        e = _between_periods(e, kept, run.period)
+    for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
+        kept = part.kept
+        e = _between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
         left.append(stretches(e + rounded[r] if rounded else e, kept))
-        whole = np.zeros(columns.shape)
+        whole = np.zeros(part.columns.shape)
         whole[:, kept] = x[:-1]
         lost += _power(_between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
         lost += _common(kept, run.period)
     return left, np.maximum(1 - _smooth(lost) / max(rows, 1), _LEAST)
 
 
-def _columns(bank: Bank, joint: int, maps: Sequence[Array]) -> list[_Rows]:
-    """Raw rows of a joint in each run with all that may act; with ``maps`` and with the model's columns once more for
-    each run by itself, which may be another one there, where there are rows enough.
+def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
+    """Kept rows (k x N), white where the colour of their noise is known."""
+    return x[:, kept] if known is None else known.white(x, kept)
+
+
+def _columns(parts: Sequence[_Rows], bank: Bank, maps: Sequence[Array]) -> list[_Rows]:
+    """Rows of a joint in each run with ``maps`` and with the model's columns once more for each run by itself, which
+    may be another one there, where there are rows enough.
     """
-    parts = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
     if not maps:
-        return parts
+        return list(parts)
     p, more = len(bank.base), len(maps[0])
-    model = len({number for mine, *_ in parts for number in mine if number < p})
-    most = _most(sum(int(kept.sum()) for *_, kept in parts))
+    model = len({number for part in parts for number in part.numbers if number < p})
+    most = _most(sum(int(part.kept.sum()) for part in parts))
     if most <= model + more:
-        return parts
+        return list(parts)
     apart = most > model + more + model * len(parts)
     result = []
-    for r, ((mine, columns, tau, kept), rows) in enumerate(zip(parts, maps, strict=True)):
-        own = [i for i, number in enumerate(mine) if number < p and apart]
-        numbers = [*range(-more, 0), *(mine[i] - more - (r + 1) * p for i in own), *mine]
-        result.append((numbers, np.concatenate([rows, columns[own], columns]), tau, kept))
+    for r, (part, rows) in enumerate(zip(parts, maps, strict=True)):
+        own = [i for i, number in enumerate(part.numbers) if number < p and apart]
+        numbers = [*range(-more, 0), *(part.numbers[i] - more - (r + 1) * p for i in own), *part.numbers]
+        columns = np.concatenate([rows, part.columns[own], part.columns])
+        noise = part.noise
+        if noise is not None:
+            noise = np.concatenate([np.zeros_like(rows), noise[own], noise])
+        result.append(_Rows(numbers, columns, part.tau, part.kept, noise))
     return result
 
 
@@ -124,7 +189,7 @@ def _without_record(bank: Bank, run: int, joint: int) -> _Rows:
     noisy = {number for one in bank.variants if one.hypothesis.recorded for number in one.columns}
     numbers, columns, tau, kept = bank.raw(run, joint)
     quiet = [i for i, number in enumerate(numbers) if number not in noisy]
-    return [numbers[i] for i in quiet], columns[quiet], tau, kept
+    return _Rows([numbers[i] for i in quiet], columns[quiet], tau, kept)
 
 
 def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:

@@ -6,14 +6,14 @@ rounding: what periods have in common is then no sign that the model lacks anyth
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.perturbation import sensitivity
+from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
-from identification.filtering import flat_derivative, smoothed
-from identification.observation import Motion
 
 Array = NDArray[np.float64]
 
@@ -57,30 +57,17 @@ def _refined(step: float, apart: Array) -> float:
     return step
 
 
+def deviations(q: Array) -> Array:
+    """Standard deviation (n) [rad, m] of what rounding to steps adds to positions (n x N) that cross many of them."""
+    return steps(q) / sqrt(12)
+
+
 def rounding(run: Prepared, scene: Scene, number: int = 0) -> Array:
     """Torques of rounding (n x rows) [N m, N] that the periods of a run have in common, as noise that they do not have
     would be: draw ``number`` for positions that cross many steps. Zero without steps, and where nothing repeats.
     """
     times = len(run.t) // run.period if run.period else 0
-    error = drawn_error(scene, number) if times > 1 else None
-    if error is None:
+    rounded = deviations(scene.sampled.run.q) if times > 1 else np.zeros(1)
+    if not rounded.any():
         return np.zeros_like(run.tau)
-    return np.asarray(np.sqrt(times) * run.decimated(torque_of(error, scene)))
-
-
-def drawn_error(scene: Scene, number: int) -> Motion | None:
-    """What rounding may add to the motion: draw ``number`` for positions that cross many steps; None without steps."""
-    one = scene.sampled
-    step = steps(one.run.q)
-    if not step.any():
-        return None
-    error = np.random.default_rng(number).uniform(-0.5, 0.5, one.run.q.shape) * step[:, None]
-    q = smoothed(error, one.filters.order, one.filters.cutoff, one.run.rate)
-    qd = flat_derivative(q, one.run.period)
-    first = one.filters.first
-    return Motion(q, qd, flat_derivative(qd, one.run.period)).part(first, first + one.motion.samples)
-
-
-def torque_of(error: Motion, scene: Scene) -> Array:
-    """What a small error of the motion makes of the torques (n x N) [N m, N] of the model and of what was found."""
-    return sensitivity(scene.torque_on, scene.motion, error)
+    return np.asarray(np.sqrt(times) * run.decimated(torque_of(drawn(scene, rounded, number), scene)))
