@@ -17,7 +17,7 @@ from scipy.interpolate import make_interp_spline
 from generator.errors import InputError, Place
 from generator.review.words import listed
 from generator.robot.description import Robot
-from identification import checks, corrections, readers, sidecar
+from identification import checks, corrections, glitches, readers, sidecar
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
@@ -200,9 +200,12 @@ def _run(
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
     stretches = checks.torques(effort, q, where, resting)
-    tau = joint_torques(effort, robot, recording)
-    notes = [*recording.notes]
-    notes += _told(stretches, effort, where)
+    notes = [*recording.notes, *_told(stretches, effort, where)]
+    at, said = glitches.without(at, where)
+    effort, more = glitches.without(effort, where)
+    notes += [*said, *more]
+    q, tau = joint_positions(at, robot, recording), joint_torques(effort, robot, recording)
+    q = corrections.true_positions(q, robot)
     unusable = checks.left_out(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
