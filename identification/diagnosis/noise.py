@@ -2,15 +2,14 @@
 
 Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
 missing effect; those that hold the record's own noise stay away, and columns of positions that are not exact explain no
-more than they would of exact ones. Where a motion repeats, what its periods have in
-common is taken away too: only what differs between them is noise, whatever the model lacks. Both take noise with them,
-more of it where they are rich: what is left at a frequency is divided by its part that is free there.
+more than they would of exact ones. Where a motion repeats, what its periods have in common is taken away too: only what
+differs between them is noise, whatever the model lacks. Both take noise with them, more of it where they are rich: what
+is left at a frequency is divided by its part that is free there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from scipy.ndimage import uniform_filter1d
 
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.errors_in_variables import Redrawn
+from identification.diagnosis.may_act import Rows, allowed, with_maps, with_noise, without_record
 from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
@@ -25,8 +25,6 @@ Array = NDArray[np.float64]
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
-#: Rows that a column may use up: with more columns only the strongest directions are taken away.
-_ROWS = 8
 #: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
 _PART, _LEAST = 256, 0.1
 #: Rows of noise of the usual power that every run is taken to have beside its own.
@@ -35,21 +33,6 @@ _DOUBT = 200
 _AGAIN = 1
 #: Power of white noise from which that of positions is looked at.
 _NOISY = 0.05
-
-
-@dataclass(frozen=True)
-class _Rows:
-    """Column ``numbers``, ``columns`` (k x N), torque ``tau`` (N) and ``kept`` rows (N) of a joint along a run.
-
-    Numbers are those of the bank; below 0 they are of what may act beside the model and all hypotheses. ``noise``
-    (k + 1 x N) is what as much noise of the positions once more makes of the columns and of the model's torque.
-    """
-
-    numbers: list[int]
-    columns: Array
-    tau: Array
-    kept: NDArray[np.bool_]
-    noise: Array | None = None
 
 
 def colours(
@@ -74,35 +57,16 @@ def _of_joint(
     bank: Bank, joint: int, rounded: Sequence[Array], maps: Sequence[Array], redrawn: Mapping[int, Redrawn]
 ) -> list[Colour]:
     """The colour of a joint's noise in each run."""
-    plain = [_without_record(bank, r, joint) for r in range(len(bank.runs))]
-    found = _joint(_columns(plain, bank, maps), bank, rounded)
+    plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
+    found = _joint(with_maps(plain, bank, maps), bank, rounded)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
     if not torques or np.mean(np.concatenate(torques, axis=1) ** 2) < _NOISY:
         return found
-    noisy = _with_noise(plain, bank, joint, redrawn)
-    return _joint(_columns(noisy, bank, maps), bank, rounded)
+    noisy = with_noise(plain, bank, joint, redrawn)
+    return _joint(with_maps(noisy, bank, maps), bank, rounded)
 
 
-def _with_noise(parts: Sequence[_Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn]) -> list[_Rows]:
-    """With what noise of the positions makes of the rows of a joint in each run."""
-    whose = {number: (one, i) for one in bank.variants for i, number in enumerate(one.columns)}
-    result = []
-    for r, part in enumerate(parts):
-        noise = np.zeros((len(part.numbers) + 1, len(part.tau)))
-        if r in redrawn:
-            base = redrawn[r].base[joint]
-            for row, number in zip(noise, part.numbers, strict=False):
-                if number in whose:
-                    one, i = whose[number]
-                    row[:] = redrawn[r].of(one)[i, joint]
-                else:
-                    row[:] = base.get(bank.base[number], 0.0)
-            noise[-1] = redrawn[r].torque[joint]
-        result.append(replace(part, noise=noise))
-    return result
-
-
-def _joint(parts: Sequence[_Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
+def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
     """The colour of a joint's noise in each run."""
     left, free = _left(parts, bank, None, rounded)
     for _ in range(_AGAIN):
@@ -117,7 +81,7 @@ def _colour(left: list[list[Array]], free: Array) -> Colour:
 
 
 def _left(
-    parts: Sequence[_Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
+    parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
 ) -> tuple[list[list[Array]], Array]:
     """Stretches of noise of each run, and the part of its power that is left in them, by frequency."""
     numbers = sorted({number for part in parts for number in part.numbers})
@@ -133,7 +97,7 @@ def _left(
             noise = _white(known, part.noise, part.kept)
             pretended[at] -= noise[:-1] @ noise[-1]
     rows = sum(x.shape[1] for x in white)
-    taken, most = sum(number < len(bank.base) for number in numbers), _most(rows)
+    taken, most = sum(number < len(bank.base) for number in numbers), allowed(rows)
     model = sum(0 <= number < len(bank.base) for number in numbers)
     inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
     weights = inside @ (gram[:-1, -1] - pretended)
@@ -153,43 +117,6 @@ def _left(
 def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
     """Kept rows (k x N), white where the colour of their noise is known."""
     return x[:, kept] if known is None else known.white(x, kept)
-
-
-def _columns(parts: Sequence[_Rows], bank: Bank, maps: Sequence[Array]) -> list[_Rows]:
-    """Rows of a joint in each run with ``maps`` and with the model's columns once more for each run by itself, which
-    may be another one there, where there are rows enough.
-    """
-    if not maps:
-        return list(parts)
-    p, more = len(bank.base), len(maps[0])
-    model = len({number for part in parts for number in part.numbers if number < p})
-    most = _most(sum(int(part.kept.sum()) for part in parts))
-    if most <= model + more:
-        return list(parts)
-    apart = most > model + more + model * len(parts)
-    result = []
-    for r, (part, rows) in enumerate(zip(parts, maps, strict=True)):
-        own = [i for i, number in enumerate(part.numbers) if number < p and apart]
-        numbers = [*range(-more, 0), *(part.numbers[i] - more - (r + 1) * p for i in own), *part.numbers]
-        columns = np.concatenate([rows, part.columns[own], part.columns])
-        noise = part.noise
-        if noise is not None:
-            noise = np.concatenate([np.zeros_like(rows), noise[own], noise])
-        result.append(_Rows(numbers, columns, part.tau, part.kept, noise))
-    return result
-
-
-def _most(rows: int) -> int:
-    """Columns that may use up rows."""
-    return max(rows // _ROWS, 1)
-
-
-def _without_record(bank: Bank, run: int, joint: int) -> _Rows:
-    """Raw rows of a joint without columns that hold the record's own noise."""
-    noisy = {number for one in bank.variants if one.hypothesis.recorded for number in one.columns}
-    numbers, columns, tau, kept = bank.raw(run, joint)
-    quiet = [i for i, number in enumerate(numbers) if number not in noisy]
-    return _Rows([numbers[i] for i in quiet], columns[quiet], tau, kept)
 
 
 def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
