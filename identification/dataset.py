@@ -199,19 +199,19 @@ def _run(
     for stem in ("qs", "qr"):
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
-    stretches = checks.torques(effort, q, where, resting)
-    notes = [*recording.notes, *_told(stretches, effort, where)]
-    at, said = glitches.without(at, where)
-    effort, more = glitches.without(effort, where)
-    notes += [*said, *more]
-    q, tau = joint_positions(at, robot, recording), joint_torques(effort, robot, recording)
-    q = corrections.true_positions(q, robot)
-    unusable = checks.left_out(stretches, tau.shape)
-    if unusable is not None and effort.stem != "tau":
-        unusable = driven(robot, unusable)
+    notes = [*recording.notes]
     if jitters(ticks, q):
         ticks = ticks.steady
         notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
+    at, of_positions = glitches.without(at, ticks, where)
+    effort, of_efforts = glitches.without(effort, ticks, where)
+    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
+    stretches = checks.torques(effort, q, where, resting)
+    tau = joint_torques(effort, robot, recording)
+    notes += [*_told(stretches, effort, where), *of_positions, *of_efforts]
+    unusable = checks.left_out(stretches, tau.shape)
+    if unusable is not None and effort.stem != "tau":
+        unusable = driven(robot, unusable)
     lost = ticks.lost
     if ticks.uneven or lost.any():
         uneven = ["times are uneven"] if ticks.uneven else []

@@ -11,47 +11,56 @@ from scipy.interpolate import make_interp_spline
 from generator.review.words import plural
 from identification.checks import Where
 from identification.signals import Measured
+from identification.timing import Clock
 
 Array = NDArray[np.float64]
 
 #: What one wrong sample makes of the distances of itself and of two neighbours each way from cubics through theirs.
 _ALONE = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 6
-#: Wrong samples in a row, at most.
-_MOST = 3
-#: Distances of usual samples, and of those that are rarely as far off, that a wrong one is off.
-_FAR, _RARELY = 30.0, 4.0
-#: By how much more than the signal itself changes there.
-_BACK = 3.0
+#: Time [s] for which a signal may be wrong, and wrong samples in a row at most: what lasts is the robot's own.
+_TIME, _MOST = 0.008, 3
+#: Distances of usual samples, of those that are rarely as far off, and steps of a signal, that a wrong one is off.
+_FAR, _RARELY, _STEPS = 30.0, 4.0, 3.0
+#: By how much more than the signal itself changes there, and least part of the farthest of wrong samples in a row.
+_BACK, _ALIKE = 3.0, 0.2
 #: Part of the distances that wrong samples may leave unexplained, and part of all samples that may be wrong.
 _LEFT, _RARE = 0.15, 0.01
+#: Part of a signal's range that is the rounding of its arithmetic.
+_ARITHMETIC = 1e-11
 
 
-def glitches(x: Array) -> NDArray[np.int_]:
-    """Numbers of the samples (N) of a signal that are off from all their neighbours, none where many are.
+def glitches(x: Array, period: float) -> NDArray[np.int_]:
+    """Numbers of the samples (N), one every ``period`` [s], that are off from all their neighbours; none where many
+    are.
 
     A jump is of all samples after it, and a peak of the signal is of its neighbours too.
     """
     if len(x) < 2 * len(_ALONE):
         return np.array([], dtype=int)
     off = np.convolve(np.pad(x, 2, mode="reflect", reflect_type="odd"), _ALONE, "valid")
-    far = max(_FAR * float(np.median(np.abs(off))), _RARELY * float(np.quantile(np.abs(off), 1 - 2 * _RARE)))
+    steps = np.abs(np.diff(x))
+    step = np.min(steps, where=steps > _ARITHMETIC * np.ptp(x), initial=np.inf)
+    # One wrong sample makes five distances large.
+    rarely = float(np.quantile(np.abs(off), 1 - (len(_ALONE) + 1) * _RARE))
+    far = max(_FAR * float(np.median(np.abs(off))), _RARELY * rarely, _STEPS * float(step))
+    most = min(max(int(_TIME / period), 1), _MOST)
     found: list[int] = []
     for i in np.flatnonzero(np.abs(off) > far / 2):
         if not found or i > found[-1]:
-            found += _wrong(x, off, int(i), far)
+            found += _wrong(x, off, int(i), far, most)
     return np.array(found if len(found) <= _RARE * len(x) else [], dtype=int)
 
 
-def _wrong(x: Array, off: Array, first: int, far: float) -> list[int]:
+def _wrong(x: Array, off: Array, first: int, far: float, most: int) -> list[int]:
     """The wrong samples, of which number ``first`` is the first one, that make the distances about it."""
-    for count in range(1, _MOST + 1):
+    for count in range(1, most + 1):
         window = off[first - 2 : first + count + 2]
         if first < 2 or len(window) < count + 4:
             return []
         made = np.stack([np.pad(_ALONE, (k, count - 1 - k)) for k in range(count)], axis=1)
         by, *_ = np.linalg.lstsq(made, window, rcond=None)
         explained = np.linalg.norm(window - made @ by) < _LEFT * np.linalg.norm(window)
-        least = max(far, _BACK * _change(x, first, first + count))
+        least = max(far, _BACK * _change(x, first, first + count), _ALIKE * float(np.abs(by).max()))
         if explained and (np.all(by > least) or np.all(by < -least)):
             return list(range(first, first + count))
     return []
@@ -64,15 +73,15 @@ def _change(x: Array, start: int, end: int) -> float:
     return float(abs(jump) + abs(after - before))
 
 
-def without(found: Measured, where: Where) -> tuple[Measured, list[str]]:
-    """The columns with a cubic spline through all others in the place of glitches, and what is to be told of them."""
+def without(found: Measured, ticks: Clock, where: Where) -> tuple[Measured, list[str]]:
+    """The columns with a cubic spline through all other rows in the place of glitches, and what is to be told."""
     values, notes = [], []
     for name, x in zip(found.names, found.values, strict=True):
-        wrong = glitches(x)
+        wrong = glitches(x, ticks.period)
         values.append(x.copy())
         if wrong.size:
             right = np.setdiff1d(np.arange(len(x)), wrong)
-            values[-1][wrong] = make_interp_spline(right, x[right])(wrong)
+            values[-1][wrong] = make_interp_spline(ticks.t[right], x[right])(ticks.t[wrong])
             here = f"{where(int(wrong[0]), name)}: {name} is off from its neighbours"
             several = f", and {plural(len(wrong) - 1, 'further sample')} too" if len(wrong) > 1 else ""
             were = "they were" if len(wrong) > 1 else "it was"

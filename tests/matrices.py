@@ -43,6 +43,7 @@ def bank(runs: Sequence[Any]) -> Bank:
             regressors=regressors,
             robot=robot,
             number=r,
+            motion=runs[r].sampled.motion,
             carried=lambda motion: np.zeros(motion.shape[1:]),
         )
         for r in range(len(runs))

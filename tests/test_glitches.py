@@ -17,7 +17,8 @@ from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
 
 Array = NDArray[np.float64]
 
-T = np.arange(8000) / 500
+PERIOD = 0.002
+T = PERIOD * np.arange(8000)
 #: A motion's torque, with friction that jumps where it reverses.
 SMOOTH = 20 * np.sin(2 * np.pi * 0.3 * T) + 6 * np.sign(np.cos(2 * np.pi * 0.3 * T + 0.2))
 
@@ -31,13 +32,13 @@ def noisy(x: Array, deviation: float) -> Array:
 def test_glitches_are_found(wrong: list[int], noise: float) -> None:
     x = noisy(SMOOTH, noise)
     x[wrong] += 15.0
-    assert glitches(x).tolist() == wrong
+    assert glitches(x, PERIOD).tolist() == wrong
 
 
 def test_a_dropout_to_zero_is_found() -> None:
     x = noisy(SMOOTH, 0.1)
     x[[90, 91]] = 0.0
-    assert glitches(x).tolist() == [90, 91]
+    assert glitches(x, PERIOD).tolist() == [90, 91]
 
 
 @pytest.mark.parametrize(
@@ -55,13 +56,29 @@ def test_a_dropout_to_zero_is_found() -> None:
     ids=["jumps", "noise", "coarse", "kinks", "held", "heavy tails", "nothing", "short"],
 )
 def test_what_is_the_signals_own_stays(x: Array) -> None:
-    assert not glitches(x).size
+    assert not glitches(x, PERIOD).size
 
 
-def test_many_are_no_glitches() -> None:
+@pytest.mark.parametrize(("every", "found"), [(120, 67), (90, 0)])
+def test_many_are_no_glitches(every: int, found: int) -> None:
+    """A hundredth of the samples at most, here of 8000."""
     x = noisy(SMOOTH, 0.1)
-    x[::50] += 10.0
-    assert not glitches(x).size
+    x[40::every] += 10.0
+    assert len(glitches(x, PERIOD)) == found
+
+
+def test_steps_of_a_joint_that_stands_are_no_glitches() -> None:
+    x = np.zeros(8000)
+    x[::200] = 1e-4
+    assert not glitches(x, PERIOD).size
+
+
+def test_a_short_peak_between_few_samples_is_the_robots() -> None:
+    t = 0.01 * np.arange(2000)
+    x = noisy(SMOOTH[::4], 0.02) + 20 * np.exp(-(((t - 7.003) / 0.008) ** 2) / 2)
+    assert not glitches(x, 0.01).size
+    x[350] += 10.0
+    assert glitches(x, 0.01).tolist() == [350]
 
 
 def test_a_run_is_read_without_them_and_says_so(tmp_path: Path) -> None:
@@ -95,3 +112,34 @@ def test_a_position_far_from_all_others_is_refused(tmp_path: Path) -> None:
     columns = {f"q{k}": x for k, x in enumerate(q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
     with pytest.raises(InputError, match="q1 jumps"):
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "far.csv")), robot)
+
+
+def test_a_torque_that_is_cut_off_is_not_hidden_by_glitches(tmp_path: Path) -> None:
+    path = tmp_path / "two_links.yaml"
+    path.write_text(TWO_LINKS)
+    robot = read(path)
+    t, motion = fourier(robot, 10.0, 500.0)
+    tau = Regressors(robot).torques(TRUTH, motion)
+    limit = float(np.quantile(np.abs(tau[0]), 0.6))
+    tau[0] = np.clip(tau[0], -limit, limit)
+    tau[0, [900, 2200]] = 20 * limit, -20 * limit
+    columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(tau, 1)}
+    with pytest.raises(InputError, match="tau1 stays at"):
+        load(str(Recorded({"t": t, **columns}).save(tmp_path / "cut.csv")), robot)
+
+
+def test_samples_are_interpolated_at_the_times_of_their_neighbours(tmp_path: Path) -> None:
+    path = tmp_path / "two_links.yaml"
+    path.write_text(TWO_LINKS)
+    robot = read(path)
+    even, motion = fourier(robot, 10.0, 500.0)
+    t = even + 0.0003 * np.sin(2 * np.pi * even)
+    # What each row would have at its own time, of a motion slow enough for lines.
+    q = np.stack([np.interp(t, even, x) for x in motion.q])
+    columns = {f"q{k}": x for k, x in enumerate(q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
+    good = load(str(Recorded({"t": t, **columns}).save(tmp_path / "good.csv")), robot)
+    columns["q2"] = columns["q2"].copy()
+    columns["q2"][2600] += 0.02
+    run = load(str(Recorded({"t": t, **columns}).save(tmp_path / "spoilt.csv")), robot)
+    assert any("q2 is off from its neighbours" in note for note in run.notes)
+    np.testing.assert_allclose(run.q, good.q, atol=1e-6)

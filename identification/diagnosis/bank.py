@@ -91,33 +91,14 @@ class Bank:
         self._offered: set[tuple[object, ...]] = set()
         self.nowhere: dict[tuple[str, int], Hypothesis] = {}
         self.count = len(self.base)
-        place = {name: k for k, name in enumerate(self.base)}
         self._joints: list[list[_Joint]] = []
         self._colours: list[list[Colour]] = []
         self.grams: list[Array] = []
         for run, scene in zip(runs, scenes, strict=True):
-            base, loaded = regressors.base(run.sampled.motion), stated_load.columns(scene)
             tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
-                [
-                    _Joint([place[name] for name in names], list(run.decimated(W)), tau[k], run.kept[k])
-                    for k, (names, W) in enumerate(zip(regressors.structure, base, strict=True))
-                ]
+                [_Joint([*rows], [*rows.values()], tau[k], run.kept[k]) for k, rows in enumerate(base_rows(run, scene))]
             )
-            for names, joint in zip(regressors.structure, self._joints[-1], strict=True):
-                for name in loaded.keys() & set(names):
-                    joint.rows[names.index(name)] = run.decimated(loaded[name])
-            if len(self.base) > len(regressors.names):
-                self._add_elasticity(run, scene, self._joints[-1])
-
-    def _add_elasticity(self, run: Prepared, scene: Scene, joints: Sequence[_Joint]) -> None:
-        """The columns of the file's elastic drive trains, on joints on which they act."""
-        numbers = range(len(scene.regressors.names), len(self.base))
-        for number, column in zip(numbers, stated_elasticity.columns(scene), strict=True):
-            for joint, row in zip(joints, column, strict=True):
-                if row.any():
-                    joint.numbers.append(number)
-                    joint.rows.append(run.decimated(row))
 
     @property
     def dof(self) -> int:
@@ -149,10 +130,8 @@ class Bank:
     def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool) -> Variant | None:
         per_run = []
         for scene in self.scenes:
-            # A shape that the motion makes impossible shows in numbers that are not finite.
-            with np.errstate(all="ignore"):
-                columns = hypothesis.columns(scene, shape)
-            if not np.all(np.abs(columns) < _ENDLESS):
+            columns = made(hypothesis, scene, shape)
+            if columns is None:
                 return None
             per_run.append(columns)
         largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
@@ -191,6 +170,11 @@ class Bank:
         one = self._joints[run][joint]
         return one.numbers, np.asarray(one.rows), one.tau, one.kept
 
+    def columns(self, run: int, joint: int, numbers: Sequence[int]) -> Array:
+        """Some columns (k x N) of a joint, as recorded."""
+        one = self._joints[run][joint]
+        return np.stack([one.rows[one.numbers.index(number)] for number in numbers])
+
     def white(self, run: int, joint: int) -> tuple[list[int], Array]:
         """Column numbers and white kept rows (k + 1 x N) of a joint, the torque the last."""
         one = self._joints[run][joint]
@@ -218,6 +202,34 @@ class Bank:
             at = np.array([*joint.numbers, self.count])
             gram[np.ix_(at, at)] += joint.white @ joint.white.T
         return gram
+
+
+def made(hypothesis: Hypothesis, scene: Scene, shape: Mapping[str, float]) -> Array | None:
+    """Columns (k x n x N) of a hypothesis with a shape along a scene; None where the motion makes that impossible."""
+    # It shows in numbers that are not finite.
+    with np.errstate(all="ignore"):
+        columns = hypothesis.columns(scene, shape)
+    return columns if np.all(np.abs(columns) < _ENDLESS) else None
+
+
+def base_rows(run: Prepared, scene: Scene) -> list[dict[int, Array]]:
+    """Of each joint, the decimated rows (N) of the base columns that act on it, by number: the base parameters, then
+    the file's elastic drive trains.
+    """
+    regressors = scene.regressors
+    base, loaded = regressors.base(scene.motion), stated_load.columns(scene)
+    place = {name: number for number, name in enumerate(regressors.names)}
+    result = []
+    for names, columns in zip(regressors.structure, base, strict=True):
+        rows = dict(zip(map(place.__getitem__, names), run.decimated(columns), strict=True))
+        rows |= {place[name]: run.decimated(loaded[name]) for name in loaded.keys() & set(names)}
+        result.append(rows)
+    if stated_elasticity.names(scene.robot):
+        for number, column in enumerate(stated_elasticity.columns(scene), len(place)):
+            for rows, row in zip(result, column, strict=True):
+                if row.any():
+                    rows[number] = run.decimated(row)
+    return result
 
 
 def _grown(gram: Array, count: int) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis import position_noise, rounding
-from identification.diagnosis.bank import Bank, Variant
+from identification.diagnosis.bank import Bank, Variant, base_rows, made
 from identification.diagnosis.perturbation import moved
 from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import Prepared
@@ -31,28 +31,35 @@ class Redrawn:
 
     def __init__(self, run: Prepared, scene: Scene, noise: Array, number: int) -> None:
         error = drawn(scene, noise, number)
-        self._run, self._old = run, scene
-        self._new = replace(scene, sampled=replace(scene.sampled, motion=moved(scene.motion, error, 1.0)))
-        self._known: dict[tuple[int, ...], Array] = {}
+        self._run = run
+        self._scene = replace(scene, sampled=replace(scene.sampled, motion=moved(scene.motion, error, 1.0)))
+        self._known: dict[tuple[int, ...], list[Array] | None] = {}
         self.torque = run.decimated(torque_of(error, scene))
 
-    @cached_property
-    def base(self) -> list[dict[str, Array]]:
-        """By joint, the change of the model's columns (rows) by name."""
-        regressors = self._old.regressors
-        new, old = (regressors.base(scene.motion) for scene in (self._new, self._old))
-        return [
-            dict(zip(names, self._run.decimated(a - b), strict=True))
-            for names, a, b in zip(regressors.structure, new, old, strict=True)
-        ]
+    def change(self, bank: Bank, r: int, k: int, variant: Variant | None = None) -> tuple[list[int], Array]:
+        """Numbers of the base columns that act on joint k, or of a variant's columns, and what the rows (k x N) of the
+        bank change by: nothing where a shape becomes impossible.
+        """
+        if variant is None:
+            new = self._base[k]
+            return [*new], np.stack([*new.values()]) - bank.columns(r, k, [*new])
+        numbers = [*variant.columns]
+        old = bank.columns(r, k, numbers)
+        rows = self._rows(variant)
+        return numbers, np.zeros_like(old) if rows is None else rows[variant.joints.index(k)] - old
 
-    def of(self, variant: Variant) -> Array:
-        """The change of a variant's columns (k x n x rows)."""
+    def _rows(self, variant: Variant) -> list[Array] | None:
+        """Rows of a variant's columns on each joint on which it acts; None where its shape is impossible."""
         if variant.columns not in self._known:
-            columns, shape = variant.hypothesis.columns, variant.shape
-            change = (columns(self._new, shape) - columns(self._old, shape))[list(variant.used)]
-            self._known[variant.columns] = self._run.decimated(change)
+            columns = made(variant.hypothesis, self._scene, variant.shape)
+            used = list(variant.used)
+            rows = None if columns is None else [self._run.decimated(columns[used, j]) for j in variant.joints]
+            self._known[variant.columns] = rows
         return self._known[variant.columns]
+
+    @cached_property
+    def _base(self) -> list[dict[int, Array]]:
+        return base_rows(self._run, self._scene)
 
 
 def redrawn(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> dict[int, Redrawn]:
@@ -85,26 +92,26 @@ class Pretence:
     def base(self) -> Array:
         """Of the base columns (p)."""
         result = np.zeros(len(self._bank.base))
-        place = {name: number for number, name in enumerate(self._bank.base)}
-        for r, one in self._redrawn.items():
-            for k, change in enumerate(one.base):
-                rows = np.stack([*change.values()])
-                result[[place[name] for name in change]] -= self._white(r, k, rows) @ self._torques[r][k]
+        for r in self._redrawn:
+            for k in range(self._bank.dof):
+                numbers, products = self._products(r, k, None)
+                result[numbers] += products
         return result
 
     def of(self, variant: Variant) -> Array:
         """Of a variant's columns (k)."""
         if variant.columns not in self._known:
-            result = np.zeros(len(variant.columns))
-            for r, one in self._redrawn.items():
-                for k in variant.joints:
-                    result -= self._white(r, k, one.of(variant)[:, k]) @ self._torques[r][k]
-            self._known[variant.columns] = result
+            parts = [self._products(r, k, variant)[1] for r in self._redrawn for k in variant.joints]
+            self._known[variant.columns] = np.sum([np.zeros(len(variant.columns)), *parts], axis=0)
         return self._known[variant.columns]
 
     def beside(self, variants: Sequence[Variant]) -> Array:
         """Of the base columns and of those of ``variants`` (p + k)."""
         return np.concatenate([self.base, *map(self.of, variants)])
+
+    def _products(self, r: int, k: int, variant: Variant | None) -> tuple[list[int], Array]:
+        numbers, change = self._redrawn[r].change(self._bank, r, k, variant)
+        return numbers, -self._believed * (self._white(r, k, change) @ self._torques[r][k])
 
     @cached_property
     def _torques(self) -> dict[int, list[Array]]:
@@ -112,6 +119,13 @@ class Pretence:
         return {
             r: [self._white(r, k, row[None])[0] for k, row in enumerate(one.torque)] for r, one in self._redrawn.items()
         }
+
+    @cached_property
+    def _believed(self) -> float:
+        """The part of the noise of positions that is there: no joint's torque has more of it than it has noise."""
+        by_joint = zip(*self._torques.values(), strict=True)
+        powers = [float(np.mean(np.concatenate(rows) ** 2)) for rows in by_joint if any(map(len, rows))]
+        return 1 / max(1.0, *powers) if powers else 1.0
 
     def _white(self, r: int, k: int, rows: Array) -> Array:
         return self._bank.colours[r][k].white(rows, self._bank.runs[r].kept[k])

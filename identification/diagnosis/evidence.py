@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +102,7 @@ class Weighing:
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(redrawn or {})
-        self._pretence = self._pretences(self.train)
+        self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self._seen = 0
@@ -120,18 +121,24 @@ class Weighing:
         """Of the fitted and the validating runs."""
         return self._normal((*self.train, *self.validate))
 
-    def fitted(self, variants: Sequence[Variant], validating: bool = False) -> tuple[Array, Array]:
-        """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train or to those that
-        validate too, without what noise of the positions takes of them; and their covariance.
+    def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
+        """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
+        validate as well, without what noise of the positions takes of them; and their covariance.
         """
-        normal, runs = (self.all, (*self.train, *self.validate)) if validating else (self.normal, self.train)
+        normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
         solution, covariance = normal.solution(columns_of(variants))
-        pretence = self._pretences(runs) if validating else self._pretence
-        if pretence.nothing:
+        if pretence.nothing or not len(solution):
             return solution, covariance
-        return solution - covariance @ pretence.beside(variants), covariance
+        corrected = solution - covariance @ pretence.beside(variants)
+        for i, (lower, upper) in enumerate(pair for one in variants for pair in zip(*one.bounds, strict=True)):
+            corrected[normal.base + i] = np.clip(corrected[normal.base + i], lower, upper)
+        return corrected, covariance
 
-    def _pretences(self, runs: Sequence[int]) -> Pretence:
+    @cached_property
+    def _pretence_of_all(self) -> Pretence:
+        return self._pretence_along((*self.train, *self.validate))
+
+    def _pretence_along(self, runs: Sequence[int]) -> Pretence:
         return Pretence(self.bank, {r: self._noisy[r] for r in runs if r in self._noisy})
 
     def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
@@ -203,10 +210,9 @@ class Weighing:
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = self._asked_for(found, others)
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
-        used = len(x)
-        tries = max(variant.hypothesis.tries, len(variant.hypothesis.variants))
-        p = min(1.0, tries * float(chi2.sf(drop, max(used, 1))))
-        bic = drop - (used + variant.hypothesis.free) * np.log(self.normal.rows) - 2 * np.log(tries)
+        p = _chance(drop, variant)
+        free = len(x) + variant.hypothesis.free
+        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
         rows = int(self._rows[list(variant.joints)].sum())
         size = float(np.sqrt(drop / max(rows, 1)))
         one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
@@ -214,7 +220,8 @@ class Weighing:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
-        if self._without_position_noise(variant, others) < _TRUE * drop:
+        true = self._without_position_noise(variant, others)
+        if true < _TRUE * drop or _chance(true, variant) * self._tried > _ALPHA:
             return replace(one, why_not="what it explains is noise of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
@@ -331,6 +338,15 @@ def key_of(variant: Variant) -> Key:
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
     return [number for one in chosen for number in one.columns]
+
+
+def _chance(drop: float, variant: Variant) -> float:
+    """How likely noise makes the best of all that was tried explain as much."""
+    return min(1.0, _tries(variant) * float(chi2.sf(drop, max(len(variant.columns), 1))))
+
+
+def _tries(variant: Variant) -> int:
+    return max(variant.hypothesis.tries, len(variant.hypothesis.variants))
 
 
 def _at_end(variant: Variant) -> bool:

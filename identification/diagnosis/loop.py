@@ -78,8 +78,8 @@ class Search:
         values = _values(self.bank, solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
-    def _fitted(self, variants: Sequence[Variant], validating: bool) -> dict[int, float]:
-        solution, _ = self.weighing.fitted(variants, validating)
+    def _fitted(self, variants: Sequence[Variant], with_validating: bool) -> dict[int, float]:
+        solution, _ = self.weighing.fitted(variants, with_validating)
         return dict(zip([*range(len(self.bank.base)), *columns_of(variants)], solution.tolist(), strict=True))
 
 

@@ -42,18 +42,16 @@ def without_record(bank: Bank, run: int, joint: int) -> Rows:
 
 def with_noise(parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn]) -> list[Rows]:
     """With what noise of the positions makes of the rows of a joint in each run."""
-    whose = {number: (one, i) for one in bank.variants for i, number in enumerate(one.columns)}
+    acting = [None, *(one for one in bank.variants if joint in one.joints)]
     result = []
     for r, part in enumerate(parts):
         noise = np.zeros((len(part.numbers) + 1, len(part.tau)))
         if r in redrawn:
-            base = redrawn[r].base[joint]
-            for row, number in zip(noise, part.numbers, strict=False):
-                if number in whose:
-                    one, i = whose[number]
-                    row[:] = redrawn[r].of(one)[i, joint]
-                elif number < len(bank.base):
-                    row[:] = base.get(bank.base[number], 0.0)
+            place = {number: i for i, number in enumerate(part.numbers)}
+            for variant in acting:
+                if variant is None or place.keys() >= {*variant.columns}:
+                    numbers, change = redrawn[r].change(bank, r, joint, variant)
+                    noise[[place[number] for number in numbers]] = change
             noise[-1] = redrawn[r].torque[joint]
         result.append(replace(part, noise=noise))
     return result

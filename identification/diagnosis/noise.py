@@ -60,7 +60,7 @@ def _of_joint(
     plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
     found = _joint(with_maps(plain, bank, maps), bank, rounded)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
-    if not torques or np.mean(np.concatenate(torques, axis=1) ** 2) < _NOISY:
+    if sum(np.sum(x**2) for x in torques) <= _NOISY * sum(x.size for x in torques):
         return found
     noisy = with_noise(plain, bank, joint, redrawn)
     return _joint(with_maps(noisy, bank, maps), bank, rounded)

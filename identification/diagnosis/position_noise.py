@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 
 #: Order of the differences that leave nothing of a motion, and the median of a normal deviate's size.
 _ORDER, _MEDIAN = 8, 0.6745
+#: Samples between those that are compared, at most: what was logged more slowly repeats, or lies on lines; and the part
+#: of the noise that those farther apart have where it is not white.
+_STRIDES, _WHITE = 5, 0.8
 #: Part of a position that is the rounding of its arithmetic.
 _ARITHMETIC = 1e-11
 
@@ -24,11 +27,22 @@ def deviations(q: Array) -> Array:
     """Standard deviation (n) [rad, m] of the white noise of recorded positions (n x N), zero where there is none.
 
     Differences of high order leave what is quick alone (Rice, Annals of Statistics 12, 1984); their median does not
-    see the instants at which an acceleration jumps.
+    see the instants at which an acceleration jumps. White noise is as large in every second sample as in all.
     """
-    rough = np.abs(np.diff(q, _ORDER, axis=-1))
-    found = np.median(rough, axis=-1) / (_MEDIAN * sqrt(comb(2 * _ORDER, _ORDER)))
+    every, *apart = (_rough(q, stride) for stride in range(1, _STRIDES + 1))
+    least = np.min(apart, axis=0)
+    found = np.where(least < _WHITE * every, least, every)
     return np.asarray(np.where(found > _ARITHMETIC * np.abs(q).max(axis=-1), found, 0.0))
+
+
+def _rough(q: Array, stride: int) -> Array:
+    """The deviation of white noise in samples of which those ``stride`` apart are compared."""
+    if q.shape[-1] <= _ORDER * stride:
+        return np.zeros(len(q))
+    rough = q
+    for _ in range(_ORDER):
+        rough = rough[:, stride:] - rough[:, :-stride]
+    return np.asarray(np.median(np.abs(rough), axis=-1) / (_MEDIAN * sqrt(comb(2 * _ORDER, _ORDER))))
 
 
 def drawn(scene: Scene, deviations: Array, number: int) -> Motion:

@@ -6,6 +6,7 @@ rounding: what periods have in common is then no sign that the model lacks anyth
 
 from __future__ import annotations
 
+from itertools import product
 from math import sqrt
 
 import numpy as np
@@ -41,9 +42,9 @@ def _step(q: Array) -> float:
     moves = np.diff(q) != 0
     among = moves[:-3] | moves[1:-2] | moves[2:-1] | moves[3:]
     off = np.abs((4 * (q[1:-3] + q[3:-1]) - q[:-4] - q[4:]) / 6 - q[2:-2])[among]
-    # The smallest difference may be of several steps.
-    for several in range(1, _SEVERAL + 1):
-        step = _refined(apart[0] / several, apart)
+    # The smallest differences may be of samples that were interpolated; each may be of several steps.
+    for least, several in product((apart[len(apart) // _COUNT], apart[0]), range(1, _SEVERAL + 1)):
+        step = _refined(least / several, apart[apart >= least])
         if np.median(np.abs(apart / step - np.round(apart / step))) < _WHOLE:
             return step if np.mean(off) > _ROUGH * step else 0.0
     return 0.0

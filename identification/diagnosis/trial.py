@@ -39,7 +39,10 @@ class Trial:
     places: dict[tuple[str, int], tuple[int, ...]]
 
     def fitted(self, variants: Sequence[Variant]) -> tuple[Array, Array]:
-        """Values of the columns as the other runs fit them (c), 0 without a variant; their covariance (c x c)."""
+        """Values of the columns as the other runs fit them (c), 0 without a variant; their covariance (c x c).
+
+        What noise of the positions takes of values is not given back: it is in the columns here too.
+        """
         solution, covariance = self.normal.solution(columns_of(variants))
         base = range(self.normal.base)
         at = np.array([*base, *(self.places[key_of(one)][i] for one in variants for i in one.used)])
