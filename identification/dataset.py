@@ -200,7 +200,8 @@ def _run(
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
     notes = [*recording.notes]
-    if jitters(ticks, q):
+    smooth, _ = glitches.without(at, ticks, where)
+    if jitters(ticks, joint_positions(smooth, robot, recording)):
         ticks = ticks.steady
         notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
     at, of_positions = glitches.without(at, ticks, where)

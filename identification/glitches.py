@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 _ALONE = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 6
 #: Time [s] for which a signal may be wrong, and wrong samples in a row at most: what lasts is the robot's own.
 _TIME, _MOST = 0.008, 3
+#: Part of a sample that times are rounded by.
+_CLOSE = 0.01
 #: Distances of usual samples, of those that are rarely as far off, and steps of a signal, that a wrong one is off.
 _FAR, _RARELY, _STEPS = 30.0, 4.0, 3.0
 #: By how much more than the signal itself changes there, and least part of the farthest of wrong samples in a row.
@@ -33,7 +35,8 @@ def glitches(x: Array, period: float) -> NDArray[np.int_]:
     """Numbers of the samples (N), one every ``period`` [s], that are off from all their neighbours; none where many
     are.
 
-    A jump is of all samples after it, and a peak of the signal is of its neighbours too.
+    A jump is of all samples after it, and a peak of the signal is of its neighbours too. A signal that has one step
+    alone may be of a coarse sensor.
     """
     if len(x) < 2 * len(_ALONE):
         return np.array([], dtype=int)
@@ -43,7 +46,7 @@ def glitches(x: Array, period: float) -> NDArray[np.int_]:
     # One wrong sample makes five distances large.
     rarely = float(np.quantile(np.abs(off), 1 - (len(_ALONE) + 1) * _RARE))
     far = max(_FAR * float(np.median(np.abs(off))), _RARELY * rarely, _STEPS * float(step))
-    most = min(max(int(_TIME / period), 1), _MOST)
+    most = min(max(int(_TIME / period + _CLOSE), 1), _MOST)
     found: list[int] = []
     for i in np.flatnonzero(np.abs(off) > far / 2):
         if not found or i > found[-1]:
@@ -78,12 +81,20 @@ def without(found: Measured, ticks: Clock, where: Where) -> tuple[Measured, list
     values, notes = [], []
     for name, x in zip(found.names, found.values, strict=True):
         wrong = glitches(x, ticks.period)
-        values.append(x.copy())
+        values.append(_repaired(x, ticks.t, wrong) if wrong.size else x)
         if wrong.size:
-            right = np.setdiff1d(np.arange(len(x)), wrong)
-            values[-1][wrong] = make_interp_spline(ticks.t[right], x[right])(ticks.t[wrong])
             here = f"{where(int(wrong[0]), name)}: {name} is off from its neighbours"
             several = f", and {plural(len(wrong) - 1, 'further sample')} too" if len(wrong) > 1 else ""
             were = "they were" if len(wrong) > 1 else "it was"
             notes.append(f"{here}{several}; {were} interpolated")
     return (replace(found, values=np.stack(values)) if notes else found), notes
+
+
+def _repaired(x: Array, t: Array, wrong: NDArray[np.int_]) -> Array:
+    """A signal that stays where it was stays there in between; none goes beyond its other values."""
+    result, right = x.copy(), np.setdiff1d(np.arange(len(x)), wrong)
+    after = np.searchsorted(right, wrong)
+    before, behind = x[right[after - 1]], x[right[after]]
+    smooth = np.clip(make_interp_spline(t[right], x[right])(t[wrong]), x[right].min(), x[right].max())
+    result[wrong] = np.where(before == behind, before, smooth)
+    return result

@@ -122,10 +122,26 @@ def test_a_torque_that_is_cut_off_is_not_hidden_by_glitches(tmp_path: Path) -> N
     tau = Regressors(robot).torques(TRUTH, motion)
     limit = float(np.quantile(np.abs(tau[0]), 0.6))
     tau[0] = np.clip(tau[0], -limit, limit)
-    tau[0, [900, 2200]] = 20 * limit, -20 * limit
+    inside = np.flatnonzero(tau[0] == limit)[50]
+    tau[0, [900, 2200, inside]] = 20 * limit, -20 * limit, 9 * limit
     columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(tau, 1)}
     with pytest.raises(InputError, match="tau1 stays at"):
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "cut.csv")), robot)
+
+
+@pytest.mark.parametrize("jitter", [0.05, 0.3])
+def test_a_clock_that_jitters_is_told_beside_glitches(jitter: float, tmp_path: Path) -> None:
+    path = tmp_path / "two_links.yaml"
+    path.write_text(TWO_LINKS)
+    robot = read(path)
+    even, motion = fourier(robot, 10.0, 500.0)
+    t = even + jitter * PERIOD * np.random.default_rng(3).uniform(-1, 1, even.shape)
+    columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
+    columns["q1"] = columns["q1"].copy()
+    columns["q1"][[400, 1500, 2600, 3700]] += 0.1
+    run = load(str(Recorded({"t": t, **columns}).save(tmp_path / "run.csv")), robot)
+    assert any("times jitter" in note for note in run.notes)
+    assert np.max(np.abs(np.diff(run.q[0], 2))) / PERIOD**2 < 2 * np.max(np.abs(motion.qdd[0]))
 
 
 def test_samples_are_interpolated_at_the_times_of_their_neighbours(tmp_path: Path) -> None:

@@ -173,7 +173,8 @@ class Bank:
     def columns(self, run: int, joint: int, numbers: Sequence[int]) -> Array:
         """Some columns (k x N) of a joint, as recorded."""
         one = self._joints[run][joint]
-        return np.stack([one.rows[one.numbers.index(number)] for number in numbers])
+        rows = [one.rows[one.numbers.index(number)] for number in numbers]
+        return np.stack(rows) if rows else np.empty((0, len(one.tau)))
 
     def white(self, run: int, joint: int) -> tuple[list[int], Array]:
         """Column numbers and white kept rows (k + 1 x N) of a joint, the torque the last."""

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis import position_noise, rounding
+from identification.diagnosis import position_noise, rounding, stated_elasticity
 from identification.diagnosis.bank import Bank, Variant, base_rows, made
 from identification.diagnosis.perturbation import moved
 from identification.diagnosis.position_noise import drawn, torque_of
@@ -26,7 +27,7 @@ Array = NDArray[np.float64]
 class Redrawn:
     """A run with ``noise`` (n) [rad, m] of its positions once more, by draw ``number``: what that changes in its rows.
 
-    ``torque`` (n x rows) [N m, N] is what the model's torque changes by.
+    ``torque`` (n x rows) [N m, N] is what the model's torque changes by, with that of the file's drive trains.
     """
 
     def __init__(self, run: Prepared, scene: Scene, noise: Array, number: int) -> None:
@@ -35,21 +36,29 @@ class Redrawn:
         self._scene = replace(scene, sampled=replace(scene.sampled, motion=moved(scene.motion, error, 1.0)))
         self._known: dict[tuple[int, ...], list[Array] | None] = {}
         self.torque = run.decimated(torque_of(error, scene))
+        if weights := stated_elasticity.weights(scene):
+            names = (*scene.regressors.names, *stated_elasticity.names(scene.robot))
+            old = base_rows(run, scene)
+            for k, by in product(range(len(old)), weights):
+                new, was = (some[k].get(names.index(by), np.zeros_like(run.t)) for some in (self._base, old))
+                self.torque[k] += weights[by] * (new - was)
 
-    def change(self, bank: Bank, r: int, k: int, variant: Variant | None = None) -> tuple[list[int], Array]:
-        """Numbers of the base columns that act on joint k, or of a variant's columns, and what the rows (k x N) of the
-        bank change by: nothing where a shape becomes impossible.
-        """
-        if variant is None:
-            new = self._base[k]
-            return [*new], np.stack([*new.values()]) - bank.columns(r, k, [*new])
-        numbers = [*variant.columns]
+    def base(self, bank: Bank, r: int, k: int) -> tuple[list[int], Array]:
+        """Numbers of the base columns that act on joint k in the bank's run r, and what their rows change by."""
+        numbers = [number for number in bank.raw(r, k)[0] if number < len(bank.base)]
         old = bank.columns(r, k, numbers)
+        new = [self._base[k].get(number, row) for number, row in zip(numbers, old, strict=True)]
+        return numbers, np.reshape(new, old.shape) - old
+
+    def of(self, variant: Variant, bank: Bank, r: int, k: int) -> Array:
+        """What the rows of a variant's columns on joint k in the bank's run r change by; nothing where its shape
+        becomes impossible.
+        """
+        old = bank.columns(r, k, variant.columns)
         rows = self._rows(variant)
-        return numbers, np.zeros_like(old) if rows is None else rows[variant.joints.index(k)] - old
+        return np.zeros_like(old) if rows is None else rows[variant.joints.index(k)] - old
 
     def _rows(self, variant: Variant) -> list[Array] | None:
-        """Rows of a variant's columns on each joint on which it acts; None where its shape is impossible."""
         if variant.columns not in self._known:
             columns = made(variant.hypothesis, self._scene, variant.shape)
             used = list(variant.used)
@@ -92,16 +101,19 @@ class Pretence:
     def base(self) -> Array:
         """Of the base columns (p)."""
         result = np.zeros(len(self._bank.base))
-        for r in self._redrawn:
-            for k in range(self._bank.dof):
-                numbers, products = self._products(r, k, None)
-                result[numbers] += products
+        for r, k in product(self._redrawn, range(self._bank.dof)):
+            numbers, change = self._redrawn[r].base(self._bank, r, k)
+            result[numbers] += self._products(r, k, change)
         return result
 
     def of(self, variant: Variant) -> Array:
         """Of a variant's columns (k)."""
         if variant.columns not in self._known:
-            parts = [self._products(r, k, variant)[1] for r in self._redrawn for k in variant.joints]
+            parts = [
+                self._products(r, k, one.of(variant, self._bank, r, k))
+                for r, one in self._redrawn.items()
+                for k in variant.joints
+            ]
             self._known[variant.columns] = np.sum([np.zeros(len(variant.columns)), *parts], axis=0)
         return self._known[variant.columns]
 
@@ -109,9 +121,8 @@ class Pretence:
         """Of the base columns and of those of ``variants`` (p + k)."""
         return np.concatenate([self.base, *map(self.of, variants)])
 
-    def _products(self, r: int, k: int, variant: Variant | None) -> tuple[list[int], Array]:
-        numbers, change = self._redrawn[r].change(self._bank, r, k, variant)
-        return numbers, -self._believed * (self._white(r, k, change) @ self._torques[r][k])
+    def _products(self, r: int, k: int, change: Array) -> Array:
+        return np.asarray(-self._believed[k] * (self._white(r, k, change) @ self._torques[r][k]))
 
     @cached_property
     def _torques(self) -> dict[int, list[Array]]:
@@ -121,11 +132,10 @@ class Pretence:
         }
 
     @cached_property
-    def _believed(self) -> float:
-        """The part of the noise of positions that is there: no joint's torque has more of it than it has noise."""
+    def _believed(self) -> list[float]:
+        """The part of the positions' noise that is there, by joint: its torque has no more of it than it has noise."""
         by_joint = zip(*self._torques.values(), strict=True)
-        powers = [float(np.mean(np.concatenate(rows) ** 2)) for rows in by_joint if any(map(len, rows))]
-        return 1 / max(1.0, *powers) if powers else 1.0
+        return [1 / max(1.0, float(np.sum(rows**2)) / max(len(rows), 1)) for rows in map(np.concatenate, by_joint)]
 
     def _white(self, r: int, k: int, rows: Array) -> Array:
         return self._bank.colours[r][k].white(rows, self._bank.runs[r].kept[k])

@@ -123,7 +123,8 @@ class Weighing:
 
     def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
         """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
-        validate as well, without what noise of the positions takes of them; and their covariance.
+        validate as well, without what noise of the positions takes of them, which moves no coefficient beyond its
+        bounds; and their covariance.
         """
         normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
         solution, covariance = normal.solution(columns_of(variants))
@@ -341,7 +342,7 @@ def columns_of(chosen: Sequence[Variant]) -> list[int]:
 
 
 def _chance(drop: float, variant: Variant) -> float:
-    """How likely noise makes the best of all that was tried explain as much."""
+    """How likely noise makes the best of all shapes that were tried explain as much."""
     return min(1.0, _tries(variant) * float(chi2.sf(drop, max(len(variant.columns), 1))))
 
 

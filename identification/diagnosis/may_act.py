@@ -42,16 +42,17 @@ def without_record(bank: Bank, run: int, joint: int) -> Rows:
 
 def with_noise(parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn]) -> list[Rows]:
     """With what noise of the positions makes of the rows of a joint in each run."""
-    acting = [None, *(one for one in bank.variants if joint in one.joints)]
+    acting = [one for one in bank.variants if joint in one.joints]
     result = []
     for r, part in enumerate(parts):
         noise = np.zeros((len(part.numbers) + 1, len(part.tau)))
         if r in redrawn:
             place = {number: i for i, number in enumerate(part.numbers)}
+            numbers, change = redrawn[r].base(bank, r, joint)
+            noise[[place[number] for number in numbers]] = change
             for variant in acting:
-                if variant is None or place.keys() >= {*variant.columns}:
-                    numbers, change = redrawn[r].change(bank, r, joint, variant)
-                    noise[[place[number] for number in numbers]] = change
+                if place.keys() >= {*variant.columns}:
+                    noise[[place[number] for number in variant.columns]] = redrawn[r].of(variant, bank, r, joint)
             noise[-1] = redrawn[r].torque[joint]
         result.append(replace(part, noise=noise))
     return result

@@ -31,8 +31,9 @@ _PART, _LEAST = 256, 0.1
 _DOUBT = 200
 #: Times that the colour is estimated again, each from rows made white by the last.
 _AGAIN = 1
-#: Power of white noise from which that of positions is looked at.
-_NOISY = 0.05
+#: Power of the noise that columns leave from which that of positions is looked at, and beyond which it is none: columns
+#: do not take that much.
+_NOISY, _ABSURD = 0.05, 30.0
 
 
 def colours(
@@ -60,7 +61,8 @@ def _of_joint(
     plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
     found = _joint(with_maps(plain, bank, maps), bank, rounded)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
-    if sum(np.sum(x**2) for x in torques) <= _NOISY * sum(x.size for x in torques):
+    power = sum(float(np.sum(x**2)) for x in torques) / max(sum(x.size for x in torques), 1)
+    if not _NOISY < power < _ABSURD:
         return found
     noisy = with_noise(plain, bank, joint, redrawn)
     return _joint(with_maps(noisy, bank, maps), bank, rounded)

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 _ORDER, _MEDIAN = 8, 0.6745
 #: Samples between those that are compared, at most: what was logged more slowly repeats, or lies on lines; and the part
 #: of the noise that those farther apart have where it is not white.
-_STRIDES, _WHITE = 5, 0.8
+_STRIDES, _WHITE = 25, 0.8
 #: Part of a position that is the rounding of its arithmetic.
 _ARITHMETIC = 1e-11
 
@@ -32,13 +32,16 @@ def deviations(q: Array) -> Array:
     every, *apart = (_rough(q, stride) for stride in range(1, _STRIDES + 1))
     least = np.min(apart, axis=0)
     found = np.where(least < _WHITE * every, least, every)
+    found[np.isinf(found)] = 0.0
     return np.asarray(np.where(found > _ARITHMETIC * np.abs(q).max(axis=-1), found, 0.0))
 
 
 def _rough(q: Array, stride: int) -> Array:
-    """The deviation of white noise in samples of which those ``stride`` apart are compared."""
+    """The deviation of white noise in samples of which those ``stride`` apart are compared, infinite where there are
+    too few.
+    """
     if q.shape[-1] <= _ORDER * stride:
-        return np.zeros(len(q))
+        return np.full(len(q), np.inf)
     rough = q
     for _ in range(_ORDER):
         rough = rough[:, stride:] - rough[:, :-stride]

@@ -18,8 +18,11 @@ from identification.diagnosis.scene import Scene
 
 Array = NDArray[np.float64]
 
-#: Part of a step within which differences of rounded positions are whole steps, and how many there must be.
-_WHOLE, _COUNT = 0.02, 100
+#: Part of a step within which most differences of rounded positions are whole steps, which part of them are most, and
+#: how many there must be.
+_WHOLE, _MOST, _COUNT = 0.02, 0.9, 100
+#: Part of the differences that may be smaller than any rounding leaves.
+_INTERPOLATED = 0.01
 #: Steps that the smallest difference may be of, and times that a step is told more closely.
 _SEVERAL, _CLOSER = 4, 12
 #: Part of a step that rounded positions are off the cubics through their neighbours: those of even accelerations differ
@@ -43,9 +46,9 @@ def _step(q: Array) -> float:
     among = moves[:-3] | moves[1:-2] | moves[2:-1] | moves[3:]
     off = np.abs((4 * (q[1:-3] + q[3:-1]) - q[:-4] - q[4:]) / 6 - q[2:-2])[among]
     # The smallest differences may be of samples that were interpolated; each may be of several steps.
-    for least, several in product((apart[len(apart) // _COUNT], apart[0]), range(1, _SEVERAL + 1)):
+    for least, several in product((apart[int(_INTERPOLATED * len(apart))], apart[0]), range(1, _SEVERAL + 1)):
         step = _refined(least / several, apart[apart >= least])
-        if np.median(np.abs(apart / step - np.round(apart / step))) < _WHOLE:
+        if np.quantile(np.abs(apart / step - np.round(apart / step)), _MOST) < _WHOLE:
             return step if np.mean(off) > _ROUGH * step else 0.0
     return 0.0
 

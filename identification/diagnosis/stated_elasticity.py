@@ -95,6 +95,12 @@ def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float
     return result
 
 
+def weights(scene: Scene) -> dict[str, float]:
+    """Of the torques of the drive trains by the scene's values, those of ``names`` that are such torques."""
+    whole = [name for name in names(scene.robot) if name.rstrip("0123456789") not in _ABOUT]
+    return {name: scene.values.get(name, 0.0) for name in whole}
+
+
 def precision(name: str) -> float:
     """Of one of ``names`` beforehand: whether the runs show any elasticity nobody knows."""
     std = _ABOUT.get(name.rstrip("0123456789"))
