@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.dataset import load
 from identification.glitches import glitches
@@ -21,6 +22,17 @@ PERIOD = 0.002
 T = PERIOD * np.arange(8000)
 #: A motion's torque, with friction that jumps where it reverses.
 SMOOTH = 20 * np.sin(2 * np.pi * 0.3 * T) + 6 * np.sign(np.cos(2 * np.pi * 0.3 * T + 0.2))
+
+
+def two_links(folder: Path) -> Robot:
+    path = folder / "two_links.yaml"
+    path.write_text(TWO_LINKS)
+    return read(path)
+
+
+def columns_of(q: Array, tau: Array) -> dict[str, Array]:
+    """Columns by name, of which each may be spoilt."""
+    return {f"{stem}{k}": row.copy() for stem, x in (("q", q), ("tau", tau)) for k, row in enumerate(x, 1)}
 
 
 def noisy(x: Array, deviation: float) -> Array:
@@ -82,14 +94,12 @@ def test_a_short_peak_between_few_samples_is_the_robots() -> None:
 
 
 def test_a_run_is_read_without_them_and_says_so(tmp_path: Path) -> None:
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
+    robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)
     tau = Regressors(robot).torques(TRUTH, motion)
-    columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(tau, 1)}
+    columns = columns_of(motion.q, tau)
     good = load(str(Recorded({"t": t, **columns}).save(tmp_path / "good.csv")), robot)
-    spoilt = {name: x.copy() for name, x in columns.items()}
+    spoilt = columns_of(motion.q, tau)
     spoilt["q1"][700] += 0.02
     spoilt["tau2"][[1200, 1201, 3000]] = -500.0
     run = load(str(Recorded({"t": t, **spoilt}).save(tmp_path / "spoilt.csv")), robot)
@@ -103,41 +113,33 @@ def test_a_run_is_read_without_them_and_says_so(tmp_path: Path) -> None:
 
 
 def test_a_position_far_from_all_others_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
+    robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)
-    q = motion.q.copy()
-    q[0, 700] += 1.5
-    columns = {f"q{k}": x for k, x in enumerate(q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
+    columns = columns_of(motion.q, motion.qd)
+    columns["q1"][700] += 1.5
     with pytest.raises(InputError, match="q1 jumps"):
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "far.csv")), robot)
 
 
 def test_a_torque_that_is_cut_off_is_not_hidden_by_glitches(tmp_path: Path) -> None:
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
+    robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)
     tau = Regressors(robot).torques(TRUTH, motion)
     limit = float(np.quantile(np.abs(tau[0]), 0.6))
     tau[0] = np.clip(tau[0], -limit, limit)
     inside = np.flatnonzero(tau[0] == limit)[50]
     tau[0, [900, 2200, inside]] = 20 * limit, -20 * limit, 9 * limit
-    columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(tau, 1)}
+    columns = columns_of(motion.q, tau)
     with pytest.raises(InputError, match="tau1 stays at"):
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "cut.csv")), robot)
 
 
 @pytest.mark.parametrize("jitter", [0.05, 0.3])
 def test_a_clock_that_jitters_is_told_beside_glitches(jitter: float, tmp_path: Path) -> None:
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
+    robot = two_links(tmp_path)
     even, motion = fourier(robot, 10.0, 500.0)
     t = even + jitter * PERIOD * np.random.default_rng(3).uniform(-1, 1, even.shape)
-    columns = {f"q{k}": x for k, x in enumerate(motion.q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
-    columns["q1"] = columns["q1"].copy()
+    columns = columns_of(motion.q, motion.qd)
     columns["q1"][[400, 1500, 2600, 3700]] += 0.1
     run = load(str(Recorded({"t": t, **columns}).save(tmp_path / "run.csv")), robot)
     assert any("times jitter" in note for note in run.notes)
@@ -145,16 +147,13 @@ def test_a_clock_that_jitters_is_told_beside_glitches(jitter: float, tmp_path: P
 
 
 def test_samples_are_interpolated_at_the_times_of_their_neighbours(tmp_path: Path) -> None:
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
+    robot = two_links(tmp_path)
     even, motion = fourier(robot, 10.0, 500.0)
     t = even + 0.0003 * np.sin(2 * np.pi * even)
     # What each row would have at its own time, of a motion slow enough for lines.
     q = np.stack([np.interp(t, even, x) for x in motion.q])
-    columns = {f"q{k}": x for k, x in enumerate(q, 1)} | {f"tau{k}": x for k, x in enumerate(motion.qd, 1)}
+    columns = columns_of(q, motion.qd)
     good = load(str(Recorded({"t": t, **columns}).save(tmp_path / "good.csv")), robot)
-    columns["q2"] = columns["q2"].copy()
     columns["q2"][2600] += 0.02
     run = load(str(Recorded({"t": t, **columns}).save(tmp_path / "spoilt.csv")), robot)
     assert any("q2 is off from its neighbours" in note for note in run.notes)
