@@ -200,13 +200,13 @@ def _run(
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
     notes = [*recording.notes]
-    smooth, _ = glitches.without(at, ticks, where)
-    if jitters(ticks, joint_positions(smooth, robot, recording)):
+    clean, of_positions = glitches.without(at, ticks, where)
+    if jitters(ticks, joint_positions(clean, robot, recording)):
         ticks = ticks.steady
         notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
-    at, of_positions = glitches.without(at, ticks, where)
+        clean, of_positions = glitches.without(at, ticks, where)
     effort, of_efforts = glitches.without(effort, ticks, where)
-    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
+    q = corrections.true_positions(joint_positions(clean, robot, recording), robot)
     stretches = checks.torques(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
     notes += [*_told(stretches, effort, where), *of_positions, *of_efforts]

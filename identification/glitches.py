@@ -10,6 +10,7 @@ from scipy.interpolate import make_interp_spline
 
 from generator.review.words import plural
 from identification.checks import Where
+from identification.neighbours import ARITHMETIC, off_cubics
 from identification.signals import Measured
 from identification.timing import Clock
 
@@ -27,8 +28,6 @@ _FAR, _RARELY, _STEPS = 30.0, 4.0, 3.0
 _BACK, _ALIKE = 3.0, 0.2
 #: Part of the distances that wrong samples may leave unexplained, and part of all samples that may be wrong.
 _LEFT, _RARE = 0.15, 0.01
-#: Part of a signal's range that is the rounding of its arithmetic.
-_ARITHMETIC = 1e-11
 
 
 def glitches(x: Array, period: float) -> NDArray[np.int_]:
@@ -40,9 +39,9 @@ def glitches(x: Array, period: float) -> NDArray[np.int_]:
     """
     if len(x) < 2 * len(_ALONE):
         return np.array([], dtype=int)
-    off = np.convolve(np.pad(x, 2, mode="reflect", reflect_type="odd"), _ALONE, "valid")
+    off = off_cubics(np.pad(x, 2, mode="reflect", reflect_type="odd"))
     steps = np.abs(np.diff(x))
-    step = np.min(steps, where=steps > _ARITHMETIC * np.ptp(x), initial=np.inf)
+    step = np.min(steps, where=steps > ARITHMETIC * np.ptp(x), initial=np.inf)
     # One wrong sample makes five distances large.
     rarely = float(np.quantile(np.abs(off), 1 - (len(_ALONE) + 1) * _RARE))
     far = max(_FAR * float(np.median(np.abs(off))), _RARELY * rarely, _STEPS * float(step))

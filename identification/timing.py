@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.review.words import plural
+from identification.neighbours import off_cubics
 from identification.recording import Array, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
@@ -124,11 +125,8 @@ def jitters(ticks: Clock, x: Array) -> bool:
 
 def _rough(t: Array, x: Array) -> float:
     """How far rows are from the cubics through the two before and the two after each, in parts of their spread."""
-    near = np.stack([t[:-4], t[1:-3], t[3:-1], t[4:]]) - t[2:-2]
-    weights = [np.prod([b / (b - a) for b in np.delete(near, i, axis=0)], axis=0) for i, a in enumerate(near)]
-    values = np.stack([x[:, :-4], x[:, 1:-3], x[:, 3:-1], x[:, 4:]])
-    off = np.einsum("im,inm->nm", np.array(weights), values) - x[:, 2:-2]
-    return float(np.sum(np.mean(np.abs(off), axis=1) / np.maximum(np.ptp(x, axis=1), 1e-12)))
+    off = np.mean(np.abs(off_cubics(x, t)), axis=1)
+    return float(np.sum(off / np.maximum(np.ptp(x, axis=1), 1e-12)))
 
 
 def _samples(steps: Array, usual: float) -> NDArray[np.int_]:

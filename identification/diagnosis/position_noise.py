@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.perturbation import sensitivity
 from identification.diagnosis.scene import Scene
 from identification.filtering import flat_derivative, smoothed
+from identification.neighbours import ARITHMETIC
 from identification.observation import Motion
 
 Array = NDArray[np.float64]
@@ -19,8 +20,6 @@ _ORDER, _MEDIAN = 8, 0.6745
 #: Samples between those that are compared, at most: what was logged more slowly repeats, or lies on lines; and the part
 #: of the noise that those farther apart have where it is not white.
 _STRIDES, _WHITE = 25, 0.8
-#: Part of a position that is the rounding of its arithmetic.
-_ARITHMETIC = 1e-11
 
 
 def deviations(q: Array) -> Array:
@@ -33,7 +32,7 @@ def deviations(q: Array) -> Array:
     least = np.min(apart, axis=0)
     found = np.where(least < _WHITE * every, least, every)
     found[np.isinf(found)] = 0.0
-    return np.asarray(np.where(found > _ARITHMETIC * np.abs(q).max(axis=-1), found, 0.0))
+    return np.asarray(np.where(found > ARITHMETIC * np.abs(q).max(axis=-1), found, 0.0))
 
 
 def _rough(q: Array, stride: int) -> Array:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
+from identification.neighbours import ARITHMETIC, off_cubics
 
 Array = NDArray[np.float64]
 
@@ -28,8 +29,6 @@ _SEVERAL, _CLOSER = 4, 12
 #: Part of a step that rounded positions are off the cubics through their neighbours: those of even accelerations differ
 #: by whole numbers of something too, and are smooth.
 _ROUGH = 0.1
-#: Part of a signal's range that is the rounding of its arithmetic.
-_ARITHMETIC = 1e-11
 
 
 def steps(q: Array) -> Array:
@@ -39,12 +38,12 @@ def steps(q: Array) -> Array:
 
 def _step(q: Array) -> float:
     apart = np.sort(np.abs(np.diff(q)))
-    apart = apart[apart > _ARITHMETIC * np.abs(q).max()]
+    apart = apart[apart > ARITHMETIC * np.abs(q).max()]
     if len(apart) < _COUNT:
         return 0.0
     moves = np.diff(q) != 0
     among = moves[:-3] | moves[1:-2] | moves[2:-1] | moves[3:]
-    off = np.abs((4 * (q[1:-3] + q[3:-1]) - q[:-4] - q[4:]) / 6 - q[2:-2])[among]
+    off = np.abs(off_cubics(q))[among]
     # The smallest differences may be of samples that were interpolated; each may be of several steps.
     for least, several in product((apart[int(_INTERPOLATED * len(apart))], apart[0]), range(1, _SEVERAL + 1)):
         step = _refined(least / several, apart[apart >= least])
