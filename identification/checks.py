@@ -24,6 +24,11 @@ _ABRUPT = 2.5
 _WINDOW = 0.05
 #: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
 _STUCK, _MOST = 10, 0.2
+#: How much longer than one step from its extreme a signal that is cut off stays there.
+_LONGER = 3
+#: Part of the lengths of time for which a signal that was logged more slowly keeps a value that are alike, part of the
+#: usual one that they differ by, part of them that may be one sample, and changes from which that is told.
+_EVEN, _ALIKE, _SHORTER, _CHANGES = 0.6, 0.2, 0.05, 20
 #: Distance to the wrong reference over that to the right one, from which columns count as swapped.
 _SWAPPED = 3.0
 
@@ -118,14 +123,33 @@ def _held(x: Array, steps: Array, name: str, where: Where) -> None:
 
 def _flat(x: Array) -> list[Stretch]:
     """Stretches of at least ``_STUCK`` equal samples at the largest or smallest value."""
-    result = []
-    for extreme in (x.max(), x.min()):
-        at = np.concatenate([[0], (x == extreme).astype(np.int8), [0]])
-        edges = np.flatnonzero(np.diff(at))
-        for start, end in zip(edges[::2], edges[1::2], strict=True):
-            if end - start >= _STUCK:
-                result.append(Stretch(0, int(start), int(end)))
-    return result
+    return [one for extreme in (x.max(), x.min()) for one in _stretches(x == extreme) if one.end - one.start >= _STUCK]
+
+
+def _stretches(there: NDArray[np.bool_]) -> list[Stretch]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], there.astype(np.int8), [0]])))
+    return [Stretch(0, int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _cut_off(x: Array, moves: NDArray[np.bool_]) -> list[Stretch]:
+    """Where an effort is cut off: it stays at an extreme while joints move, and hardly one step from it.
+
+    At a smooth extreme a signal in coarse steps stays at most 1 + sqrt(2) times as long at the last one as at the one
+    before.
+    """
+    values = np.unique(x)
+    ends = {values[0]: values[1], values[-1]: values[-2]}
+    piled = {extreme for extreme, before in ends.items() if _piled(x, moves, extreme, before)}
+    return [one for one in _flat(x) if x[one.start] in piled and moves[one.start : one.end].mean() > 0.5]
+
+
+def _piled(x: Array, moves: NDArray[np.bool_], extreme: float, before: float) -> bool:
+    """Whether an effort that gets to its extreme is far longer there than at the value before it."""
+    there, near = (x == extreme) & moves, ((x == extreme) | (x == before)) & moves
+    excursions = [slice(one.start, one.end) for one in _stretches(near)]
+    last = sum(int(there[one].sum()) for one in excursions)
+    both = sum(one.stop - one.start for one in excursions if there[one].any())
+    return last > _LONGER * (both - last)
 
 
 def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> list[Stretch]:
@@ -140,7 +164,7 @@ def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> l
         x = found.values[k]
         if np.ptp(x) == 0:
             raise InputError(where(0, name), f"{name} is {x[0]:.6g} in all rows", "a measured signal")
-        stretches = [one for one in _flat(x) if moves[one.start : one.end].mean() > 0.5]
+        stretches = _cut_off(x, moves)
         if not resting and sum(one.end - one.start for one in stretches) > _MOST * len(x):
             first = stretches[0]
             problem = f"{name} stays at {x[first.start]:.6g} from here, as in more than a fifth of all rows"
@@ -163,11 +187,16 @@ def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
 
 
 def repeats(values: Array) -> int:
-    """How many samples in a row an effort typically keeps its value: 1, or more where it was logged more slowly."""
-    changes = np.flatnonzero(np.diff(values))
-    if len(changes) < 20:
+    """How many samples in a row an effort typically keeps its value: 1, or more where it was logged more slowly.
+
+    One that takes coarse steps keeps its values for as long as they last.
+    """
+    lengths = np.diff(np.flatnonzero(np.diff(values)))
+    if len(lengths) < _CHANGES:
         return 1
-    return int(np.median(np.diff(changes)))
+    count = int(np.median(lengths))
+    alike = np.mean(np.abs(lengths - count) <= max(1.0, _ALIKE * count))
+    return count if np.quantile(lengths, _SHORTER) > 1 and alike > _EVEN else 1
 
 
 def left_out(stretches: Sequence[Stretch], shape: tuple[int, int]) -> NDArray[np.bool_] | None:

@@ -21,6 +21,7 @@ from identification import checks, corrections, glitches, readers, sidecar
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
+from identification.resolution import Resolution, resolution
 from identification.sidecar import Payload, Sidecar
 from identification.signals import (
     EFFORTS,
@@ -48,7 +49,8 @@ class Run:
     ``by_motors`` tells that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of
     the drives (n x N) is there where the robot file says it. ``others`` are the file's further columns of known meaning
     by name (N each). ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a
-    part of, the run's own where they are not given. ``notes`` tell every repair.
+    part of, the run's own where they are not given. ``notes`` tell every repair. ``coarse`` is how the efforts were
+    rounded in the record, None where they take no steps.
     """
 
     name: str
@@ -66,6 +68,7 @@ class Run:
     began: Mapping[str, float] = field(default_factory=dict)
     sha256: str = ""
     notes: tuple[str, ...] = ()
+    coarse: Resolution | None = None
 
     @property
     def file(self) -> str:
@@ -205,6 +208,7 @@ def _run(
         ticks = ticks.steady
         notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
         clean, of_positions = glitches.without(at, ticks, where)
+    coarse = resolution(effort, robot, recording)
     effort, of_efforts = glitches.without(effort, ticks, where)
     q = corrections.true_positions(joint_positions(clean, robot, recording), robot)
     stretches = checks.torques(effort, q, where, resting)
@@ -237,6 +241,7 @@ def _run(
         others=others,
         began=began,
         sha256=recording.sha256,
+        coarse=coarse,
     )
     return replace(_corrected(run, robot), notes=tuple(notes))
 

@@ -28,6 +28,7 @@ def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int
         tau=tau[None],
         kept=rows[None],
         period=period,
+        times=len(tau) / period if period and len(tau) >= 2 * period else 0.0,
         decimated=lambda x: x,
     )
 

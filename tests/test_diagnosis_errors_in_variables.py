@@ -17,9 +17,9 @@ from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.errors_in_variables import Pretence, redrawn
 from identification.diagnosis.evidence import Weighing
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.rounding import steps
 from identification.diagnosis.scene import Scene
 from identification.observation import Regressors
+from identification.resolution import steps
 from tests.diagnosed_arm import ARM, TRUTH, ready
 from tests.matrices import WHITE
 from tests.recorded import Recorded, fourier

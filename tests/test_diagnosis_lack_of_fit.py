@@ -22,7 +22,12 @@ def one_run(period: int = PERIOD, name: str = "A.csv", unsettled_at: slice = sli
     unsettled[0, unsettled_at] = True
     sampled = SimpleNamespace(run=SimpleNamespace(name=name))
     return SimpleNamespace(
-        period=period, t=np.arange(COUNT) / 50, kept=kept[None], unsettled=unsettled, sampled=sampled
+        period=period,
+        times=COUNT / period if period else 0.0,
+        t=np.arange(COUNT) / 50,
+        kept=kept[None],
+        unsettled=unsettled,
+        sampled=sampled,
     )
 
 

@@ -15,9 +15,10 @@ from identification.dataset import load
 from identification.diagnosis.lack_of_fit import lack_of_fit
 from identification.diagnosis.noise import colours
 from identification.diagnosis.prepared import prepared
-from identification.diagnosis.rounding import rounding, steps
+from identification.diagnosis.rounding import rounding
 from identification.diagnosis.scene import Scene
 from identification.observation import Regressors
+from identification.resolution import steps
 from tests.diagnosed import known
 from tests.matrices import bank, run
 from tests.plant.measurement import Sensors

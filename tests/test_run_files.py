@@ -331,10 +331,39 @@ def test_a_coarse_encoder_that_rests_at_the_end_of_its_way_is_not_cut_off(
     assert load(str(good.with_columns(q1=coarse).save(tmp_path / "a.csv")), robot).samples == 1600
 
 
-def test_slowly_logged_torques_are_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
-    held = good.with_columns(tau1=np.repeat(good.columns["tau1"][::4], 4))
-    run = load(str(held.save(tmp_path / "a.csv")), robot)
-    assert "tau1 keeps each value for 4 rows: it was logged more slowly" in run.notes[0]
+def test_coarse_torques_are_neither_cut_off_nor_slowly_logged(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    step = np.ptp(good.columns["tau1"]) / 12
+    coarse = good.with_columns(tau1=step * np.round(good.columns["tau1"] / step))
+    run = load(str(coarse.save(tmp_path / "a.csv")), robot)
+    assert (run.notes, run.unusable) == ((), None)
+
+
+@pytest.mark.parametrize("steps", [50, 100, 200])
+def test_coarse_torques_that_are_cut_off_are_left_out(steps: int, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    tau = good.columns["tau1"]
+    step = np.ptp(tau) / steps
+    limited = step * np.round(np.minimum(tau, np.quantile(tau, 0.9)) / step)
+    run = load(str(good.with_columns(tau1=limited).save(tmp_path / "a.csv")), robot)
+    assert run.unusable is not None
+    assert run.unusable[0].sum() > 0.9 * (limited == limited.max()).sum()
+
+
+def test_stays_elsewhere_do_not_hide_that_torques_are_cut_off(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    tau = np.minimum(good.columns["tau1"], np.quantile(good.columns["tau1"], 0.9))
+    limited = tau.copy()
+    for start in (200, 700, 1200):
+        limited[start : start + 150] = tau[start]
+    run = load(str(good.with_columns(tau1=limited).save(tmp_path / "a.csv")), robot)
+    assert run.unusable is not None
+    assert run.unusable[0].sum() > 0.9 * (limited == limited.max()).sum()
+
+
+@pytest.mark.parametrize("rate", [2.5, 4])
+def test_slowly_logged_torques_are_told(rate: float, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    tau = good.columns["tau1"]
+    held = tau[(rate * np.floor(np.arange(len(tau)) / rate)).astype(int)]
+    run = load(str(good.with_columns(tau1=held).save(tmp_path / "a.csv")), robot)
+    assert f"tau1 keeps each value for {int(rate)} rows: it was logged more slowly" in run.notes[0]
 
 
 @pytest.mark.parametrize("ending", [".mat", ".parquet"])

@@ -15,7 +15,7 @@ from generator.writing import replace, replacing
 from identification import recipe as recipes
 from identification.dataset import Run, load
 from identification.destination import spare_inputs
-from identification.diagnosis import noise_floor, torque_band
+from identification.diagnosis import effort_rounding, noise_floor, torque_band
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import GENERATED, Mended, mended
 from identification.diagnosis.plausibility import doubts
@@ -88,7 +88,8 @@ def diagnosed(
     with replacing(folder, GENERATED) as fresh:
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
         ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
-        ended += noise_floor.notes(found.found.bank)
+        bank = found.found.bank
+        ended += effort_rounding.notes(bank) + noise_floor.notes(bank, effort_rounding.told(bank))
         found = changed(found, notes=(*notes, *found.notes, *doubts(found, known, wanted.dry), *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):

@@ -54,11 +54,11 @@ def lack_of_fit(
 
     ``late`` are the same rows of what may come a little late: swings that were found of elastic drive trains, and jumps
     of the torque between two samples. What they leave then is no event of its own. ``rounded`` is the part of the
-    noise's power that periods have in common, since it is rounding of the positions.
+    noise's power that periods have in common, since it is rounding of positions and efforts.
     """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
-        if not run.period or len(run.t) < 2 * run.period:
+        if not run.times:
             continue
         phase = np.flatnonzero(run.kept[k]) % run.period
         count = np.bincount(phase, minlength=run.period)

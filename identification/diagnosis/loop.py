@@ -12,6 +12,7 @@ from identification.diagnosis import stated_elasticity
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.effort_rounding import effort_rounding
 from identification.diagnosis.errors_in_variables import redrawn
 from identification.diagnosis.evidence import Weighing, columns_of
 from identification.diagnosis.hypothesis import Hypothesis
@@ -37,7 +38,7 @@ _FITS = 5
 class Search:
     """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
 
-    ``rounded`` (n x rows each) is what rounding of the positions makes of the runs' torques [N m, N].
+    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N].
     """
 
     bank: Bank
@@ -114,7 +115,10 @@ def search(
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
-        rounded = tuple(rounding(run, scene, r) for r, (run, scene) in enumerate(zip(clear, scenes, strict=True)))
+        rounded = tuple(
+            rounding(run, scene, r) + effort_rounding(run, scene)
+            for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
+        )
         noisy = redrawn(clear, scenes)
         bank.whiten(colours(bank, rounded, maps(clear, scenes), noisy))
         weighing = Weighing(bank, train, validate, prior, noisy)

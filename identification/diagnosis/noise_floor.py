@@ -4,6 +4,8 @@ that is so much that it is hardly noise.
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,10 +35,15 @@ def noise_floor(bank: Bank, k: int, rate: float) -> float:
     return float(np.sqrt(np.trapezoid(density(bank, k, frequency), frequency)))
 
 
-def notes(bank: Bank) -> list[str]:
-    """What is to be told of joints on which much counts as noise: whatever it is, nothing else was looked for in it."""
+def notes(bank: Bank, aside: Collection[int] = ()) -> list[str]:
+    """What is to be told of joints on which much counts as noise: whatever it is, nothing else was looked for in it.
+
+    Of coordinates ``aside`` it is known what it is.
+    """
     loud = []
     for k, joint in enumerate(bank.scenes[0].robot.moving):
+        if k in aside:
+            continue
         tau = np.concatenate([run.tau[k][run.kept[k]] for run in bank.runs])
         filters = bank.runs[0].sampled.filters
         if len(tau) and (floor := noise_floor(bank, k, filters.rate / filters.factor)) > _LOUD * np.std(tau):

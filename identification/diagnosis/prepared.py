@@ -63,6 +63,12 @@ class Prepared:
     repeats: int
 
     @property
+    def times(self) -> float:
+        """How often the run has a row of each phase of the motion, in the mean; 0 where that is less than twice."""
+        times = len(self.t) / self.period if self.period else 0.0
+        return times if times >= 2 else 0.0
+
+    @property
     def unlike(self) -> str:
         """Why no periods of the run are compared; empty where they are."""
         if self.period:

@@ -66,11 +66,12 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
 
 
 def _rounded(found: Search, k: int) -> float:
-    """Mean square of the white rows of a joint that rounding of the positions makes."""
+    """Mean square of what rounding of positions and efforts makes of white rows of a joint, in runs that repeat."""
     bank = found.bank
     rows = [
         colours[k].white(one[k][None], run.kept[k])[0]
         for colours, one, run in zip(bank.colours, found.rounded, bank.runs, strict=True)
+        if run.times
     ]
     return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
 
