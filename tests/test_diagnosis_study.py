@@ -17,7 +17,7 @@ from benchmarks.diagnosis_study.baselines import named_by_baselines
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
 from benchmarks.diagnosis_study.drawing import cases, cells
 from benchmarks.diagnosis_study.intervals import Share
-from benchmarks.diagnosis_study.making import invisible, made
+from benchmarks.diagnosis_study.making import file_of, invisible, made
 from benchmarks.diagnosis_study.page import JSON, PAGE, page, tables
 from benchmarks.diagnosis_study.power_curve import power_curve
 from benchmarks.diagnosis_study.runner import MISMATCH, result
@@ -27,7 +27,7 @@ from benchmarks.diagnosis_study.study import STUDY
 from tests.plant.effect import Effect
 from tests.plant.library import LAWS
 from tests.plant.robots import ROBOTS
-from tests.plant.simulate import make_run
+from tests.plant.simulate import make_run, own_effects
 from tests.plant.size import effect_torque
 from tests.plant.trajectories.fourier import fourier
 
@@ -164,6 +164,22 @@ def test_a_clear_effect_is_found(hidden: Hidden, tmp_path: Path) -> None:
     assert found["score"]["first"], found["answer"]["findings"]
     assert found["score"]["extra"] == 0
     assert found["score"]["joint_right"]
+
+
+def test_what_the_robot_has_none_of_is_not_in_its_file() -> None:
+    scara = ROBOTS["scara_like"]
+    assert "offset" not in file_of(scara, own_effects(scara), 1)
+    assert "effect: offset, joints: [1, 2]" in file_of(ARM, [Effect("offset", j, 3.0) for j in (1, 2)], 1)
+
+
+def test_what_never_acts_need_not_be_called_unexplained() -> None:
+    stop = [Hidden("soft_stop", 3, 3.0)]
+    unseen = record("outside", [], stop, NOTHING)
+    unseen["truth"]["hidden"][0]["invisible"] = True
+    unseen["score"] = scored(unseen["truth"], answer(verdict=NOTHING)).record()
+    text = page(tables([unseen, record("outside", [], stop, UNEXPLAINED)]))
+    assert f"| outside the library | free fit | nothing firmly named | {Share(2, 2)} |" in text
+    assert f"| outside the library | free fit | called unexplained | {Share(1, 1)} |" in text
 
 
 def record(cell: str, named: list[dict[str, Any]], hidden: list[Hidden], verdict: str = NAMED) -> dict[str, Any]:

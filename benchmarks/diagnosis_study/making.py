@@ -94,8 +94,11 @@ def made(case: Case) -> Made:
 
 
 def file_of(robot: Robot, own: Sequence[Effect], seed: int) -> str:
-    """The robot file with all own effects; its values are wrong by as much as it says."""
-    there = {(effect.law, effect.joint) for effect in own}
+    """The robot file with all own effects; its values are wrong by as much as it says.
+
+    What is zero is not in the file: it would be fitted, and stand for what is hidden.
+    """
+    there = {(effect.law, effect.joint) for effect in own if effect.amount(robot)}
     gone = [(name, j) for law, name in _SIMPLE.items() for j in range(1, robot.joints + 1) if (law, j) not in there]
 
     def told(name: str, value: float) -> tuple[float, float]:

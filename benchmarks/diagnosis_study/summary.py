@@ -188,7 +188,7 @@ _QUESTIONS: Mapping[str, Mapping[str, Question]] = {
     "three": _ALL,
     "outside": {
         "nothing firmly named": lambda s: not s["firm"],
-        "called unexplained": lambda s: s["verdict"] == UNEXPLAINED,
+        "called unexplained": lambda s: s["verdict"] == UNEXPLAINED if s["joint_right"] is not None else None,
         "the right joint in `where`": lambda s: s["joint_right"],
     },
 }
