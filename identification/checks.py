@@ -11,6 +11,7 @@ from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError, Place
 from generator.robot.description import Joint, Robot
+from identification.neighbours import in_a_row
 from identification.recording import Array
 from identification.signals import Measured
 
@@ -123,12 +124,8 @@ def _held(x: Array, steps: Array, name: str, where: Where) -> None:
 
 def _flat(x: Array) -> list[Stretch]:
     """Stretches of at least ``_STUCK`` equal samples at the largest or smallest value."""
-    return [one for extreme in (x.max(), x.min()) for one in _stretches(x == extreme) if one.end - one.start >= _STUCK]
-
-
-def _stretches(there: NDArray[np.bool_]) -> list[Stretch]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], there.astype(np.int8), [0]])))
-    return [Stretch(0, int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
+    found = [one for extreme in (x.max(), x.min()) for one in in_a_row(x == extreme)]
+    return [Stretch(0, one.start, one.stop) for one in found if one.stop - one.start >= _STUCK]
 
 
 def _cut_off(x: Array, moves: NDArray[np.bool_]) -> list[Stretch]:
@@ -146,9 +143,9 @@ def _cut_off(x: Array, moves: NDArray[np.bool_]) -> list[Stretch]:
 def _piled(x: Array, moves: NDArray[np.bool_], extreme: float, before: float) -> bool:
     """Whether an effort that gets to its extreme is far longer there than at the value before it."""
     there, near = (x == extreme) & moves, ((x == extreme) | (x == before)) & moves
-    excursions = [slice(one.start, one.end) for one in _stretches(near)]
-    last = sum(int(there[one].sum()) for one in excursions)
-    both = sum(one.stop - one.start for one in excursions if there[one].any())
+    excursions = [there[one] for one in in_a_row(near)]
+    last = sum(int(one.sum()) for one in excursions)
+    both = sum(len(one) for one in excursions if one.any())
     return last > _LONGER * (both - last)
 
 

@@ -21,3 +21,9 @@ def off_cubics(x: Array, t: Array | None = None) -> Array:
     near = np.stack([t[:-4], t[1:-3], t[3:-1], t[4:]]) - t[2:-2]
     weights = [np.prod([b / (b - a) for b in np.delete(near, i, axis=0)], axis=0) for i, a in enumerate(near)]
     return np.asarray(x[..., 2:-2] - np.einsum("im,i...m->...m", np.array(weights), np.stack([*before, *after])))
+
+
+def in_a_row(there: NDArray[np.bool_]) -> list[slice]:
+    """Samples (of N) one beside the other that are ``there``."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8))).tolist()
+    return [slice(start, end) for start, end in zip(edges[::2], edges[1::2], strict=True)]

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 
+from identification.neighbours import in_a_row
+
 Array = NDArray[np.float64]
 
 #: Order of the autoregressive model.
@@ -85,8 +87,7 @@ def recoloured(one: Colour, free: Array) -> Colour:
 
 def stretches(rows: Array, stretch: NDArray[np.bool_]) -> list[Array]:
     """The kept stretches of a signal (N)."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], stretch, [False]]).astype(np.int8)))
-    return [rows[start:end] for start, end in zip(edges[::2], edges[1::2], strict=True)]
+    return [rows[one] for one in in_a_row(stretch)]
 
 
 def _places(stretch: NDArray[np.bool_]) -> NDArray[np.int64]:
