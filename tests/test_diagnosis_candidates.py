@@ -23,7 +23,7 @@ from identification.diagnosis.addition import measured
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.link_side import LinkSide
+from identification.diagnosis.link_side import link_side
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
@@ -257,7 +257,7 @@ def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, robots: Ca
 def drive_train(name: str, effect: Effect, scene: Scene, stiffness: float) -> dict[str, float]:
     """The plant's own drive train: it damps by the motor's inertia, the candidate by the link's."""
     rotor = ROBOTS[name].chain[effect.joint - 1].rotor
-    inertia = float(LinkSide(scene, effect.joint - 1, rotor).inertia.mean())
+    inertia = float(link_side(scene, effect.joint - 1, rotor).inertia.mean())
     damping = effect.value("damping_ratio", ROBOTS[name]) * np.sqrt(rotor / inertia)
     return {"Iam": rotor, "k": stiffness, "damping": damping}
 

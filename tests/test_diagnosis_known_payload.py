@@ -11,7 +11,7 @@ import pytest
 from generator.errors import InputError
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.candidates import base_tilt
-from identification.diagnosis.link_side import LinkSide
+from identification.diagnosis.link_side import link_side
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
@@ -69,7 +69,7 @@ def test_what_is_known_of_a_payload_is_no_ones_fault(robot: Known) -> None:
     error, wrong = (np.median(np.abs(each.tau - each.torque), axis=1) for _, each in banks)
     assert np.all(error[[1, 2]] < 0.05 * wrong[[1, 2]])
     # The link side of a drive train carries it too.
-    heavier, lighter = (float(LinkSide(each, 1, 0.0).inertia.mean()) for _, each in banks)
+    heavier, lighter = (float(link_side(each, 1, 0.0).inertia.mean()) for _, each in banks)
     assert heavier > lighter + MASS
     np.testing.assert_allclose(scene.load - banks[1][1].load, scene.carried(scene.motion), atol=1e-6)
 

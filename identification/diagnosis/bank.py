@@ -110,6 +110,12 @@ class Bank:
         """Of the noise of each run's joints; empty before ``whiten``."""
         return tuple(tuple(one) for one in self._colours)
 
+    def values(self, solution: Array) -> dict[str, float]:
+        """Base parameters by name of a ``solution`` that begins with them, and what the file's elastic drive trains
+        have.
+        """
+        return stated_elasticity.moved(self.scenes[0].values, dict(zip(self.base, solution.tolist(), strict=False)))
+
     def rows(self, run: int) -> Array:
         """How many rows each joint of a run has (n)."""
         return np.array([int(one.kept.sum()) for one in self._joints[run]])

@@ -200,8 +200,12 @@ class Weighing:
 
     def unexplained(self, chosen: Sequence[Variant]) -> float:
         """What the sum of squares is above the noise."""
+        return max(self.misfit(chosen) - self.normal.rows, 0.0)
+
+    def misfit(self, chosen: Sequence[Variant]) -> float:
+        """The sum of squares that is left."""
         solution, _ = self.normal.solution(columns_of(chosen))
-        return max(self.normal.misfit(columns_of(chosen), solution) - self.normal.rows, 0.0)
+        return self.normal.misfit(columns_of(chosen), solution)
 
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base

@@ -13,7 +13,7 @@ from identification.diagnosis.link_side import told
 #: Name of the set in the robot file.
 SET = "diagnosed_flexible"
 _FOUND = "found with the effect, not refitted"
-_ASSUMED = "assumed: nothing tells it from the link's"
+_ASSUMED = "as found with the effect, or half of what holds it: no base parameter tells it from the link's"
 
 
 def flexible_set(model: Model, rigid: ParameterSet, found: Mapping[str, float]) -> ParameterSet:
@@ -33,11 +33,18 @@ def flexible_set(model: Model, rigid: ParameterSet, found: Mapping[str, float]) 
                 values[name] = values.pop(own)
             elif value is not None and one.suffix and (links := _without(model, values, own, value)):
                 values |= links
-                values[name] = ParameterValue(value, units[name], note=_ASSUMED if known is None else "")
+                values[name] = ParameterValue(value, units[name], note=_source(value, known))
             elif value is not None and not one.suffix:
                 values[name] = ParameterValue(value, units[name], note=_FOUND if name in found else "")
     description = f"{rigid.description}; for the model with elastic drive trains"
     return ParameterSet(SET, description, rigid.source, values)
+
+
+def _source(value: float, known: float | None) -> str:
+    """Where a rotor's inertia comes from that the file's sets say to be ``known``."""
+    if known is None:
+        return _ASSUMED
+    return "" if value == known else _FOUND
 
 
 def _without(model: Model, values: Mapping[str, ParameterValue], own: str, value: float) -> dict[str, ParameterValue]:

@@ -8,8 +8,8 @@ friction turn with the motor and do not see e.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import cache, cached_property
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, TypeAlias
 
 import casadi
@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 #: A number, or an array of as many as are played at once.
 Value: TypeAlias = Any
 
+#: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
+_SMALL = 1e-4
 #: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
 _SHARE = 0.5
 
@@ -43,46 +45,55 @@ class Train:
 
 @dataclass(frozen=True)
 class LinkSide:
-    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg]."""
+    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg].
+
+    ``load`` (N) [N m, N] is what the drive train transmits; ``by_position``, ``by_speed`` and ``by_acceleration`` are
+    the torques of all but the drive train (n x N) per unit of the joint's own.
+    """
 
     scene: Scene
     k: int
     rotor: float
+    load: Array
+    by_position: Array
+    by_speed: Array
+    by_acceleration: Array
 
-    @cached_property
-    def values(self) -> dict[str, float]:
-        """Base parameters without what turns with the motor."""
-        return without_drive_train(self.scene, self.k, self.rotor)
-
-    def torque_on(self, motion: Motion) -> Array:
-        """Torques (n x N) of all but the joint's drive train."""
-        return self.scene.torque_of(self.values, motion)
-
-    @cached_property
-    def load(self) -> Array:
-        """What the drive train transmits (N) [N m, N]."""
-        result: Array = self.torque_on(self.scene.motion)[self.k]
-        return result
-
-    @cached_property
+    @property
     def inertia(self) -> Array:
         """Of the links about the joint (N) [kg m2, kg]."""
-        result: Array = self.torque_on(quicker(self.scene.motion, self.k))[self.k] - self.load
+        result: Array = self.by_acceleration[self.k]
         return result
+
+    @property
+    def drag(self) -> Array:
+        """Change of the load per unit of the joint's speed (N) [N m s/rad, N s/m]: an inertia that grows slows a link
+        down.
+        """
+        result: Array = self.by_speed[self.k]
+        return result
+
+    def with_rotor(self, rotor: float) -> LinkSide:
+        """The same with another share of the whole inertia on the motor's side."""
+        load = self.load - (rotor - self.rotor) * self.scene.motion.qdd[self.k]
+        by_acceleration = self.by_acceleration.copy()
+        by_acceleration[self.k] -= rotor - self.rotor
+        return replace(self, rotor=rotor, load=load, by_acceleration=by_acceleration)
 
     def steps(self, train: Train, end: int) -> Iterator[Value]:
         """Acceleration of the joint's link against the motor, sample by sample up to ``end``."""
         own = self._own(train)
         e, v = self._start(train)
-        for load, M in zip(self.load[:end].tolist(), self.inertia[:end].tolist(), strict=True):
-            e, v, (_, _, acceleration) = _step(e, v, load, M, own)
+        links = (x[:end].tolist() for x in (self.load, self.inertia, self.drag))
+        for link in zip(*links, strict=True):
+            e, v, (_, _, acceleration) = _step(e, v, link, own)
             yield acceleration
 
     def deflection(self, train: Train) -> Motion:
         """The link's motion against the motor's on a drive train of plain numbers."""
         given = np.tile(np.array(self._own(train))[:, None], self.scene.motion.samples)
         steps = _many_steps(self.scene.motion.samples)
-        _, played = steps(list(self._start(train)), self.load[None], self.inertia[None], given)
+        _, played = steps(list(self._start(train)), np.stack([self.load, self.inertia, self.drag]), given)
         return alone(self.scene.motion, self.k, np.asarray(played))
 
     def _own(self, train: Train) -> tuple[Value, Value, Value, Value]:
@@ -97,43 +108,63 @@ class LinkSide:
         return e, (self.load[0] - self.load[1]) / (self.scene.period * k)
 
     def torque_per(self, deflection: Motion) -> Array:
-        """Change of the motors' torques (n x N) per unit of a change of the link's motion against the motor's."""
-        return sensitivity(self.torque_on, self.scene.motion, deflection)
+        """Change of the motors' torques (n x N) by a small deflection of the joint's link."""
+        k = self.k
+        per = (self.by_position, self.by_speed, self.by_acceleration)
+        parts = [rate * signal[k] for rate, signal in zip(per, deflection.signals, strict=True)]
+        return np.asarray(sum(parts))
+
+
+def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:
+    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg]."""
+    values, motion = without_drive_train(scene, k, rotor), scene.motion
+
+    def torque_on(moved: Motion) -> Array:
+        return scene.torque_of(values, moved)
+
+    still = torque_on(motion)
+    by_position, by_speed = (
+        sensitivity(torque_on, motion, alone(motion, k, change)) / _SMALL
+        for change in ((_SMALL, 0.0, 0.0), (0.0, _SMALL, 0.0))
+    )
+    return LinkSide(scene, k, rotor, still[k], by_position, by_speed, torque_on(quicker(motion, k)) - still)
 
 
 class LinkSides:
-    """Those of coordinate ``k`` along several scenes, whose loads and inertias are found once."""
+    """Those of coordinate ``k`` along several scenes, which are found once."""
 
     def __init__(self, k: int) -> None:
         self._k = k
-        self._made: dict[tuple[int, float], LinkSide] = {}
+        self._made: dict[int, LinkSide] = {}
 
     def along(self, scene: Scene, rotor: float) -> LinkSide:
         """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
         # A scene that is kept by its link side keeps its identity.
-        return self._made.setdefault((id(scene), rotor), LinkSide(scene, self._k, rotor))
+        first = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, rotor))
+        return first if first.rotor == rotor else first.with_rotor(rotor)
 
 
-def _step(e: Value, v: Value, load: Value, M: Value, own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
-    """Deflection e and its speed v a sample later; and position, speed and acceleration now:
-    M e'' + d e' + k z = -load, z what e is beyond the gap, d nothing within it.
+def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
+    """Deflection e and its speed v a sample later; and position, speed and acceleration now, of a ``link`` (its load,
+    inertia M and drag c): M e'' + (c + d) e' + k z = -load, z what e is beyond the gap, d nothing within it.
 
     To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
     those between samples, damping is centred: the frequency of a swing is right to the second order.
     """
+    load, M, drag = link
     k, d, half, h = own
     beyond = e - (abs(e + half) - abs(e - half)) / 2
-    c = (abs(e) > half) * d * (h / (2 * M))
+    c = (drag + (abs(e) > half) * d) * (h / (2 * M))
     after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
     return e + h * after, after, (e, (v + after) / 2, (after - v) / h)
 
 
 @cache
 def _many_steps(count: int) -> casadi.Function:
-    """``count`` steps one after the other: of the first (e, v), loads, inertias and what a train has of its own."""
-    state, load, M, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("load", 1), ("M", 1), ("own", 4)))
-    e, v, seen = _step(state[0], state[1], load, M, casadi.vertsplit(own))
-    step = casadi.Function("step", [state, load, M, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
+    """``count`` steps one after the other: of the first (e, v), the link's three and what a train has of its own."""
+    state, link, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("link", 3), ("own", 4)))
+    e, v, seen = _step(state[0], state[1], casadi.vertsplit(link), casadi.vertsplit(own))
+    step = casadi.Function("step", [state, link, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
     return step.mapaccum("steps", count)
 
 
@@ -151,6 +182,11 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
         elif inertia in own & set(terms):
             result[name] = result.get(name, 0.0) - terms[inertia] * rotor
     return result
+
+
+def rotor_is_fitted(scene: Scene, k: int) -> bool:
+    """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell."""
+    return f"Ia{scene.robot.moving[k].number}" in scene.values
 
 
 def rotor_is_told(scene: Scene, k: int) -> bool:

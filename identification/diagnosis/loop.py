@@ -23,6 +23,7 @@ from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.rounding import rounding
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Choice, Selection
+from identification.diagnosis.settling import settled, swinging
 from identification.diagnosis.whitening import Colour, colour, stretches
 from identification.observation import Regressors
 
@@ -76,7 +77,7 @@ class Search:
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
         solution, covariance = self.weighing.fitted([one.evidence.variant for one in choices])
-        values = _values(self.bank, solution)
+        values = self.bank.values(solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
     def _fitted(self, variants: Sequence[Variant], with_validating: bool) -> dict[int, float]:
@@ -104,6 +105,10 @@ def search(
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
+
+    def weighed(bank: Bank) -> Weighing:
+        return Weighing(bank, train, validate, prior, redrawn(bank.runs, bank.scenes))
+
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
@@ -126,11 +131,14 @@ def search(
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
-        values = _values(bank, solution)
+        values = bank.values(solution)
         before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
         depends = acting.again or (regressors.reads_load and bool(acting.variants))
         if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
+        if swinging(chosen) and turn + 1 < _PASSES:
+            told("settling how drive trains swing")
+            chosen, values, acting = settled(weighing, chosen, weighed)
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
     )
@@ -155,7 +163,7 @@ def first_values(
     values: dict[str, float] = {}
     for _ in range(_FITS if _depends(regressors) else 1):
         bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
-        values = _values(bank, _weighted(bank, train, prior))
+        values = bank.values(_weighted(bank, train, prior))
     return values
 
 
@@ -182,11 +190,6 @@ def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
                 parts += stretches(bank.residual(r, joint, weights, white=False), kept)
             deviations[joint] = colour(parts, order=0).deviations[0]
     return solution
-
-
-def _values(bank: Bank, solution: Array) -> dict[str, float]:
-    """Base parameters by name, and what the file's elastic drive trains have."""
-    return stated_elasticity.moved(bank.scenes[0].values, dict(zip(bank.base, solution.tolist(), strict=False)))
 
 
 def _flat(deviation: float) -> Colour:

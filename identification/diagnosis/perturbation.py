@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
@@ -42,7 +42,7 @@ def scaled(scene: Scene, k: int, factor: float) -> Motion:
     return alone(scene.motion, k, [factor * x[k] for x in scene.motion.signals])
 
 
-def alone(motion: Motion, at: int | list[int], signals: Iterable[Array]) -> Motion:
+def alone(motion: Motion, at: int | list[int], signals: Iterable[ArrayLike]) -> Motion:
     """The change of a motion whose coordinates ``at`` alone have positions, speeds and accelerations."""
     moved = []
     for x in signals:

@@ -26,13 +26,13 @@ _DIFFERENCE, _LONGEST = 0.05, 1.0
 _DAMPING = 1.0
 
 
-def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> Variant:
-    """The variant with the shape that explains most beside ``others``."""
+def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant], steps: int = _STEPS) -> Variant:
+    """The variant with the shape that explains most beside ``others``, in at most so many ``steps``."""
     free = [shape for shape in variant.hypothesis.shapes if shape.free]
     if not free:
         return variant
     best = weighing.of(variant, others)
-    for _ in range(_STEPS):
+    for _ in range(steps):
         step = _step(weighing, best.variant, free, others)
         for part in _PARTS:
             tried = _moved(weighing, best.variant, {name: part * x for name, x in step.items()})

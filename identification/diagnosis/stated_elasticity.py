@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
-from identification.diagnosis.link_side import LinkSide, Train, rotor_inertia, told, without_drive_train
+from identification.diagnosis.link_side import Train, link_side, rotor_inertia, told, without_drive_train
 from identification.diagnosis.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion
@@ -141,7 +141,7 @@ def _together(scene: Scene, trains: Sequence[Stated]) -> Iterator[Array]:
 
 def _loose(scene: Scene, one: Stated) -> Iterator[Array]:
     """Alone: what crosses a gap is not linear in its load."""
-    side = LinkSide(scene, one.k, rotor_inertia(scene, one.k))
+    side = link_side(scene, one.k, rotor_inertia(scene, one.k))
     if not np.min(side.inertia) > 0:
         yield from np.zeros((4, *scene.motion.q.shape))
         return

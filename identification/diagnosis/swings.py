@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.link_side import LinkSide, Train, rotor_inertia
+from identification.diagnosis.link_side import LinkSide, Train, link_side, rotor_inertia
 from identification.diagnosis.prepared import windowed
 from identification.diagnosis.scene import Scene
 
@@ -43,7 +43,7 @@ def liveliest(scenes: Sequence[Scene], k: int) -> LinkSide | None:
     that follow no swing.
     """
     scene = max(scenes, key=lambda one: float(np.mean(one.motion.qd[k] ** 2)))
-    side = LinkSide(scene, k, rotor_inertia(scene, k))
+    side = link_side(scene, k, rotor_inertia(scene, k))
     quick = _PART / scene.period > _LOWEST
     return side if quick and np.min(side.inertia) > 0 and np.any(side.load) else None
 
@@ -56,19 +56,22 @@ def stiffnesses(side: LinkSide) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def alike(side: LinkSide, grids: Sequence[Array]) -> list[tuple[float, ...]]:
-    """Stiffness, damping and gap, each from its grid in geometric steps, that are most like the log, then between the
-    steps: once by all that the rows show and once by what is slow in it.
+def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> list[tuple[float, ...]]:
+    """The rotor of one of the link's ``sides``, stiffness, damping and gap, each from its grid in geometric steps, that
+    are most like the log, then between the steps: once by all that the rows show and once by what is slow in it.
 
     Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
     """
-    coarse = _Played(side, grids)
-    found = []
-    for width in _WIDTHS:
-        rows = _Rows(side, width)
-        near = [_about(x, grid) for x, grid in zip(coarse.most_alike(rows), grids, strict=True)]
-        found.append(_Played(side, near).most_alike(rows))
-    return list(dict.fromkeys(found))
+    best: dict[int, tuple[float, tuple[float, ...]]] = {}
+    for side in sides:
+        coarse = _Played(side, grids)
+        for width in _WIDTHS:
+            rows = _Rows(side, width)
+            near = [_about(x, grid) for x, grid in zip(coarse.most_alike(rows)[1], grids, strict=True)]
+            cosine, combination = _Played(side, near).most_alike(rows)
+            if width not in best or cosine > best[width][0]:
+                best[width] = cosine, (side.rotor, *combination)
+    return list(dict.fromkeys(combination for _, combination in best.values()))
 
 
 def _about(x: float, grid: Array) -> Array:
@@ -126,9 +129,10 @@ class _Played:
             played = np.array(list(side.steps(Train(*self._combinations), count)))
             self._torques = side.inertia[:count] * played.T
 
-    def most_alike(self, rows: _Rows) -> tuple[float, ...]:
-        """The combination whose swing has the largest cosine with the residual."""
+    def most_alike(self, rows: _Rows) -> tuple[float, tuple[float, ...]]:
+        """The largest cosine of a swing with the residual, and the combination that swings so."""
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             cosines = rows.cosines(self._torques)
-        most = int(np.argmax(np.where(np.isfinite(cosines), cosines, -np.inf)))
-        return tuple(self._combinations[:, most].tolist())
+        known = np.where(np.isfinite(cosines), cosines, -np.inf)
+        most = int(np.argmax(known))
+        return float(known[most]), tuple(self._combinations[:, most].tolist())

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, LinkSides, Train
+from identification.diagnosis.link_side import LinkSide, LinkSides, Train, rotor_is_fitted, rotor_is_told
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
 from identification.diagnosis.torque_band import end
@@ -21,8 +21,10 @@ Array = NDArray[np.float64]
 _QUICKEST, _SLOWEST = 0.01, 0.2
 #: Stiffnesses, damping ratios and gaps that are looked at.
 _STEPS, _DAMPINGS, _GAPS = 10, 3, 24
-#: Step of the logarithm by which a gap is searched between them.
+#: Step of the logarithm by which a gap is searched between them; of a rotor's inertia, in parts of the link's.
 _FINE = 0.1
+#: Parts of an inertia that are a rotor's where nothing tells it, and the least part of it that a rotor or a link has.
+_PARTS, _LEAST = (0.3, 0.6, 0.9), 0.02
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -38,15 +40,22 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     for k, joint in enumerate(scenes[0].robot.moving):
         if not _has_gap(scenes[0].robot, joint.number) and not watched(scenes, k):
             side = liveliest(scenes, k)
-            found += [] if side is None or not _changes_sign(side) else [_hypothesis(k, joint, side)]
+            found += [] if side is None or not _changes_sign(side) else [_hypothesis(joint, side, scenes)]
     return found
 
 
-def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
+def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypothesis:
+    k, sides = side.k, LinkSides(side.k)
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
+    lightest = min(float(np.min(sides.along(scene, side.rotor).inertia)) for scene in scenes)
+    split = side.rotor > 0 and lightest > 0 and not rotor_is_fitted(side.scene, k)
+    rotor = _rotor(side.rotor, lightest, joint.inertia_unit)
+    tried = [side]
+    if split and not rotor_is_told(side.scene, k):
+        tried = [sides.along(side.scene, part * rotor.high) for part in _PARTS]
     found = alike(
-        side,
+        tried,
         [
             np.geomspace(softest, stiffest, _STEPS),
             np.geomspace(*DAMPING, _DAMPINGS),
@@ -58,13 +67,14 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "backlash",
         joint.number,
         (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
-        partial(_columns, LinkSides(k)),
+        partial(_columns, sides),
         shapes=(
+            *([rotor] if split else []),
             ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),
             ShapeRange("k", joint.stiffness_unit, softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
-        given={"Iam": side.rotor},
+        given={} if split else {"Iam": side.rotor},
         units={"Iam": joint.inertia_unit},
         kind=ELASTIC,
         joints=(joint.number,),
@@ -76,8 +86,19 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
-        starts=tuple({"gap": gap, "k": stiffness, "damping": damping} for stiffness, damping, gap in found),
+        starts=tuple(
+            ({"Iam": inertia} if split else {}) | {"gap": gap, "k": stiffness, "damping": damping}
+            for inertia, stiffness, damping, gap in found
+        ),
     )
+
+
+def _rotor(inertia: float, lightest: float, unit: str) -> ShapeRange:
+    """Of the drive train's ``inertia``, where no base parameter tells it from that of the link, the ``lightest`` on its
+    way: how the link falls through the gap tells its own.
+    """
+    whole = inertia + lightest
+    return ShapeRange("Iam", unit, _LEAST * whole, whole - _LEAST * lightest, log=False, step=_FINE * lightest)
 
 
 def _changes_sign(side: LinkSide) -> bool:

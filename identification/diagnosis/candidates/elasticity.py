@@ -47,9 +47,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
     low, high = stiffnesses(side)
-    found = alike(side, [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
+    found = alike([side], [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
-    starts = {(stiffness, damping) for stiffness, damping, _ in found} | {(high, found[0][1])}
+    starts = {(stiffness, damping) for _, stiffness, damping, _ in found} | {(high, found[0][2])}
     return Hypothesis(
         "joint_elasticity",
         "elasticity of the drive train",

@@ -14,7 +14,7 @@ from generator.robot.description import Joint, Robot
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.evidence import BALANCERS
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, rotor_inertia
+from identification.diagnosis.link_side import link_side, rotor_inertia
 from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.warming import warm_up_times
@@ -149,7 +149,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
 def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
     zero, unit = 0.0, 1.0
     if shape.relative == "rotor":
-        unit = rotor_inertia(scenes[0], k) or _SHARE * float(np.min(LinkSide(scenes[0], k, 0.0).inertia))
+        unit = rotor_inertia(scenes[0], k) or _SHARE * float(np.min(link_side(scenes[0], k, 0.0).inertia))
         if unit <= 0:
             return ()
     if shape.relative == "speed":
