@@ -13,7 +13,7 @@ from identification.diagnosis.link_side import told
 #: Name of the set in the robot file.
 SET = "diagnosed_flexible"
 _FOUND = "found with the effect, not refitted"
-_ASSUMED = "as found with the effect, or half of what holds it: no base parameter tells it from the link's"
+_ASSUMED = "assumed, or found with the effect: no base parameter tells it from the link's"
 
 
 def flexible_set(model: Model, rigid: ParameterSet, found: Mapping[str, float]) -> ParameterSet:
