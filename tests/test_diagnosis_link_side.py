@@ -47,10 +47,6 @@ def offered(scene: Scene, joint: int) -> Hypothesis:
     return found
 
 
-def weighed(bank: Bank) -> Weighing:
-    return Weighing(bank, [0], [1], None)
-
-
 def test_a_link_is_dragged_as_its_inertia_grows(loose: Scene) -> None:
     """d/dt (M qd) holds M' qd: what the load changes by with the speed is the inertia's rate."""
     side = link_side(loose, 0, ROTOR)
@@ -60,8 +56,8 @@ def test_a_link_is_dragged_as_its_inertia_grows(loose: Scene) -> None:
 
 
 def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
-    sides = LinkSides(0)
-    first, moved, anew = sides.along(loose, ROTOR), sides.along(loose, 0.8 * ROTOR), link_side(loose, 0, 0.8 * ROTOR)
+    first, anew = link_side(loose, 0, ROTOR), link_side(loose, 0, 0.8 * ROTOR)
+    moved = LinkSides(first).along(loose, 0.8 * ROTOR)
     assert np.mean(moved.inertia) > np.mean(first.inertia)
     train = Train(1e5, 0.1, GAP)
     for name in ("load", "by_position", "by_speed", "by_acceleration"):
@@ -72,7 +68,7 @@ def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
 def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> None:
     """What the file says of it is where the search begins; where it says nothing, several shares are tried."""
     told = offered(loose, 1)
-    assert next(one.name for one in told.shapes) == "Iam"
+    assert told.shapes[0].name == "Iam"
     assert "Iam" not in told.given
     assert all(one["Iam"] == pytest.approx(ROTOR) for one in told.variants)
     (inertia,) = [one for one in told.shapes if one.name == "Iam"]
@@ -88,14 +84,14 @@ def test_swings_settle_beside_the_base_parameters(loose: Scene) -> None:
     wrong = {name: value * (1.03 if name == "ZZ1R" else 1.0) for name, value in loose.values.items()}
     scene = replace(loose, sampled=one.sampled, values=wrong)
     told = offered(loose, 1)
-    truth = next(shape for shape in told.variants)
+    truth = told.variants[0]
     bank = Bank([one, one], [scene, replace(scene)])
     shape = {**truth, "Iam": 0.98 * ROTOR, "gap": 1.1 * GAP}
     start = bank.add(told, shape)
     assert start is not None
     assert swinging([start])
     bank.whiten([[Colour((np.ones(1),), (1.0,))] * bank.dof] * 2)
-    (found,), values, acting = settled(weighed(bank), [start], weighed)
+    (found,), values, acting = settled(Weighing(bank, [0], [1], None), [start])
     assert values["ZZ1R"] == pytest.approx(loose.values["ZZ1R"], rel=0.005)
     assert found.shape["Iam"] == pytest.approx(ROTOR, rel=0.01)
     assert found.shape["gap"] == pytest.approx(GAP, rel=0.03)

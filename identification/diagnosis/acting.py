@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generator.effects.library import library
-from identification.diagnosis.bank import Variant
+from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.hypothesis import BODY, EFFECT, Coefficient, Hypothesis
 from identification.diagnosis.scene import Scene
 from identification.observation import Jump
@@ -26,6 +26,11 @@ class Acting:
 
     variants: tuple[Variant, ...] = ()
     values: tuple[float, ...] = ()
+
+    @classmethod
+    def found(cls, bank: Bank, variants: Sequence[Variant], solution: Array) -> Acting:
+        """By the values of a bank's base columns and of those of ``variants`` (p + k)."""
+        return cls(tuple(variants), tuple(solution[len(bank.base) :].tolist()))
 
     @property
     def coefficients(self) -> dict[str, float]:

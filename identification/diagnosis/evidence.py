@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.errors_in_variables import Pretence, Redrawn
+from identification.diagnosis.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import Normal, Prior, bounded, inverse
@@ -107,6 +107,10 @@ class Weighing:
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self._seen = 0
         self.refresh()
+
+    def along(self, bank: Bank) -> Weighing:
+        """The same of another bank of the runs."""
+        return Weighing(bank, self.train, self.validate, self._prior, redrawn(bank.runs, bank.scenes))
 
     def refresh(self) -> None:
         """After columns may have been added."""

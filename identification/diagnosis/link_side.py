@@ -131,17 +131,17 @@ def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:
 
 
 class LinkSides:
-    """Those of coordinate ``k`` along several scenes, which are found once."""
+    """Those of one coordinate along several scenes, which are found once: the ``first`` is."""
 
-    def __init__(self, k: int) -> None:
-        self._k = k
-        self._made: dict[int, LinkSide] = {}
+    def __init__(self, first: LinkSide) -> None:
+        self._k = first.k
+        self._made = {id(first.scene): first}
 
     def along(self, scene: Scene, rotor: float) -> LinkSide:
         """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
         # A scene that is kept by its link side keeps its identity.
-        first = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, rotor))
-        return first if first.rotor == rotor else first.with_rotor(rotor)
+        made = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, rotor))
+        return made if made.rotor == rotor else made.with_rotor(rotor)
 
 
 def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:

@@ -106,9 +106,6 @@ def search(
     chosen: list[Variant] = []
     acting = Acting()
 
-    def weighed(bank: Bank) -> Weighing:
-        return Weighing(bank, train, validate, prior, redrawn(bank.runs, bank.scenes))
-
     for turn in range(_PASSES):
         told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
@@ -132,13 +129,13 @@ def search(
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
         values = bank.values(solution)
-        before, acting = acting, Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
+        before, acting = acting, Acting.found(bank, chosen, solution)
         depends = acting.again or (regressors.reads_load and bool(acting.variants))
         if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
         if swinging(chosen) and turn + 1 < _PASSES:
             told("settling how drive trains swing")
-            chosen, values, acting = settled(weighing, chosen, weighed)
+            chosen, values, acting = settled(weighing, chosen)
     return Search(
         bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
     )

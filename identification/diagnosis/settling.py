@@ -6,7 +6,7 @@ before: searches alone would settle in a dozen of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import inf
 
 from identification.diagnosis.acting import Acting
@@ -25,13 +25,9 @@ def swinging(chosen: Sequence[Variant]) -> bool:
     return any(map(_swings, chosen))
 
 
-def settled(
-    weighing: Weighing, chosen: Sequence[Variant], weighed: Callable[[Bank], Weighing]
-) -> tuple[list[Variant], dict[str, float], Acting]:
+def settled(weighing: Weighing, chosen: Sequence[Variant]) -> tuple[list[Variant], dict[str, float], Acting]:
     """What was ``chosen``, with the shapes of drive trains settled; the base parameters by name beside it; and both as
-    they act: of all turns the one that leaves least.
-
-    ``weighed`` weighs a bank of the same runs: each turn makes one of its own.
+    they act: of all turns, which make banks of their own, the one that leaves least.
     """
     best = list(chosen), *_fitted(weighing, chosen)
     least, waited = inf, 0
@@ -44,7 +40,7 @@ def settled(
         if len(again) < len(chosen):
             break
         bank.whiten(old.colours)
-        weighing, chosen = weighed(bank), again
+        weighing, chosen = weighing.along(bank), again
         for i, one in enumerate(again):
             if _swings(one):
                 chosen[i] = refined(weighing, one, [*chosen[:i], *chosen[i + 1 :]], _STEPS)
@@ -59,7 +55,7 @@ def settled(
 
 def _fitted(weighing: Weighing, chosen: Sequence[Variant]) -> tuple[dict[str, float], Acting]:
     bank, (solution, _) = weighing.bank, weighing.fitted(chosen)
-    return bank.values(solution), Acting(tuple(chosen), tuple(solution[len(bank.base) :].tolist()))
+    return bank.values(solution), Acting.found(bank, chosen, solution)
 
 
 def _swings(one: Variant) -> bool:

@@ -45,17 +45,15 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypothesis:
-    k, sides = side.k, LinkSides(side.k)
+    sides = LinkSides(side)
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
     lightest = min(float(np.min(sides.along(scene, side.rotor).inertia)) for scene in scenes)
-    split = side.rotor > 0 and lightest > 0 and not rotor_is_fitted(side.scene, k)
-    rotor = _rotor(side.rotor, lightest, joint.inertia_unit)
-    tried = [side]
-    if split and not rotor_is_told(side.scene, k):
-        tried = [sides.along(side.scene, part * rotor.high) for part in _PARTS]
+    grouped = side.rotor > 0 and lightest > 0 and not rotor_is_fitted(side.scene, side.k)
+    rotor = [_rotor(side.rotor, lightest, joint.inertia_unit)] if grouped else []
+    untold = [] if rotor_is_told(side.scene, side.k) else rotor
     found = alike(
-        tried,
+        [sides.along(side.scene, part * one.high) for one in untold for part in _PARTS] or [side],
         [
             np.geomspace(softest, stiffest, _STEPS),
             np.geomspace(*DAMPING, _DAMPINGS),
@@ -69,12 +67,12 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
         (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
         partial(_columns, sides),
         shapes=(
-            *([rotor] if split else []),
+            *rotor,
             ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),
             ShapeRange("k", joint.stiffness_unit, softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
-        given={} if split else {"Iam": side.rotor},
+        given={} if rotor else {"Iam": side.rotor},
         units={"Iam": joint.inertia_unit},
         kind=ELASTIC,
         joints=(joint.number,),
@@ -87,7 +85,7 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
         starts=tuple(
-            ({"Iam": inertia} if split else {}) | {"gap": gap, "k": stiffness, "damping": damping}
+            {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
             for inertia, stiffness, damping, gap in found
         ),
     )

@@ -41,11 +41,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     for k, joint in enumerate(scenes[0].robot.moving):
         if k not in known and not watched(scenes, k):
             side = liveliest(scenes, k)
-            found += [] if side is None else [_hypothesis(k, joint, side)]
+            found += [] if side is None else [_hypothesis(joint, side)]
     return found
 
 
-def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
+def _hypothesis(joint: Joint, side: LinkSide) -> Hypothesis:
     low, high = stiffnesses(side)
     found = alike([side], [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
@@ -55,7 +55,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
         "elasticity of the drive train",
         joint.number,
         (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
-        partial(_columns, LinkSides(k)),
+        partial(_columns, LinkSides(side)),
         shapes=(
             ShapeRange("k", joint.stiffness_unit, low, high, step=_FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
@@ -74,7 +74,7 @@ def _hypothesis(k: int, joint: Joint, side: LinkSide) -> Hypothesis:
             "fourth power",
         },
         tries=_STEPS * _DAMPINGS,
-        agrees=_agrees if rotor_is_told(side.scene, k) else None,
+        agrees=_agrees if rotor_is_told(side.scene, side.k) else None,
         starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
     )
 
