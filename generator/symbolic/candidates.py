@@ -73,6 +73,20 @@ def _balances(chain: Chain, frame: Frame) -> bool:
 
 def meetings(chain: Chain) -> list[int]:
     """Last frames of the segments, from the base."""
+    return _ends(chain)[:_TRIED]
+
+
+def before_last(chain: Chain) -> list[int]:
+    """The last frame of the segment before the last one, if there is one.
+
+    Wrenches that travel further save operations, but less of what remains is a product that is added at once: such
+    code takes more instructions where the processor has a fused multiply-add.
+    """
+    return _ends(chain)[-2:-1]
+
+
+def _ends(chain: Chain) -> list[int]:
+    """Last frames of the segments."""
     spun = segments(chain)
     inside = {f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None}
-    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()][:_TRIED]
+    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()]

@@ -15,6 +15,7 @@ from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Screws, screws
+from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes, power
 from generator.symbolic.matter import Matter, inertia, moved, spun_again, unspun
 from generator.symbolic.matter import about_z as moment_about_z
 from generator.symbolic.newton_euler import Wrench
@@ -172,18 +173,14 @@ def _project(
             return
         link, below = spun[carrier.number], spun[carrier.parent.number]
         position = chosen.positions[carrier.number]
-        if link.continues:
-            arm = below.to_unspun(position)
-            wrench = Wrench(wrench.f, wrench.n + cross(arm, wrench.f))
-            continue
-        f, n = link.entry @ wrench.f, link.entry @ wrench.n
-        if carrier.parent.number == meeting:
+        if carrier.parent.number == meeting and not link.continues:
+            met = Wrench(link.entry @ wrench.f, link.entry @ wrench.n)
             for i, screw in met_screws[meeting].items():
-                there = at(screw, position)
-                _put(result, i, column, power(there, Wrench(f, n)))
+                _put(result, i, column, power(at(screw, position), met))
             return
-        n = n + cross(position, f)
-        wrench = Wrench(below.to_unspun(f), below.to_unspun(n))
+        wrench = handed_on(link, below, position, wrench)
+        if not link.continues:
+            wrench = in_unspun_axes(below, wrench)
 
 
 def _meeting_points(chain: Chain, chosen: Regauged, meeting: int) -> dict[int, Array]:
@@ -195,12 +192,6 @@ def _meeting_points(chain: Chain, chosen: Regauged, meeting: int) -> dict[int, A
 def at(screw: Screw, point: Array) -> Screw:
     """The same motion at another point of the frame."""
     return Screw(screw.w, screw.v + cross(screw.w, point))
-
-
-def power(screw: Screw, wrench: Wrench) -> Node:
-    """Power of a wrench along a screw, both in the same axes at the same point."""
-    total: Node = screw.w @ wrench.n + screw.v @ wrench.f
-    return total
 
 
 def _put(result: Array, i: int, k: int, entry: Node) -> None:

@@ -16,6 +16,7 @@ from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, is_last, regauge
 from generator.symbolic.lean_motion import LeanMotion, motions
+from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes
 from generator.symbolic.matter import Matter, about_z, unspun
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun, segments
@@ -82,7 +83,7 @@ class _Recursion:
             j, link = frame.number, self.spun[frame.number]
             apart = self._add_body(frame, own, summed)
             if j in own:
-                _add(summed, j, Wrench(link.to_unspun(own[j].f), link.to_unspun(own[j].n)))
+                _add(summed, j, in_unspun_axes(link, own[j]))
             total = summed.get(j)
             if total is not None:
                 named("f", j, total.f)
@@ -92,12 +93,8 @@ class _Recursion:
             if frame.parent is None:
                 continue
             k, position = frame.parent.number, self.chosen.positions[j]
-            if total is not None and link.continues:
-                arm = self.spun[k].to_unspun(position)
-                _add(summed, k, Wrench(total.f, total.n + cross(arm, total.f)))
-            elif total is not None:
-                f = link.entry @ total.f
-                _add(own, k, Wrench(f, link.entry @ total.n + cross(position, f)))
+            if total is not None:
+                _add(summed if link.continues else own, k, handed_on(link, self.spun[k], position, total))
             if apart is not None:
                 _add(own, k, Wrench(link.entry @ apart[1].f, link.entry @ apart[1].n))
         return torques

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import takewhile
 
 from generator.symbolic import lean_motion, newton_euler
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import slid_origins
+from generator.symbolic.gauge import Origins, slid_origins
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Beside, screws_beside
+from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes, power
 from generator.symbolic.newton_euler import Motion, Wrench
+from generator.symbolic.segments import Spun, segments
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 
@@ -19,16 +23,17 @@ from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 _TENSOR = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
-def unit_wrench(program: Program, parameter: str, motion: Motion) -> tuple[Array | None, Array | None]:
-    """Force and moment per unit of one inertial parameter (None where zero): the columns of F and N."""
+def unit_wrench(program: Program, parameter: str, motion: Motion) -> Wrench:
+    """Force and moment per unit of one inertial parameter: the columns of F and N."""
+    nothing = zeros(program, 3)
     if parameter == "M":
-        return motion.a, None
+        return Wrench(motion.a, nothing)
     if parameter in ("MX", "MY", "MZ"):
         k = ("MX", "MY", "MZ").index(parameter)
         unit = array(program, [int(i == k) for i in range(3)])
-        return motion.u[:, k], cross(unit, motion.a)
+        return Wrench(motion.u[:, k], cross(unit, motion.a))
     row, column = _TENSOR[parameter]
-    return None, _tensor_moment(program, row, column, motion)
+    return Wrench(nothing, _tensor_moment(program, row, column, motion))
 
 
 def _tensor_moment(program: Program, a: int, b: int, motion: Motion) -> Array:
@@ -50,23 +55,22 @@ def _tensor_moment(program: Program, a: int, b: int, motion: Motion) -> Array:
     return moment
 
 
-def column(
-    chain: Chain, frame: Frame, parameter: str, motion: Motion, carried_by: Mapping[int, Screw | Beside]
-) -> dict[int, Node]:
-    """Torque per unit of ``parameter`` of the body of ``frame``, by coordinate of the joints that carry it."""
-    zero = chain.program.zero
-    force, moment = unit_wrench(chain.program, parameter, motion)
-    entries: dict[int, Node] = {}
-    for coordinate, screw in carried_by.items():
-        if isinstance(screw, Screw):
-            entries[coordinate] = dot(screw.w, moment) if moment is not None else zero
-            if force is not None:
-                entries[coordinate] = entries[coordinate] + dot(screw.v, force)
-    for coordinate, screw in carried_by.items():
-        if isinstance(screw, Beside):
-            moved = dot(screw.v, force) if force is not None else zero
-            entries[coordinate] = entries[screw.coordinate] + moved
-    return {coordinate: entries[coordinate] for coordinate in carried_by}
+@dataclass(frozen=True)
+class RegressorStrategy:
+    """How columns are written: about frames ``slide`` moved along their axes, parallel screws by their difference;
+    wrenches of the bodies behind the frame ``meeting`` meet the screws there (0 for each in its own frame).
+    """
+
+    slide: frozenset[int] = frozenset()
+    meeting: int = 0
+
+    def __str__(self) -> str:
+        frames = ", ".join(map(str, sorted(self.slide)))
+        return (
+            "wrenches on screws, parallel ones by their difference"
+            + (f", those behind frame {self.meeting} at that frame" if self.meeting else "")
+            + (f", frames {frames} slid along their axes" if frames else "")
+        )
 
 
 #: A column of a frame's origin in terms of columns of a point r before it on the axis: factor, power of r, parameter.
@@ -78,37 +82,66 @@ _SHIFTED = {
 }
 
 
-def columns_about(
-    chain: Chain, frame: Frame, stems: Iterable[str], motion: Motion, carried_by: Mapping[int, Screw | Beside], r: Node
-) -> dict[str, dict[int, Node]]:
-    """The columns of a body's parameters ``stems``, from motion and screws of a point of its axis.
-
-    The frame's origin stands ``r`` along z from that point; what moves little there is cheaper there, and a column
-    moves back by one product per entry.
-    """
-    program = chain.program
-    result: dict[str, dict[int, Node]] = {}
-    for stem in stems:
-        entries = column(chain, frame, stem, motion, carried_by)
-        for factor, power, other in _SHIFTED.get(stem, ()) if r is not program.zero else ():
-            scale = factor * (r if power == 1 else r * r)
-            for coordinate, entry in column(chain, frame, other, motion, carried_by).items():
-                entries[coordinate] = entries[coordinate] + scale * entry
-        result[stem] = entries
-    return result
-
-
 @dataclass(frozen=True)
-class RegressorStrategy:
-    """How columns are written: about frames ``slide`` moved along their axes, parallel screws by their difference."""
+class _Projection:
+    """Columns of the bodies' parameters by wrenches on screws, for motions about the ``origins`` put elsewhere."""
 
-    slide: frozenset[int] = frozenset()
+    chain: Chain
+    origins: Origins
+    meeting: int
+    motion: Mapping[int, Motion]
 
-    def __str__(self) -> str:
-        frames = ", ".join(map(str, sorted(self.slide)))
-        return "wrenches on screws, parallel ones by their difference" + (
-            f", frames {frames} slid along their axes" if frames else ""
-        )
+    @cached_property
+    def _spun(self) -> dict[int, Spun]:
+        return segments(self.chain)
+
+    @cached_property
+    def _screws(self) -> Mapping[int, Mapping[int, Screw | Beside]]:
+        return screws_beside(self.chain, self.origins.positions)
+
+    def columns(self, frame: Frame, stems: Iterable[str]) -> dict[str, dict[int, Node]]:
+        """The columns of a body's parameters ``stems``, from motion and screws of a point of its axis.
+
+        The frame's origin stands r along z from that point; what moves little there is cheaper there, and a column
+        moves back by one product per entry.
+        """
+        r, program = self.origins.offsets[frame.number], self.chain.program
+        result: dict[str, dict[int, Node]] = {}
+        for stem in stems:
+            entries = self._column(frame, stem)
+            for factor, exponent, other in _SHIFTED.get(stem, ()) if r is not program.zero else ():
+                scale = factor * (r if exponent == 1 else r * r)
+                for coordinate, entry in self._column(frame, other).items():
+                    entries[coordinate] = entries[coordinate] + scale * entry
+            result[stem] = entries
+        return result
+
+    def _column(self, frame: Frame, parameter: str) -> dict[int, Node]:
+        """Torque per unit of ``parameter`` of the body of ``frame``, by coordinate of the joints that carry it."""
+        wrench = unit_wrench(self.chain.program, parameter, self.motion[frame.number])
+        behind = list(takewhile(lambda one: one.number != self.meeting, frame.path()))
+        if not behind or behind[-1].parent is None:
+            return _on_screws(wrench, self._screws[frame.number])
+        entries: dict[int, Node] = {}
+        wrench = in_unspun_axes(self._spun[frame.number], wrench)
+        for one in behind:
+            assert one.parent is not None
+            link, below = self._spun[one.number], self._spun[one.parent.number]
+            if one.coordinate is not None:
+                entries[one.coordinate] = wrench.n[2] if one.revolute else wrench.f[2]
+            wrench = handed_on(link, below, self.origins.positions[one.number], wrench)
+            if one.parent.number != self.meeting and not link.continues:
+                wrench = in_unspun_axes(below, wrench)
+        return dict(sorted({**entries, **_on_screws(wrench, self._screws[self.meeting])}.items()))
+
+
+def _on_screws(wrench: Wrench, carried_by: Mapping[int, Screw | Beside]) -> dict[int, Node]:
+    """Torque of a wrench, by coordinate of the joints with these screws."""
+    entries = {c: power(screw, wrench) for c, screw in carried_by.items() if isinstance(screw, Screw)}
+    for c, screw in carried_by.items():
+        if isinstance(screw, Beside):
+            entries[c] = entries[screw.coordinate] + dot(screw.v, wrench.f)
+    return {c: entries[c] for c in carried_by}
 
 
 def columns(
@@ -125,12 +158,11 @@ def columns(
     if way is None:
         return _recursive_columns(chain, names, newton_euler.motions(chain, qd, qdd), readable)
     origins = slid_origins(chain, way.slide)
-    motion = lean_motion.own_motions(chain, origins, qd, qdd)
-    carried_by = screws_beside(chain, origins.positions)
+    projection = _Projection(chain, origins, way.meeting, lean_motion.own_motions(chain, origins, qd, qdd))
     result: dict[str, dict[int, Node]] = {}
     for frame in chain.frames:
         j = frame.number
-        found = columns_about(chain, frame, _stems(j, names), motion[j], carried_by[j], origins.offsets[j])
+        found = projection.columns(frame, _stems(j, names))
         result |= {f"{stem}{j}": entries for stem, entries in found.items()}
     return result
 
@@ -146,16 +178,10 @@ def _recursive_columns(
         j = frame.number
         coordinates = sorted(one.coordinate for one in frame.path() if one.coordinate is not None)
         for stem in _stems(j, names):
-            unit = {j: _unit_wrench(chain.program, stem, motion[j])}
+            unit = {j: unit_wrench(chain.program, stem, motion[j])}
             torques = newton_euler.joint_torques(chain, unit, f"{stem}{j}" if readable else None)
             result[f"{stem}{j}"] = {coordinate: torques[coordinate] for coordinate in coordinates}
     return result
-
-
-def _unit_wrench(program: Program, parameter: str, motion: Motion) -> Wrench:
-    force, moment = unit_wrench(program, parameter, motion)
-    nothing = zeros(program, 3)
-    return Wrench(nothing if force is None else force, nothing if moment is None else moment)
 
 
 def _stems(j: int, names: Collection[str]) -> list[str]:

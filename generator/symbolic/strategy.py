@@ -13,6 +13,7 @@ from generator.symbolic import inertia, lean_gravity, lean_inertia, lean_newton_
 from generator.symbolic.bodies import Body
 from generator.symbolic.candidates import (
     balanced,
+    before_last,
     in_units,
     meetings,
     slid_otherwise,
@@ -111,7 +112,7 @@ def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, name
     columns: _Search[RegressorStrategy] = _Search(
         chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way, readable=False))
     )
-    columns.among(RegressorStrategy(slide) for slide in slides(chain))
+    columns.among(RegressorStrategy(slide, j) for j in (0, *before_last(chain)) for slide in slides(chain))
     choices = {
         "torques": torque.choice,
         "gravity": weight.choice,

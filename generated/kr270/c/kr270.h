@@ -41,7 +41,7 @@
  *   flexible_direct_dynamics_sliding      407      412       12       12        1
  *   flexible_direct_dynamics_smooth       429      424       24       12       13
  *   flexible_inverse_dynamics             249      267        1       12       13
- *   flexible_regressor                    385      305        1       12       13
+ *   flexible_regressor                    375      298        1       12       13
  *   gravity                                25       18        0       10        0
  *   inertia_matrix                        106      104        0       10        0
  *   inverse_dynamics                      231      226        1       12        7
@@ -57,10 +57,10 @@
  *   motor_position                          8        3        0        0        0
  *   motor_speed                             8        3        0        0        0
  *   motor_torque                            9        3        0        0        0
- *   payload_regressor                     275      198        0       10        0
+ *   payload_regressor                     265      190        0       10        0
  *   potential_energy                       20       21        0       11        1
- *   regressor                             384      288        1       12        7
- *   regressor_packed                      384      288        1       12        7
+ *   regressor                             374      282        1       12        7
+ *   regressor_packed                      374      282        1       12        7
  *   regressor_standard                    483      377        1       12        7
  *   regressor_standard_packed             483      377        1       12        7
  *   tool_jacobian                          66       42        0       10        0

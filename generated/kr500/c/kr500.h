@@ -41,7 +41,7 @@
  *   flexible_direct_dynamics_sliding      407      412       12       12        1
  *   flexible_direct_dynamics_smooth       429      424       24       12       13
  *   flexible_inverse_dynamics             249      267        1       12       13
- *   flexible_regressor                    386      306        1       12       13
+ *   flexible_regressor                    376      299        1       12       13
  *   gravity                                25       18        0       10        0
  *   inertia_matrix                        106      104        0       10        0
  *   inverse_dynamics                      231      226        1       12        7
@@ -57,10 +57,10 @@
  *   motor_position                          7        3        0        0        0
  *   motor_speed                             7        3        0        0        0
  *   motor_torque                            9        3        0        0        0
- *   payload_regressor                     275      198        0       10        0
+ *   payload_regressor                     265      190        0       10        0
  *   potential_energy                       20       20        0       11        2
- *   regressor                             385      289        1       12        7
- *   regressor_packed                      385      289        1       12        7
+ *   regressor                             375      283        1       12        7
+ *   regressor_packed                      375      283        1       12        7
  *   regressor_standard                    484      378        1       12        7
  *   regressor_standard_packed             484      378        1       12        7
  *   tool_jacobian                          66       42        0       10        0
