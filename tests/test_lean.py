@@ -16,7 +16,7 @@ from generator.resources import find_robot, robots
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from generator.symbolic import lean_motion, regressor
-from generator.symbolic.candidates import meetings
+from generator.symbolic.candidates import meetings, slides
 from generator.symbolic.factoring import factored
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.gauge import slid_origins
@@ -158,7 +158,7 @@ def test_regressors_are_products_of_screws_and_wrenches(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["lbr_iiwa14", "scara", "stanford", "tree_two_arms"])
-def test_wrenches_may_meet_screws_at_any_frame(name: str) -> None:
+def test_wrenches_may_meet_screws_at_the_end_of_any_segment(name: str) -> None:
     model = Model(_robot(name))
     chain = model.chain
 
@@ -166,9 +166,12 @@ def test_wrenches_may_meet_screws_at_any_frame(name: str) -> None:
         found = regressor.columns(chain, tuple(model.kept), model.qd, model.qdd, way, readable=False)
         return [column[c] for column in found.values() for c in sorted(column)]
 
-    frames = meetings(chain)
-    assert len(frames) > 1
-    wanted, *all_found = (entries(way) for way in (None, *(regressor.RegressorStrategy(meeting=j) for j in frames)))
+    ends = [frozenset({j}) for j in meetings(chain)]
+    assert len(ends) > 1
+    ways = [
+        regressor.RegressorStrategy(slide, met) for slide in slides(chain) for met in (*ends, frozenset().union(*ends))
+    ]
+    wanted, *all_found = map(entries, (None, *ways))
     random = np.random.default_rng(1)
     inputs = {name: random.uniform(-2.0, 2.0, (5, chain.dof)) for name in ("q", "qd", "qdd")}
     values = evaluate_nodes(chain.program.reachable([*wanted, *(e for found in all_found for e in found)]), inputs)

@@ -76,13 +76,17 @@ def meetings(chain: Chain) -> list[int]:
     return _ends(chain)[:_TRIED]
 
 
-def before_last(chain: Chain) -> list[int]:
-    """The last frame of the segment before the last one, if there is one.
+def before_last(chain: Chain) -> frozenset[int]:
+    """The frames that carry the last moving segments, as far as they end segments themselves.
 
-    Wrenches that travel further save operations, but less of what remains is a product that is added at once: such
-    code takes more instructions where the processor has a fused multiply-add.
+    Nearer to the base most chains' columns get longer. Where they do not, less of them is a product that is added at
+    once, which costs instructions where the processor has a fused multiply-add.
     """
-    return _ends(chain)[-2:-1]
+    spun, moving = segments(chain), [frame for frame in chain.frames if frame.coordinate is not None]
+    carriers = {below.number for frame in moving for below in frame.path() if below is not frame}
+    tips = [frame for frame in moving if frame.number not in carriers]
+    first = [next(one for one in tip.path() if not spun[one.number].continues) for tip in tips]
+    return frozenset(one.parent.number for one in first if one.parent is not None) & frozenset(_ends(chain))
 
 
 def _ends(chain: Chain) -> list[int]:

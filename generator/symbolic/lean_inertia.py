@@ -15,10 +15,10 @@ from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, regauge
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Screws, screws
-from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes, power
+from generator.symbolic.lean_wrenches import descent, power
 from generator.symbolic.matter import Matter, inertia, moved, spun_again, unspun
 from generator.symbolic.matter import about_z as moment_about_z
-from generator.symbolic.newton_euler import Wrench
+from generator.symbolic.newton_euler import Wrench, along_axis
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, array, cross, identity, zeros
@@ -165,22 +165,16 @@ def _project(
     """Fills the entries of a joint with itself and with every joint that carries it."""
     column = frame.coordinate
     assert column is not None
-    for carrier in frame.path():
+    for carrier, carried in descent(frame, spun, chosen.positions, wrench):
         row = carrier.coordinate
         if row is not None:
-            _put(result, row, column, wrench.n[2] if carrier.revolute else wrench.f[2])
-        if carrier.parent is None:
-            return
-        link, below = spun[carrier.number], spun[carrier.parent.number]
-        position = chosen.positions[carrier.number]
-        if carrier.parent.number == meeting and not link.continues:
-            met = Wrench(link.entry @ wrench.f, link.entry @ wrench.n)
+            _put(result, row, column, along_axis(carrier, carried))
+        link = spun[carrier.number]
+        if carrier.parent is not None and carrier.parent.number == meeting and not link.continues:
+            met = Wrench(link.entry @ carried.f, link.entry @ carried.n)
             for i, screw in met_screws[meeting].items():
-                _put(result, i, column, power(at(screw, position), met))
+                _put(result, i, column, power(at(screw, chosen.positions[carrier.number]), met))
             return
-        wrench = handed_on(link, below, position, wrench)
-        if not link.continues:
-            wrench = in_unspun_axes(below, wrench)
 
 
 def _meeting_points(chain: Chain, chosen: Regauged, meeting: int) -> dict[int, Array]:

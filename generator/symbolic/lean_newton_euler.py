@@ -18,7 +18,7 @@ from generator.symbolic.gauge import Gauge, Regauged, is_last, regauge
 from generator.symbolic.lean_motion import LeanMotion, motions
 from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes
 from generator.symbolic.matter import Matter, about_z, unspun
-from generator.symbolic.newton_euler import Wrench
+from generator.symbolic.newton_euler import Wrench, along_axis
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.spin import Turning, added_u, moment, moment_of, turning, turning_tip
 from generator.symbolic.statements import Node
@@ -117,7 +117,7 @@ class _Recursion:
     def _torque(self, frame: Frame, total: Wrench | None, apart: tuple[Node, Wrench] | None) -> Node:
         torque: Node = self.chain.program.zero
         if total is not None:
-            torque = total.n[2] if frame.revolute else total.f[2]
+            torque = along_axis(frame, total)
         return torque if apart is None else torque + apart[0]
 
     def _unspun_wrench(self, frame: Frame, part: Matter) -> Wrench:

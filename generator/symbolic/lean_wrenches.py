@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
+from generator.symbolic.frames import Frame
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.newton_euler import Wrench
 from generator.symbolic.segments import Spun
@@ -22,6 +25,21 @@ def handed_on(link: Spun, below: Spun, position: Array, wrench: Wrench) -> Wrenc
         return Wrench(wrench.f, wrench.n + cross(below.to_unspun(position), wrench.f))
     f = link.entry @ wrench.f
     return Wrench(f, link.entry @ wrench.n + cross(position, f))
+
+
+def descent(
+    frame: Frame, spun: Mapping[int, Spun], positions: Mapping[int, Array], wrench: Wrench
+) -> Iterator[tuple[Frame, Wrench]]:
+    """The frames from one to the base, each with a ``wrench`` on the first in its unspun axes about its origin.
+
+    ``positions`` are the frames' origins in their antecedents.
+    """
+    yield frame, wrench
+    while frame.parent is not None:
+        link, below = spun[frame.number], spun[frame.parent.number]
+        wrench = handed_on(link, below, positions[frame.number], wrench)
+        frame, wrench = frame.parent, wrench if link.continues else in_unspun_axes(below, wrench)
+        yield frame, wrench
 
 
 def power(screw: Screw, wrench: Wrench) -> Node:

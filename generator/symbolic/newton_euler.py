@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame, axis
+from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, Nodes, array, cross, named, skew, zeros
 
 
@@ -100,12 +101,18 @@ def joint_torques(chain: Chain, wrenches: Mapping[int, Wrench], per: str | None 
             named(f, frame.number, wrench.f)
             named(n, frame.number, wrench.n)
         if frame.coordinate is not None:
-            torques[frame.coordinate] = wrench.n[2] if frame.revolute else wrench.f[2]
+            torques[frame.coordinate] = along_axis(frame, wrench)
         if frame.parent is not None:
             carried = to_antecedent(frame, wrench)
             below = total.get(frame.parent.number)
             total[frame.parent.number] = carried if below is None else below + carried
     return torques
+
+
+def along_axis(frame: Frame, wrench: Wrench) -> Node:
+    """Torque [N m] (force [N]) of a frame's joint that supplies a wrench on the frame."""
+    torque: Node = wrench.n[2] if frame.revolute else wrench.f[2]
+    return torque
 
 
 def to_antecedent(frame: Frame, wrench: Wrench) -> Wrench:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import takewhile
 
 from generator.symbolic import lean_motion, newton_euler
 from generator.symbolic.bodies import INERTIAL
@@ -13,8 +12,8 @@ from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Origins, slid_origins
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Beside, screws_beside
-from generator.symbolic.lean_wrenches import handed_on, in_unspun_axes, power
-from generator.symbolic.newton_euler import Motion, Wrench
+from generator.symbolic.lean_wrenches import descent, handed_on, in_unspun_axes, power
+from generator.symbolic.newton_euler import Motion, Wrench, along_axis
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
@@ -23,7 +22,7 @@ from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
 _TENSOR = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
-def unit_wrench(program: Program, parameter: str, motion: Motion) -> Wrench:
+def _unit_wrench(program: Program, parameter: str, motion: Motion) -> Wrench:
     """Force and moment per unit of one inertial parameter: the columns of F and N."""
     nothing = zeros(program, 3)
     if parameter == "M":
@@ -58,17 +57,18 @@ def _tensor_moment(program: Program, a: int, b: int, motion: Motion) -> Array:
 @dataclass(frozen=True)
 class RegressorStrategy:
     """How columns are written: about frames ``slide`` moved along their axes, parallel screws by their difference;
-    wrenches of the bodies behind the frame ``meeting`` meet the screws there (0 for each in its own frame).
+    wrenches of bodies behind the frames ``meetings``, each the last of its segment, meet the screws there, others in
+    their own frames.
     """
 
     slide: frozenset[int] = frozenset()
-    meeting: int = 0
+    meetings: frozenset[int] = frozenset()
 
     def __str__(self) -> str:
-        frames = ", ".join(map(str, sorted(self.slide)))
+        frames, met = (", ".join(map(str, sorted(numbers))) for numbers in (self.slide, self.meetings))
         return (
             "wrenches on screws, parallel ones by their difference"
-            + (f", those behind frame {self.meeting} at that frame" if self.meeting else "")
+            + (f", behind frame {met} at that frame" if self.meetings else "")
             + (f", frames {frames} slid along their axes" if frames else "")
         )
 
@@ -88,7 +88,7 @@ class _Projection:
 
     chain: Chain
     origins: Origins
-    meeting: int
+    meetings: Collection[int]
     motion: Mapping[int, Motion]
 
     @cached_property
@@ -118,21 +118,20 @@ class _Projection:
 
     def _column(self, frame: Frame, parameter: str) -> dict[int, Node]:
         """Torque per unit of ``parameter`` of the body of ``frame``, by coordinate of the joints that carry it."""
-        wrench = unit_wrench(self.chain.program, parameter, self.motion[frame.number])
-        behind = list(takewhile(lambda one: one.number != self.meeting, frame.path()))
-        if not behind or behind[-1].parent is None:
-            return _on_screws(wrench, self._screws[frame.number])
+        wrench = _unit_wrench(self.chain.program, parameter, self.motion[frame.number])
+        meeting = next((one for one in frame.path() if one.number in self.meetings), frame)
+        screws, positions = self._screws[meeting.number], self.origins.positions
+        if meeting is frame:
+            return _on_screws(wrench, screws)
         entries: dict[int, Node] = {}
         wrench = in_unspun_axes(self._spun[frame.number], wrench)
-        for one in behind:
-            assert one.parent is not None
-            link, below = self._spun[one.number], self._spun[one.parent.number]
+        for one, carried in descent(frame, self._spun, positions, wrench):
             if one.coordinate is not None:
-                entries[one.coordinate] = wrench.n[2] if one.revolute else wrench.f[2]
-            wrench = handed_on(link, below, self.origins.positions[one.number], wrench)
-            if one.parent.number != self.meeting and not link.continues:
-                wrench = in_unspun_axes(below, wrench)
-        return dict(sorted({**entries, **_on_screws(wrench, self._screws[self.meeting])}.items()))
+                entries[one.coordinate] = along_axis(one, carried)
+            if one.parent is meeting:
+                wrench = handed_on(self._spun[one.number], self._spun[meeting.number], positions[one.number], carried)
+                break
+        return dict(sorted({**entries, **_on_screws(wrench, screws)}.items()))
 
 
 def _on_screws(wrench: Wrench, carried_by: Mapping[int, Screw | Beside]) -> dict[int, Node]:
@@ -158,7 +157,7 @@ def columns(
     if way is None:
         return _recursive_columns(chain, names, newton_euler.motions(chain, qd, qdd), readable)
     origins = slid_origins(chain, way.slide)
-    projection = _Projection(chain, origins, way.meeting, lean_motion.own_motions(chain, origins, qd, qdd))
+    projection = _Projection(chain, origins, way.meetings, lean_motion.own_motions(chain, origins, qd, qdd))
     result: dict[str, dict[int, Node]] = {}
     for frame in chain.frames:
         j = frame.number
@@ -178,7 +177,7 @@ def _recursive_columns(
         j = frame.number
         coordinates = sorted(one.coordinate for one in frame.path() if one.coordinate is not None)
         for stem in _stems(j, names):
-            unit = {j: unit_wrench(chain.program, stem, motion[j])}
+            unit = {j: _unit_wrench(chain.program, stem, motion[j])}
             torques = newton_euler.joint_torques(chain, unit, f"{stem}{j}" if readable else None)
             result[f"{stem}{j}"] = {coordinate: torques[coordinate] for coordinate in coordinates}
     return result

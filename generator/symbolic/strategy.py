@@ -112,7 +112,7 @@ def choose(chain: Chain, matter: Mapping[int, Body], qd: Nodes, qdd: Nodes, name
     columns: _Search[RegressorStrategy] = _Search(
         chain, lambda way: _entries(chain, regressor.columns(chain, names, qd, qdd, way, readable=False))
     )
-    columns.among(RegressorStrategy(slide, j) for j in (0, *before_last(chain)) for slide in slides(chain))
+    columns.among(RegressorStrategy(slide, met) for met in (frozenset(), before_last(chain)) for slide in slides(chain))
     choices = {
         "torques": torque.choice,
         "gravity": weight.choice,

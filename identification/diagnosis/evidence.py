@@ -86,7 +86,7 @@ class Evidence:
 class Weighing:
     """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
 
-    Without any to validate each fitted run is predicted by the others. ``redrawn`` are runs, by number, with the noise
+    Without any to validate each fitted run is predicted by the others. ``noisy`` are runs, by number, with the noise
     of their positions once more.
     """
 
@@ -96,12 +96,12 @@ class Weighing:
         train: Sequence[int],
         validate: Sequence[int],
         prior: Prior | None,
-        redrawn: Mapping[int, Redrawn] | None = None,
+        noisy: Mapping[int, Redrawn] | None = None,
     ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
-        self._noisy = dict(redrawn or {})
+        self._noisy = dict(noisy or {})
         self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}

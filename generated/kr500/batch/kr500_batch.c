@@ -359,13 +359,17 @@ size_t kr500_filtered_count(const kr500_filter *filter, size_t n)
 /* Samples between what is computed and what is asked of the memory. */
 #define AHEAD (8 * TILE)
 
-/* Asks for LANES samples of a signal some way ahead: left alone, the memory is late with them. */
-INLINE void ask(const real *signal, size_t n, size_t at)
+/*
+ * Asks the memory for samples of a signal before they are needed, where samples follow one another: it is busy with the
+ * results, and late otherwise.
+ */
+INLINE void ask(const real *signal, size_t n, const size_t *at)
 {
 #if defined(__GNUC__)
-    if (at + AHEAD + LANES <= n) {
+    const size_t ahead = at[0] + AHEAD;
+    if ((at[LANES - 1] - at[0] < LANES) && (ahead + LANES <= n)) {
         for (size_t i = 0; i < NQ * LANES; i += TILE) {
-            __builtin_prefetch(&signal[((at + AHEAD) * NQ) + i]);
+            __builtin_prefetch(&signal[(ahead * NQ) + i]);
         }
     }
 #else
@@ -390,7 +394,7 @@ INLINE void gather(const real *signal, size_t n, const size_t *at, lanes x[NQ])
 #undef NUMBER
         return;
     }
-    ask(signal, n, at[LANES - 1]);
+    ask(signal, n, at);
     UNROLL
     for (size_t j = 0; j < NQ; j += LANES) {
         lanes y[LANES];
