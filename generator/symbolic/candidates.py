@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, is_last, slid_origins
 from generator.symbolic.lean_newton_euler import Strategy, is_second
-from generator.symbolic.segments import segments
+from generator.symbolic.segments import Spun, segments
 from generator.symbolic.vectors import dot
 
 #: Joints tried to keep a mass, and frames tried as the place where screws and wrenches meet, from the base.
@@ -18,9 +19,7 @@ def unspun_candidates(chain: Chain) -> list[frozenset[int]]:
     """Bodies that may gain from unspun axes: those inside a segment, on a first frame, at the tips, unions, none."""
     spun = segments(chain)
     carriers = {frame.parent.number for frame in chain.frames if frame.parent is not None and frame.has_body()}
-    inside = frozenset(
-        frame.parent.number for frame in chain.frames if spun[frame.number].continues and frame.parent is not None
-    )
+    inside = _inside(chain, spun)
     tips = frozenset(frame.number for frame in chain.frames if frame.revolute and frame.number not in carriers)
     second = frozenset(frame.number for frame in chain.frames if is_second(frame))
     return list(dict.fromkeys(near | far for far in (tips, frozenset()) for near in (frozenset(), inside, second)))
@@ -73,7 +72,8 @@ def _balances(chain: Chain, frame: Frame) -> bool:
 
 def meetings(chain: Chain) -> list[int]:
     """Last frames of the segments, from the base."""
-    return _ends(chain)[:_TRIED]
+    inside = _inside(chain, segments(chain))
+    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()][:_TRIED]
 
 
 def before_last(chain: Chain) -> frozenset[int]:
@@ -86,11 +86,9 @@ def before_last(chain: Chain) -> frozenset[int]:
     carriers = {below.number for frame in moving for below in frame.path() if below is not frame}
     tips = [frame for frame in moving if frame.number not in carriers]
     first = [next(one for one in tip.path() if not spun[one.number].continues) for tip in tips]
-    return frozenset(one.parent.number for one in first if one.parent is not None) & frozenset(_ends(chain))
+    return frozenset(one.parent.number for one in first if one.parent is not None) - _inside(chain, spun)
 
 
-def _ends(chain: Chain) -> list[int]:
-    """Last frames of the segments."""
-    spun = segments(chain)
-    inside = {f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None}
-    return [frame.number for frame in chain.frames if frame.number not in inside and frame.has_body()]
+def _inside(chain: Chain, spun: Mapping[int, Spun]) -> frozenset[int]:
+    """Frames behind which their segments go on."""
+    return frozenset(f.parent.number for f in chain.frames if spun[f.number].continues and f.parent is not None)
