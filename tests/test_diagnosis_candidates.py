@@ -15,15 +15,17 @@ import sympy
 from scipy.ndimage import binary_erosion
 
 from generator.discovery import modules
+from generator.resources import find_robot
 from generator.robot.description import EffectUse, ParameterSet, ParameterValue, Signals
 from generator.units import Quantity
 from identification.diagnosis import candidates
 from identification.diagnosis.acting import Acting
-from identification.diagnosis.addition import measured
+from identification.diagnosis.addition import Addition, measured
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.link_side import link_side
+from identification.diagnosis.repair import repaired
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
@@ -315,6 +317,20 @@ def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str],
     for effect in ("position_offset", "torque_gain"):
         (one,) = offered([locked], effect, 4)
         assert np.all(np.isfinite(one.columns(locked, {}))), effect
+
+
+def test_gains_of_other_conventions_are_possible(robots: Callable[[str], Known]) -> None:
+    """Peak current for rms, one motor of two; a robot file takes every gain that may be found."""
+    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    (one,) = offered([scene], "torque_gain", 2)
+    (error,) = one.coefficients
+    assert error.lower is not None
+    assert error.upper is not None
+    for recorded in (0.5, 2.0):
+        assert error.lower < recorded - 1 < error.upper
+    for bound in (error.lower, error.upper):
+        found = Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 1 / (1 + bound)})
+        repaired(find_robot("kr500").read_text(encoding="utf-8"), "kr500.yaml", [found])
 
 
 def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:

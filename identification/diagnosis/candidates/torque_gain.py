@@ -17,7 +17,7 @@ from identification.drive_train import supplied
 Array = NDArray[np.float64]
 
 #: Relative errors of a torque: with them ``torque_gain`` stays within what a robot file may say.
-_LEAST, _LARGEST = -0.45, 0.6
+_LEAST, _LARGEST = -0.65, 1.9
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
