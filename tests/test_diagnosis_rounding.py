@@ -9,14 +9,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from generator.errors import Place
+from generator.resources import find_robot
 from generator.robot.readers import read
 from identification import recipe as recipes
-from identification.dataset import load
+from identification.dataset import Run, load
 from identification.diagnosis.lack_of_fit import lack_of_fit
 from identification.diagnosis.noise import colours
 from identification.diagnosis.prepared import prepared
-from identification.diagnosis.rounding import rounding
+from identification.diagnosis.rounding import deviations, rounding
 from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.resolution import steps
 from tests.diagnosed import known
@@ -38,6 +41,21 @@ def test_steps_are_found_where_there_are_any() -> None:
     ratio = np.pi / 1234.5
     q = np.stack([smooth, STEP * np.round(smooth / STEP), ratio * np.round(smooth / ratio), np.zeros_like(t)])
     assert steps(q) == pytest.approx([0.0, STEP, ratio, 0.0], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["kr500", "tx40"])
+def test_motors_take_the_steps_that_coupled_joints_do_not(name: str) -> None:
+    """A wrist's joint is a sum of rounded positions, each with steps of its own."""
+    robot = read(find_robot(name))
+    t = np.arange(0, 10, 0.004)
+    q = np.stack([np.sin(0.7 * t + k) + 0.3 * np.sin(1.9 * t) for k in range(6)])
+    N = coupling(robot)
+    step = 2 * np.pi / 4096
+    rounded = np.linalg.solve(N, step * np.round(N @ q / step))
+    said = deviations(Run(name, Place(name), 0.0, 0.004, rounded, np.zeros_like(q)), robot)
+    assert steps(rounded)[5] < 0.1 * said[5]
+    np.testing.assert_allclose(said, np.std(rounded - q, axis=1), rtol=0.05)
+    assert not deviations(Run(name, Place(name), 0.0, 0.004, q, np.zeros_like(q)), robot).any()
 
 
 def recorded(folder: Path, decimals: int, periods: int) -> tuple[Any, Scene]:

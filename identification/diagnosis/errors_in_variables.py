@@ -75,9 +75,9 @@ def redrawn(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> dict[int, Redr
     """By number, the runs whose positions are not exact, each with as much noise once more."""
     result = {}
     for r, (run, scene) in enumerate(zip(runs, scenes, strict=True)):
-        q = scene.sampled.run.q
+        one = scene.sampled.run
         # Rounding is noise like any other, but where a joint is so slow that its steps hide it from differences.
-        noise = np.maximum(position_noise.deviations(q), rounding.deviations(q))
+        noise = np.maximum(position_noise.deviations(one.q), rounding.deviations(one, scene.robot))
         if noise.any():
             result[r] = Redrawn(run, scene, noise, r)
     return result

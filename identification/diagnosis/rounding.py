@@ -11,24 +11,33 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.robot.description import Robot
+from identification.dataset import Run
 from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
 from identification.resolution import steps
 
 Array = NDArray[np.float64]
 
 
-def deviations(q: Array) -> Array:
-    """Standard deviation (n) [rad, m] of what rounding to steps adds to positions (n x N) that cross many of them."""
-    return steps(q) / sqrt(12)
+def deviations(run: Run, robot: Robot) -> Array:
+    """Standard deviation (n) [rad, m] of what rounding to steps adds to a run's positions that cross many of them.
+
+    A joint that several motors turn is at a sum of their positions, which take steps where the sum takes none or finer
+    ones.
+    """
+    N = coupling(robot)
+    of_motors = np.linalg.norm(np.linalg.inv(N) * steps(N @ run.q), axis=1)
+    return np.asarray(np.maximum(steps(run.q), of_motors) / sqrt(12))
 
 
 def rounding(run: Prepared, scene: Scene, number: int = 0) -> Array:
     """Torques of rounding (n x rows) [N m, N] that the periods of a run have in common, as noise that they do not have
     would be: draw ``number`` for positions that cross many steps. Zero without steps, and where nothing repeats.
     """
-    rounded = deviations(scene.sampled.run.q) if run.times else np.zeros(1)
+    rounded = deviations(scene.sampled.run, scene.robot) if run.times else np.zeros(1)
     if not rounded.any():
         return np.zeros_like(run.tau)
     return np.asarray(sqrt(run.times) * run.decimated(torque_of(drawn(scene, rounded, number), scene)))
