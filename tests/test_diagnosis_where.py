@@ -64,6 +64,15 @@ def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, 
     assert (found.joint, found.variable) == (2, told)
 
 
+@pytest.mark.parametrize(("of_speed", "told"), [(0.1, "q"), (0.3, "qd")])
+def test_time_that_orders_a_motion_says_nothing_of_a_weight(of_speed: float, told: str) -> None:
+    """Motion that does not repeat is ordered by time, whatever makes the torque."""
+    views = view(2, "q", 0.05), view(2, "qd", of_speed), view(2, "time", 0.6)
+    found = led(Where(2, "time", "", {}, (SIGNIFICANT,), {2: views}), finding("q"))
+    assert found.variable == told
+    assert found.shares == {"q": 0.05, "qd": of_speed, "time": 0.6}
+
+
 def test_a_jump_between_two_samples_may_come_late() -> None:
     """By half a sample: a torque that jumps by 8 over two of them by 2, one that swings slowly by next to nothing."""
     period, count = 0.01, 400

@@ -100,15 +100,17 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
 def led(before: Where, first: Finding) -> Where:
     """With the joint of the leading finding, which has been told from all others, and with its variable.
 
-    Another variable that orders far more of the residual stays where means over the finding's would show it.
+    Another variable that orders far more of the residual stays where means over both would show it.
     """
     joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
     joint = first.hypothesis.joint or joints[0]
-    ordering, shares = strongest(before.views[joint])
+    mine = before.views[joint]
+    _, shares = strongest(mine)
+    ordering, shown = strongest([one for one in mine if one.variable in _SHOWN])
     variable = first.hypothesis.variable or ordering
-    if variable in _SHOWN and shares.get(variable, np.inf) < _LEADS * max(shares.values(), default=0.0):
+    if shown.get(variable, np.inf) < _LEADS * max(shown.values(), default=0.0):
         variable = ordering
-    region = _region(before.views[joint], variable)
+    region = _region(mine, variable)
     return replace(before, joint=joint, variable=variable, region=region, shares=shares)
 
 
