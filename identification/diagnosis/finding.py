@@ -32,6 +32,7 @@ _LEFT, _PULLED = 1.0, 0.15
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 #: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
+_ONE_RIPPLE = "the gear's maker: with as many periods a turn they are one torque"
 _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
     "speed",
@@ -40,9 +41,10 @@ _SEPARATING: Mapping[frozenset[str], str] = {
     "compressed, a spring does not",
     frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
     frozenset(("load_friction", "position_friction")): "the same motion with another payload",
-    frozenset(
-        ("motor_ripple", "wave_generator_ripple")
-    ): "they are one column at the same order: the gear's maker tells",
+    frozenset(("motor_ripple", "wave_generator_ripple")): _ONE_RIPPLE,
+    frozenset(("motor_ripple", "cycloid_ripple")): _ONE_RIPPLE,
+    frozenset(("cycloid_ripple", "wave_generator_ripple")): _ONE_RIPPLE,
+    frozenset(("joint_spring", "cable_spring")): "a look at where nothing pulls: beside an offset they are one torque",
 }
 
 
@@ -226,13 +228,19 @@ def _unnamed(effect: str, title: str, joints: tuple[int, ...], evidence: Evidenc
 
 def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
     one = other.variant.hypothesis
-    experiment = (
-        mine.separating.get(one.effect)
-        or one.separating.get(mine.effect)
-        or _SEPARATING.get(frozenset((mine.effect, one.effect)))
-        or (one.would_show if one.would_show else "more motion of the joint: other ranges, speeds and loads")
+    place = one.joints or (one.joint,)
+    return Alternative(one.effect, one.title, place, one.named, other.score, separating(mine, one))
+
+
+def separating(mine: Hypothesis, other: Hypothesis) -> str:
+    """The experiment that tells two effects apart, in words."""
+    return (
+        mine.separating.get(other.effect)
+        or other.separating.get(mine.effect)
+        or _SEPARATING.get(frozenset((mine.effect, other.effect)))
+        or other.would_show
+        or "more motion of the joint: other ranges, speeds and loads"
     )
-    return Alternative(one.effect, one.title, one.joints or (one.joint,), one.named, other.score, experiment)
 
 
 def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
