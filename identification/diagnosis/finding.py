@@ -31,8 +31,9 @@ _VAGUE = 0.5
 _LEFT, _PULLED = 1.0, 0.15
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
-#: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
+#: What tells ripples apart, whatever turns with them.
 _ONE_RIPPLE = "the gear's maker: with as many periods a turn they are one torque"
+#: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
 _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
     "speed",
