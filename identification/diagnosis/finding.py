@@ -14,7 +14,7 @@ from identification.diagnosis.evidence import BALANCERS, SPRINGS, Evidence, Key,
 from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice
-from identification.diagnosis.shape_uncertainty import deviations
+from identification.diagnosis.shape_uncertainty import apart, deviations
 from identification.diagnosis.whole_orders import UNSURE
 from identification.outcome import Value
 
@@ -168,6 +168,7 @@ def findings(
         values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
+        values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
         result.append(
             Finding(
                 hypothesis,
@@ -178,7 +179,7 @@ def findings(
                 one.evidence,
                 alternatives,
                 _amplitude(found, one, solution[at]),
-                shape_std.get(id(one), {}),
+                of_shape,
                 disagreements.get(key_of(variant), ""),
             )
         )

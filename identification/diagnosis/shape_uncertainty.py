@@ -1,15 +1,22 @@
-"""Uncertainty of coefficients when the shapes are uncertain too: shapes become columns, by how the torque changes."""
+"""Uncertainty of coefficients when the shapes are uncertain too: shapes become columns, by how the torque changes.
+
+It knows the noise, not what is wrong in the torque of a shape; two values that should be one tell of that.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import log
 
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import inverse
 from identification.diagnosis.refinement import neighbour
+from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
@@ -57,3 +64,19 @@ def deviations(
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
     return std[: len(chosen)], shapes
+
+
+def apart(
+    hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
+) -> tuple[dict[str, Value], dict[str, float]]:
+    """Coefficients, and standard deviations of the ``shape``, of which those that are told twice are as uncertain as
+    the two are apart, at least.
+    """
+    coefficients, deviation = dict(values), dict(std)
+    for name, (other, power) in hypothesis.twice.items():
+        one = coefficients[name]
+        if one.value and one.value > 0 and other in deviation:
+            part = abs(log(one.value) - power * log(shape[other]))
+            coefficients[name] = replace(one, std=max(one.std or 0.0, part * one.value))
+            deviation[other] = max(deviation[other], part * shape[other])
+    return coefficients, deviation

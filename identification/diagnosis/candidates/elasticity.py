@@ -50,6 +50,7 @@ def _hypothesis(joint: Joint, side: LinkSide) -> Hypothesis:
     found = alike([side], [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
     starts = {(stiffness, damping) for _, stiffness, damping, _ in found} | {(high, found[0][2])}
+    told = rotor_is_told(side.scene, side.k)
     return Hypothesis(
         "joint_elasticity",
         "elasticity of the drive train",
@@ -74,7 +75,8 @@ def _hypothesis(joint: Joint, side: LinkSide) -> Hypothesis:
             "fourth power",
         },
         tries=_STEPS * _DAMPINGS,
-        agrees=_agrees if rotor_is_told(side.scene, side.k) else None,
+        agrees=_agrees if told else None,
+        twice={f"compliance{joint.number}": ("k", -1)} if told else {},
         starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
     )
 

@@ -1,0 +1,41 @@
+"""Values that runs tell twice, by the size of a torque and by its form: no surer than they agree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.shape_uncertainty import apart
+from identification.outcome import Value
+
+
+def told(value: float, twice: Mapping[str, tuple[str, int]]) -> tuple[dict[str, Value], dict[str, float]]:
+    """Of a compliance of ``value`` and a stiffness of 1000, both known to a part in a thousand by the noise alone."""
+    one = Hypothesis(
+        "x", "x", 1, (Coefficient("compliance1", "rad/(N m)"),), lambda *_: np.zeros((1, 1, 1)), twice=twice
+    )
+    values = {"compliance1": Value(value, 1e-3 * value, "rad/(N m)")}
+    return apart(one, values, {"k": 1000.0, "damping": 0.1}, {"k": 1.0, "damping": 0.01})
+
+
+def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
+    values, shape = told(1.02e-3, {"compliance1": ("k", -1)})
+    assert values["compliance1"].value == 1.02e-3
+    assert values["compliance1"].std == pytest.approx(0.02 * 1.02e-3, rel=0.02)
+    assert shape == {"k": pytest.approx(20.0, rel=0.02), "damping": 0.01}
+
+
+def test_where_both_agree_the_noise_decides() -> None:
+    values, shape = told(1.0001e-3, {"compliance1": ("k", -1)})
+    assert values["compliance1"].std == pytest.approx(1.0001e-6)
+    assert shape == {"k": 1.0, "damping": 0.01}
+
+
+@pytest.mark.parametrize(("value", "twice"), [(1.02e-3, {}), (0.0, {"compliance1": ("k", -1)})])
+def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[str, tuple[str, int]]) -> None:
+    values, shape = told(value, twice)
+    assert values["compliance1"].std == pytest.approx(1e-3 * value)
+    assert shape == {"k": 1.0, "damping": 0.01}
