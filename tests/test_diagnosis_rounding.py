@@ -56,6 +56,8 @@ def test_motors_take_the_steps_that_coupled_joints_do_not(name: str) -> None:
     assert steps(rounded)[5] < 0.1 * said[5]
     np.testing.assert_allclose(said, np.std(rounded - q, axis=1), rtol=0.05)
     assert not deviations(Run(name, Place(name), 0.0, 0.004, q, np.zeros_like(q)), robot).any()
+    logged = Run(name, Place(name), 0.0, 0.004, np.round(q, 4), np.zeros_like(q))
+    np.testing.assert_allclose(deviations(logged, robot), np.std(logged.q - q, axis=1), rtol=0.05)
 
 
 def recorded(folder: Path, decimals: int, periods: int) -> tuple[Any, Scene]:

@@ -12,13 +12,17 @@ from identification.diagnosis.shape_uncertainty import apart
 from identification.outcome import Value
 
 
-def told(value: float, twice: Mapping[str, tuple[str, int]]) -> tuple[dict[str, Value], dict[str, float]]:
-    """Of a compliance of ``value`` and a stiffness of 1000, both known to a part in a thousand by the noise alone."""
+def told(
+    value: float, twice: Mapping[str, tuple[str, int]], vague: float = 1.0
+) -> tuple[dict[str, Value], dict[str, float]]:
+    """Of a compliance of ``value`` and a stiffness of 1000, both known to a part in a thousand by the noise alone, or
+    the stiffness to ``vague``.
+    """
     one = Hypothesis(
         "x", "x", 1, (Coefficient("compliance1", "rad/(N m)"),), lambda *_: np.zeros((1, 1, 1)), twice=twice
     )
     values = {"compliance1": Value(value, 1e-3 * value, "rad/(N m)")}
-    return apart(one, values, {"k": 1000.0, "damping": 0.1}, {"k": 1.0, "damping": 0.01})
+    return apart(one, values, {"k": 1000.0, "damping": 0.1}, {"k": vague, "damping": 0.01})
 
 
 def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
@@ -32,6 +36,13 @@ def test_where_both_agree_the_noise_decides() -> None:
     values, shape = told(1.0001e-3, {"compliance1": ("k", -1)})
     assert values["compliance1"].std == pytest.approx(1.0001e-6)
     assert shape == {"k": 1.0, "damping": 0.01}
+
+
+def test_what_is_known_well_stays_beside_what_is_not() -> None:
+    for vague in (30.0, np.inf):
+        values, shape = told(1.02e-3, {"compliance1": ("k", -1)}, vague)
+        assert values["compliance1"].std == pytest.approx(1.02e-6)
+        assert shape["k"] == vague
 
 
 @pytest.mark.parametrize(("value", "twice"), [(1.02e-3, {}), (0.0, {"compliance1": ("k", -1)})])

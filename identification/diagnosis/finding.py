@@ -31,8 +31,9 @@ _VAGUE = 0.5
 _LEFT, _PULLED = 1.0, 0.15
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
-#: What tells ripples apart, whatever turns with them.
+#: What tells ripples apart, of which those of motors turn with another joint's as well in a coupled wrist.
 _ONE_RIPPLE = "the gear's maker: with as many periods a turn they are one torque"
+_OF_JOINT = f"{_ONE_RIPPLE}, but for a coupled wrist's"
 #: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
 _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
@@ -43,9 +44,10 @@ _SEPARATING: Mapping[frozenset[str], str] = {
     frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
     frozenset(("load_friction", "position_friction")): "the same motion with another payload",
     frozenset(("motor_ripple", "wave_generator_ripple")): _ONE_RIPPLE,
-    frozenset(("motor_ripple", "cycloid_ripple")): _ONE_RIPPLE,
-    frozenset(("cycloid_ripple", "wave_generator_ripple")): _ONE_RIPPLE,
-    frozenset(("joint_spring", "cable_spring")): "a look at where nothing pulls: beside an offset they are one torque",
+    frozenset(("motor_ripple", "cycloid_ripple")): _OF_JOINT,
+    frozenset(("cycloid_ripple", "wave_generator_ripple")): _OF_JOINT,
+    frozenset(("joint_spring", "cable_spring")): "a look at where nothing pulls: beside an offset they are one torque, "
+    "but for a hose that hardens",
 }
 
 

@@ -108,9 +108,9 @@ class Hypothesis:
     there is nothing to search, and the columns are zero. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
-    coefficients in use and a shape, which tell the same twice, may be of one thing: ``twice`` says of such a
-    coefficient by name which shape value, to which power, it should be. ``usual`` is false of a balancer on a joint on
-    which robots have none.
+    coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
+    coefficient by name which shape value, to which power, is the same by another way. ``usual`` is false of a balancer
+    on a joint on which robots have none.
     """
 
     effect: str

@@ -21,16 +21,20 @@ from identification.resolution import steps
 
 Array = NDArray[np.float64]
 
+#: Part of what the motors' steps make of a joint below which its own steps are those of a sum.
+_FINER = 0.5
+
 
 def deviations(run: Run, robot: Robot) -> Array:
     """Standard deviation (n) [rad, m] of what rounding to steps adds to a run's positions that cross many of them.
 
-    A joint that several motors turn is at a sum of their positions, which take steps where the sum takes none or finer
-    ones.
+    A joint that several motors turn is at a sum of their positions, which take steps where the sum takes none or far
+    finer ones.
     """
     N = coupling(robot)
-    of_motors = np.linalg.norm(np.linalg.inv(N) * steps(N @ run.q), axis=1)
-    return np.asarray(np.maximum(steps(run.q), of_motors) / sqrt(12))
+    of_joints, of_motors = steps(run.q), np.linalg.norm(np.linalg.inv(N) * steps(N @ run.q), axis=1)
+    # Where joints are rounded themselves their sums take steps too.
+    return np.asarray(np.where(of_joints > _FINER * of_motors, of_joints, of_motors) / sqrt(12))
 
 
 def rounding(run: Prepared, scene: Scene, number: int = 0) -> Array:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import log
+from math import hypot, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,13 +70,15 @@ def apart(
     hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
 ) -> tuple[dict[str, Value], dict[str, float]]:
     """Coefficients, and standard deviations of the ``shape``, of which those that are told twice are as uncertain as
-    the two are apart, at least.
+    the two are apart, at least, where that is more than both deviations explain.
     """
     coefficients, deviation = dict(values), dict(std)
     for name, (other, power) in hypothesis.twice.items():
         one = coefficients[name]
         if one.value and one.value > 0 and other in deviation:
             part = abs(log(one.value) - power * log(shape[other]))
-            coefficients[name] = replace(one, std=max(one.std or 0.0, part * one.value))
+            if part <= hypot(one.std / one.value, deviation[other] / shape[other]):
+                continue
+            coefficients[name] = replace(one, std=max(one.std, part * one.value))
             deviation[other] = max(deviation[other], part * shape[other])
     return coefficients, deviation

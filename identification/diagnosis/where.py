@@ -106,9 +106,9 @@ def led(before: Where, first: Finding) -> Where:
     joint = first.hypothesis.joint or joints[0]
     mine = before.views[joint]
     _, shares = strongest(mine)
-    ordering, shown = strongest([one for one in mine if one.variable in _SHOWN])
+    ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
     variable = first.hypothesis.variable or ordering
-    if shown.get(variable, np.inf) < _LEADS * max(shown.values(), default=0.0):
+    if of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
     region = _region(mine, variable)
     return replace(before, joint=joint, variable=variable, region=region, shares=shares)

@@ -14,7 +14,7 @@ from generator.robot.document import Entry, Items, Node
 #: A value beyond this is a mistake of its unit: no drive answers so late, and rms for peak current, or one motor of
 #: two, makes less of a difference.
 _LONGEST_DELAY = sympy.Rational(1, 10)
-_LARGEST_GAIN = 3
+_LEAST_GAIN, _LARGEST_GAIN = sympy.Rational(3, 10), 3
 
 Check = Callable[[Place, str, sympy.Expr], None]
 
@@ -23,7 +23,7 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
 
     Raises InputError for another number of values, another unit, a delay over 0.1 s, one of link-side positions that is
-    negative, a gain that is not between 1/3 and 3, a limit, time or rise that is not positive.
+    negative, a gain that is not between 0.3 and 3, a limit, time or rise that is not positive.
     """
     if entry is None:
         return Signals()
@@ -61,8 +61,8 @@ def _any(place: Place, what: str, value: sympy.Expr) -> None:
 
 
 def _gain(place: Place, what: str, value: sympy.Expr) -> None:
-    if not sympy.Rational(1, _LARGEST_GAIN) <= value <= _LARGEST_GAIN:
-        raise InputError(place, f"{what} is {float(value):g}", "a factor from 1/3 to 3")
+    if not _LEAST_GAIN <= value <= _LARGEST_GAIN:
+        raise InputError(place, f"{what} is {float(value):g}", "a factor from 0.3 to 3")
 
 
 def _either_way(place: Place, what: str, value: sympy.Expr) -> None:

@@ -84,7 +84,7 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
-        twice={f"gap{joint.number}": ("gap", 1)},
+        twice={f"gap{joint.number}": ("gap", 1)} if rotor or rotor_is_told(side.scene, side.k) else {},
         starts=tuple(
             {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
             for inertia, stiffness, damping, gap in found
