@@ -244,6 +244,13 @@ def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(
         ),
         ("MX1: 3 kg m", "MX1: 3 kg", ":14:7: MX1 is given in kg, expected kg m"),
         ("MX1: 3 kg m", "MX3: 3 kg m", ":14:7: the robot has no parameter 'MX3', expected perhaps 'MX1'"),
+        (
+            "MX1: 3 kg m",
+            "Fst1: 3 N m",
+            ":14:7: the robot has no parameter 'Fst1', expected the effect stribeck_friction on joint 1",
+        ),
+        ("MX1: 3 kg m", "k1: 3 N m/rad", ":14:7: the robot has no parameter 'k1', expected joint 1 among flexible"),
+        ("MX1: 3 kg m", "Fvm1: 3 N m s/rad", ":14:7: the robot has no parameter 'Fvm1', expected joint 1 among flex"),
     ],
 )
 def test_bad_input_leaves_nothing_behind(

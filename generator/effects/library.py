@@ -161,6 +161,21 @@ def motor_side(robot: Robot) -> tuple[Instance, ...]:
     return tuple(sides)
 
 
+def lacking(robot: Robot, name: str) -> str | None:
+    """What the robot's file would have to say for a parameter ``name`` to be there, None where no effect has it."""
+    for joint in robot.moving:
+        stem, rigid = name.removesuffix(str(joint.number)), joint.number not in robot.flexible
+        for effect in library().values():
+            stems = {parameter.stem for parameter in effect.parameters}
+            elastic = "qe" in effect.needs
+            of_motor = stems if elastic else {f"{one}m" for one in stems}
+            if effect.drive_train and rigid and stem in of_motor:
+                return f"joint {joint.number} among flexible"
+            if stem in stems and not elastic:
+                return f"the effect {effect.id} on joint {joint.number}"
+    return None
+
+
 def _motor_values(robot: Robot, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:
     """The values of a drive train's effect: those that the file gives on the joint, else the defaults."""
     uses = [use for use in robot.effects if use.effect == effect.id and joint.number in use.joints]

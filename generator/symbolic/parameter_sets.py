@@ -8,6 +8,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from generator.effects.library import lacking
 from generator.errors import InputError
 from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
@@ -63,7 +64,7 @@ def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
     base = {parameter.name: parameter for parameter in model.all_parameters}
     standard = {parameter.name: parameter for parameter in model.standard_parameters}
     for name, value in values.items():
-        _check(name, value, standard | base)
+        _check(model, name, value, standard | base)
     base_only = [name for name in values if name not in standard and name in model.grouping.numbers]
     standard_only = [name for name in values if name not in base]
     if base_only and standard_only:
@@ -75,9 +76,10 @@ def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
     return base_only, standard_only
 
 
-def _check(name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> None:
+def _check(model: Model, name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> None:
     if name not in known:
-        raise InputError(value.place, f"the robot has no parameter {name!r}", nearest(name, known))
+        expected = lacking(model.robot, name) or nearest(name, known)
+        raise InputError(value.place, f"the robot has no parameter {name!r}", expected)
     if value.unit not in (UNSTATED, known[name].unit):
         raise InputError(value.place, f"{name} is given in {value.unit}", known[name].unit)
 

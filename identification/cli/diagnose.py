@@ -10,6 +10,7 @@ report.html, the new robot file and the code generated from it.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,7 @@ from identification.extras import needing
 if TYPE_CHECKING:
     from identification.diagnosis.diagnosis import Diagnosis
     from identification.diagnosis.finding import Told
+    from identification.diagnosis.hypothesis import Hypothesis
     from identification.diagnosis.mending import Mended
     from identification.diagnosis.where import Where
 
@@ -87,7 +89,17 @@ def summary(found: Diagnosis) -> list[str]:
             lines.append(f"                 {text}")
     if found.after.joint:
         lines.append(f"unexplained      {_place(found.after)}")
+    if found.invisible:
+        lines.append(f"cannot be told   {_listed(found.invisible)}; the report says what would show them")
     return lines
+
+
+def _listed(hypotheses: Sequence[Hypothesis]) -> str:
+    """``payload [1, 2, 3], position_offset [1, 3]``."""
+    joints: dict[str, list[int]] = {}
+    for one in hypotheses:
+        joints.setdefault(one.effect, []).extend(number for number in one.joints or (one.joint,) if number)
+    return ", ".join(f"{effect} {sorted(set(numbers)) or 'of the robot'}" for effect, numbers in joints.items())
 
 
 def _value(one: Told) -> str:
