@@ -22,7 +22,7 @@ EFFECT = Effect(
     title="presliding friction by LuGre",
     parameters=(
         LinearParameter("Fz", ("N m", "N"), "Coulomb friction that fast sliding ends at", 0.0),
-        LinearParameter("Dz", ("N m s/rad", "N s/m"), "damping of the bristles", 0.0),
+        LinearParameter("Dz", ("N m s/rad", "N s/m"), "damping of the bristles", 0.0, refines=True),
     ),
     columns=_columns,
     shapes=(

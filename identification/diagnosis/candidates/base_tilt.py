@@ -55,7 +55,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             "tilt of the base",
             0,
             (
-                *(Coefficient(f"tilt_{axis}", "rad", -_LARGEST, _LARGEST) for axis in weights),
+                *(Coefficient(f"tilt_{axis}", "rad", -_LARGEST, _LARGEST, essential=True) for axis in weights),
                 *(Coefficient(f"{name}_tilt_{axis}", f"{standard[name]} rad") for name, axis in hidden),
             ),
             columns,
