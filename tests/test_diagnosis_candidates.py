@@ -41,6 +41,7 @@ MODULES = {
     "joint_elasticity": "elasticity",
     "warm_friction": "library",
     "load_friction": "library",
+    "lugre_friction": "library",
 }
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
@@ -121,6 +122,20 @@ def test_columns_are_what_the_law_adds(case: str, robots: Callable[[str], Known]
         assert coefficient.upper is None or value <= coefficient.upper
 
 
+def test_what_the_first_joint_alone_shows_is_no_tilt(robots: Callable[[str], Known]) -> None:
+    told = []
+    for effect in (Effect("soft_stop", 1, 3.0), Effect("base_tilt", 1, 0.02)):
+        scene, truth, kept = played(robots(SCARA), effect, WAY)
+        (tilt,) = offered([scene], "base_tilt", 0)
+        columns = tilt.columns(scene, {})
+        assert [one.name for one in tilt.coefficients if one.essential] == ["tilt_x", "tilt_y"]
+        products = [k for k, one in enumerate(tilt.coefficients) if not one.essential]
+        told.append([fitted(one, truth, kept, scene)[1] for one in (columns, columns[products])])
+    (stop, of_products), (lean, less) = told
+    assert stop > 0.7
+    assert stop - of_products < 0.1 * (lean - less)
+
+
 #: Robot, law, joint, size; the candidate, its joint, the coefficient and what the size is of it.
 LARGE: Mapping[str, tuple[str, Effect, str, int, str, float]] = {
     "encoder": (HEAVY, Effect("encoder_offset", 3, 0.2), "position_offset", 3, "position_offset3", -0.2),
@@ -183,6 +198,12 @@ def test_what_sits_on_the_drive_loads_no_transmission(robots: Callable[[str], Kn
         acted = replace(scene, beside=acting)
         assert acted.torque - scene.torque == pytest.approx(5.0)
         assert acted.load - scene.load == pytest.approx(load)
+
+
+def test_friction_by_bristles_needs_no_damping_of_theirs(robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(robots(HEAVY), Effect("presliding_lugre", 2, 50.0), WAY)
+    (lugre,) = offered([scene], "lugre_friction", 2)
+    assert {one.name: one.refines for one in lugre.coefficients} == {"Fz2": False, "Dz2": True}
 
 
 def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> None:

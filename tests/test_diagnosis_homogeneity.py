@@ -50,6 +50,10 @@ def test_what_grows_in_every_run_is_told() -> None:
     assert disagreements(found(SAME * [0.4, 1.0, 1.6])) == {("right", 1): ALONG}
 
 
+def test_a_beginning_and_an_end_that_differ_are_told_where_neither_is_far_from_the_mean() -> None:
+    assert disagreements(found(0.36 * SAME * [0.3, 1.0, 1.7])) == {("right", 1): ALONG}
+
+
 def test_where_nothing_repeats_only_runs_are_compared() -> None:
     assert disagreements(found(SAME * [0.4, 1.0, 1.6], repeats=False)) == {}
 

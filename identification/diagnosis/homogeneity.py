@@ -46,7 +46,7 @@ def _disagreement(runs: Sequence[Array]) -> str:
 
 
 def _agree(parts: Array) -> bool:
-    """Whether no part's amplitude is off the mean by more than chance and what laws wander.
+    """Whether no part's amplitude is off the mean, and none off another, by more than chance and what laws wander.
 
     ``parts`` (P x 2) hold the power of an effect and its product with what is left, both white: the amplitude is one
     and the product over the power, with a variance of one over the power.
@@ -54,8 +54,12 @@ def _agree(parts: Array) -> bool:
     power, product = parts[parts[:, 0] > _TOLD].T
     if len(power) < 2:
         return True
-    off = np.abs(product / power - product.sum() / power.sum())
-    return bool(np.all(off < _CHANCE / np.sqrt(power) + _WANDERS))
+    amplitude, variance = product / power, 1 / power
+    off = np.abs(amplitude - product.sum() / power.sum())
+    apart = np.abs(np.subtract.outer(amplitude, amplitude))
+    one = off < _CHANCE * np.sqrt(variance) + _WANDERS
+    two = apart < _CHANCE * np.sqrt(np.add.outer(variance, variance)) + 2 * _WANDERS
+    return bool(one.all() and two.all())
 
 
 def _periods(bank: Bank, r: int, variant: Variant, weights: Mapping[int, float]) -> Array:
