@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -15,7 +15,9 @@ from generator.resources import robots
 from generator.robot.readers import read
 from identification.simulation.machine import Machine, compiled
 from tests.chains import every_effect, random_robot
+from tests.diagnosed import Known, known
 from tests.elastic_links import robot_text
+from tests.plant.robots import ROBOTS
 from tests.subject import Subject, subject
 
 FILES = {path.stem: path for path in robots()}
@@ -67,6 +69,13 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("elastic_links") / "two_links.yaml"
     path.write_text(robot_text())
     return path
+
+
+@pytest.fixture(scope="session")
+def known_robots(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Known]:
+    """Simulated robots by name, each beside its model."""
+    folder = tmp_path_factory.mktemp("known_robots")
+    return cache(lambda name: known(ROBOTS[name], folder))
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,10 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.discovery import modules
 from generator.errors import Place
 from generator.robot.description import Robot as Described
 from generator.robot.readers import read
 from identification.dataset import Run as Recorded
+from identification.diagnosis import candidates
+from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.scene import Scene
 from identification.filtering import decimated, flat_derivative, kept_indices
 from identification.observation import Regressors
@@ -31,6 +35,14 @@ from tests.plant.trajectory import Trajectory
 CLEAN = Sensors(noise=0.0, quantised=False)
 #: Cut-off of the motion's filter [Hz], decimation of its rows, and speed below which a joint stands, in its rms.
 CUTOFF, FACTOR, SLOW = 50.0, 10, 0.04
+#: Where a candidate stands that is not called as its module.
+_MODULES = {
+    "coupled_rotor": "wrist",
+    "joint_elasticity": "elasticity",
+    "warm_friction": "library",
+    "load_friction": "library",
+    "lugre_friction": "library",
+}
 
 
 @dataclass(frozen=True)
@@ -84,6 +96,13 @@ def played(
     standing = speed < SLOW * np.sqrt(np.mean(speed**2, axis=1, keepdims=True))
     windows = np.apply_along_axis(np.convolve, 1, standing.astype(float), np.ones(2 * FACTOR + 1), "same")
     return scene, truth, windows[:, kept_indices(scene.motion.samples, FACTOR)] < 0.5
+
+
+def offered(scenes: Sequence[Scene], effect: str, joint: int) -> list[Hypothesis]:
+    """What the modules but the library's offer, without looking for swings where they are not asked for."""
+    own = [module for module in modules(candidates) if module.__name__.endswith(f".{_MODULES.get(effect, effect)}")]
+    found = [one for module in own for one in module.hypotheses(scenes)]
+    return [one for one in found if one.effect == effect and one.joint == joint]
 
 
 def rows(x: Array) -> Array:

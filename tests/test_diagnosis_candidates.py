@@ -2,62 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
 from math import cos, sin
-from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy
 from scipy.ndimage import binary_erosion
 
-from generator.discovery import modules
 from generator.resources import find_robot
-from generator.robot.description import EffectUse, ParameterSet, ParameterValue, Signals
-from generator.units import Quantity
-from identification.diagnosis import candidates
+from generator.robot.description import EffectUse, Signals
 from identification.diagnosis.acting import Acting
-from identification.diagnosis.addition import Addition, measured
+from identification.diagnosis.addition import Addition
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.link_side import link_side
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
-from tests.diagnosed import CLEAN, Known, fitted, known, played, rows, with_robot
+from tests.diagnosed import CLEAN, Known, fitted, offered, played, rows, with_robot
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
-from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
 
-#: Where a candidate stands that is not called as its module.
-MODULES = {
-    "coupled_rotor": "wrist",
-    "joint_elasticity": "elasticity",
-    "warm_friction": "library",
-    "load_friction": "library",
-    "lugre_friction": "library",
-}
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
 WAY = fourier(1, period=10.0, periods=1, before=2.0)
-
-
-@pytest.fixture(scope="module")
-def robots(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Known]:
-    folder: Path = tmp_path_factory.mktemp("robots")
-    return cache(lambda name: known(ROBOTS[name], folder))
-
-
-def offered(scenes: Sequence[Scene], effect: str, joint: int) -> list[Hypothesis]:
-    """What the modules but the library's offer, without looking for swings where they are not asked for."""
-    own = [module for module in modules(candidates) if module.__name__.endswith(f".{MODULES.get(effect, effect)}")]
-    found = [one for module in own for one in module.hypotheses(scenes)]
-    return [one for one in found if one.effect == effect and one.joint == joint]
 
 
 #: Robot, law, joint, size; the candidate, its joint, and the coefficients that the law's size is.
@@ -105,9 +77,9 @@ LINEAR: Mapping[str, tuple[str, Effect, str, int, Mapping[str, float]]] = {
 
 
 @pytest.mark.parametrize("case", LINEAR)
-def test_columns_are_what_the_law_adds(case: str, robots: Callable[[str], Known]) -> None:
+def test_columns_are_what_the_law_adds(case: str, known_robots: Callable[[str], Known]) -> None:
     name, effect, candidate, joint, expected = LINEAR[case]
-    scene, truth, kept = played(robots(name), effect, WAY)
+    scene, truth, kept = played(known_robots(name), effect, WAY)
     (hypothesis,) = [
         one for one in offered([scene], candidate, joint) if one.given.get("ratio", 1.0) == pytest.approx(1.0)
     ]
@@ -122,10 +94,10 @@ def test_columns_are_what_the_law_adds(case: str, robots: Callable[[str], Known]
         assert coefficient.upper is None or value <= coefficient.upper
 
 
-def test_what_the_first_joint_alone_shows_is_no_tilt(robots: Callable[[str], Known]) -> None:
+def test_what_the_first_joint_alone_shows_is_no_tilt(known_robots: Callable[[str], Known]) -> None:
     told = []
     for effect in (Effect("soft_stop", 1, 3.0), Effect("base_tilt", 1, 0.02)):
-        scene, truth, kept = played(robots(SCARA), effect, WAY)
+        scene, truth, kept = played(known_robots(SCARA), effect, WAY)
         (tilt,) = offered([scene], "base_tilt", 0)
         columns = tilt.columns(scene, {})
         assert [one.name for one in tilt.coefficients if one.essential] == ["tilt_x", "tilt_y"]
@@ -157,9 +129,9 @@ class Found:
 
 
 @pytest.mark.parametrize("case", LARGE)
-def test_what_is_large_is_exact_about_what_was_found(case: str, robots: Callable[[str], Known]) -> None:
+def test_what_is_large_is_exact_about_what_was_found(case: str, known_robots: Callable[[str], Known]) -> None:
     name, effect, candidate, joint, key, value = LARGE[case]
-    scene, truth, kept = played(robots(name), effect, WAY)
+    scene, truth, kept = played(known_robots(name), effect, WAY)
     # A joint of a late log stands in other rows than the logged one.
     kept = binary_erosion(kept, np.ones((1, 5)))
     (hypothesis,) = offered([scene], candidate, joint)
@@ -173,9 +145,9 @@ def test_what_is_large_is_exact_about_what_was_found(case: str, robots: Callable
     assert 1 - second < 0.3 * (1 - first)
 
 
-def test_effects_that_were_found_act_in_what_depends_on_the_torque(robots: Callable[[str], Known]) -> None:
+def test_effects_that_were_found_act_in_what_depends_on_the_torque(known_robots: Callable[[str], Known]) -> None:
     """A payload loads the transmissions, and is late as the rest of the torque is."""
-    scene, truth, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
+    scene, truth, _ = played(known_robots(HEAVY), Effect("payload", 1, 30.0), WAY)
     (payload,) = offered([scene], "payload", 0)
     acts = [j for j in range(6) if np.abs(payload.columns(scene, {})[:, j]).any()]
     every = tuple(range(len(payload.coefficients)))
@@ -187,8 +159,8 @@ def test_effects_that_were_found_act_in_what_depends_on_the_torque(robots: Calla
     assert loaded.load - scene.load == pytest.approx(x @ payload.columns(scene, {}).transpose(1, 0, 2))
 
 
-def test_what_sits_on_the_drive_loads_no_transmission(robots: Callable[[str], Known]) -> None:
-    scene, _, _ = played(robots(HEAVY), Effect("payload", 1, 30.0), WAY)
+def test_what_sits_on_the_drive_loads_no_transmission(known_robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(known_robots(HEAVY), Effect("payload", 1, 30.0), WAY)
     drive, link = (
         Hypothesis(name, name, 2, (Coefficient("c", "N m"),), lambda scene, shape: np.ones((1, *scene.motion.q.shape)))
         for name in ("viscous_friction", "cable_spring")
@@ -200,16 +172,16 @@ def test_what_sits_on_the_drive_loads_no_transmission(robots: Callable[[str], Kn
         assert acted.load - scene.load == pytest.approx(load)
 
 
-def test_friction_by_bristles_needs_no_damping_of_theirs(robots: Callable[[str], Known]) -> None:
-    scene, _, _ = played(robots(HEAVY), Effect("presliding_lugre", 2, 50.0), WAY)
+def test_friction_by_bristles_needs_no_damping_of_theirs(known_robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(known_robots(HEAVY), Effect("presliding_lugre", 2, 50.0), WAY)
     (lugre,) = offered([scene], "lugre_friction", 2)
     assert {one.name: one.refines for one in lugre.coefficients} == {"Fz2": False, "Dz2": True}
 
 
-def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> None:
+def test_a_torque_constant_drifts_with_time(known_robots: Callable[[str], Known]) -> None:
     """The plant's winding is heated by the current and so does not warm up by an exponential alone."""
     effect = Effect("torque_constant_drift", 2, 0.1)
-    scene, truth, kept = played(robots(HEAVY), effect, fourier(1, period=10.0, periods=4, before=0.0))
+    scene, truth, kept = played(known_robots(HEAVY), effect, fourier(1, period=10.0, periods=4, before=0.0))
     (hypothesis,) = offered([scene], "torque_drift", 2)
     tried = [fitted(hypothesis.columns(scene, shape), truth, kept, scene) for shape in hypothesis.variants]
     (drift, start), likeness = max(tried, key=lambda one: one[1])
@@ -218,10 +190,10 @@ def test_a_torque_constant_drifts_with_time(robots: Callable[[str], Known]) -> N
     assert abs(start) < 0.2 * abs(drift)
 
 
-def test_drift_by_a_temperature(robots: Callable[[str], Known]) -> None:
+def test_drift_by_a_temperature(known_robots: Callable[[str], Known]) -> None:
     """Where the run has one the candidate is offered with it, by its rise since the recording began, 1 at the end."""
     sensors = replace(CLEAN, temperature=True)
-    scene, _, _ = played(robots(SCARA), Effect("torque_constant_drift", 1, 0.1), WAY, sensors)
+    scene, _, _ = played(known_robots(SCARA), Effect("torque_constant_drift", 1, 0.1), WAY, sensors)
     by_time, by_temperature = offered([scene], "torque_drift", 1)
     assert "warm_up_time" in {shape.name for shape in by_time.shapes}
     (shape,) = by_temperature.variants
@@ -232,9 +204,9 @@ def test_drift_by_a_temperature(robots: Callable[[str], Known]) -> None:
     assert rise.max() == pytest.approx(shape["warm_rise"])
 
 
-def test_a_drive_is_as_warm_as_its_recording_has_made_it(robots: Callable[[str], Known]) -> None:
+def test_a_drive_is_as_warm_as_its_recording_has_made_it(known_robots: Callable[[str], Known]) -> None:
     """A part of a long recording goes on where the one before it ended, whatever the clock begins with."""
-    first, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+    first, _, _ = played(known_robots(SCARA), Effect("offset", 1, 0.0), WAY)
     run = first.sampled.run
     part = replace(run, start=1e6 + 20.0, began={"t": 1e6})
     later = replace(first, sampled=replace(first.sampled, run=part))
@@ -251,8 +223,8 @@ def test_a_drive_is_as_warm_as_its_recording_has_made_it(robots: Callable[[str],
     assert not offered([later], "warm_friction", 1)
 
 
-def test_the_files_word_on_the_warmth_counts(robots: Callable[[str], Known]) -> None:
-    scene, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
+def test_the_files_word_on_the_warmth_counts(known_robots: Callable[[str], Known]) -> None:
+    scene, _, _ = played(known_robots(SCARA), Effect("offset", 1, 0.0), WAY)
     told = np.linspace(0.1, 0.6, scene.motion.samples) * np.ones((scene.motion.q.shape[0], 1))
     stated = replace(scene, sampled=replace(scene.sampled, motion=replace(scene.motion, warmth=told)))
     (friction,), (drift,) = offered([stated], "warm_friction", 1), offered([stated], "torque_drift", 1)
@@ -263,8 +235,8 @@ def test_the_files_word_on_the_warmth_counts(robots: Callable[[str], Known]) -> 
 
 
 @pytest.mark.parametrize(("name", "effect"), [(SMALL, Effect("current_saturation", 1, 0.7))])
-def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, robots: Callable[[str], Known]) -> None:
-    robot = robots(name)
+def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, known_robots: Callable[[str], Known]) -> None:
+    robot = known_robots(name)
     scene, truth, kept = played(robot, effect, WAY)
     (hypothesis,) = offered([scene], "current_limit", effect.joint)
     limit = robot.robot.chain[effect.joint - 1].peak * (1 - effect.amount(robot.robot))
@@ -277,56 +249,9 @@ def test_current_beyond_a_limit_is_missing(name: str, effect: Effect, robots: Ca
     assert max(tried) > 0.97
 
 
-def drive_train(name: str, effect: Effect, scene: Scene, stiffness: float) -> dict[str, float]:
-    """The plant's own drive train: it damps by the motor's inertia, the candidate by the link's."""
-    rotor = ROBOTS[name].chain[effect.joint - 1].rotor
-    inertia = float(link_side(scene, effect.joint - 1, rotor).inertia.mean())
-    damping = effect.value("damping_ratio", ROBOTS[name]) * np.sqrt(rotor / inertia)
-    return {"Iam": rotor, "k": stiffness, "damping": damping}
-
-
-@pytest.mark.parametrize(("name", "joint", "part"), [(HEAVY, 1, 0.3), (HEAVY, 3, 1.0), (SCARA, 2, 1.0)])
-def test_an_elastic_drive_train_gives_way_and_swings(
-    name: str, joint: int, part: float, robots: Callable[[str], Known]
-) -> None:
-    """With the plant's own stiffness and damping, and by the values that are tried."""
-    effect = Effect("joint_flexibility", joint)
-    effect = effect.sized(part * effect.amount(ROBOTS[name]))
-    compliance = effect.amount(ROBOTS[name])
-    scene, truth, kept = played(robots(name), effect, WAY)
-    (hypothesis,) = offered([scene], "joint_elasticity", joint)
-    shape = drive_train(name, effect, scene, 1 / compliance)
-    assert hypothesis.given["Iam"] == pytest.approx(shape["Iam"])
-    (found,), likeness = fitted(hypothesis.columns(scene, shape), truth, kept, scene)
-    assert likeness > 0.99
-    assert found == pytest.approx(compliance, rel=0.05)
-    tried = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
-    assert max(tried) > 0.9
-    assert any(shape["k"] * compliance == pytest.approx(1, rel=0.1) for shape in hypothesis.variants)
-
-
-@pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), (HEAVY, 2), (SCARA, 1)])
-def test_a_link_falls_through_its_gap(name: str, joint: int, robots: Callable[[str], Known]) -> None:
-    """Looser than the others: each landing depends on the speed of the one before, which the log's motor, sampled and
-    filtered, does not tell to the last digit. On some motions a landing goes the other way and leaves 0.85.
-    """
-    effect = Effect("backlash", joint, 4e-4)
-    way = fourier(2, period=10.0, periods=1, before=2.0)
-    scene, truth, kept = played(robots(name), effect, way)
-    (hypothesis,) = offered([scene], "backlash", joint)
-    stiffness = effect.value("stiffer", ROBOTS[name]) * ROBOTS[name].chain[joint - 1].stiffness
-    shape = {**drive_train(name, effect, scene, stiffness), "gap": 4e-4}
-    (found,), likeness = fitted(hypothesis.columns(scene, shape), truth, kept, scene)
-    assert likeness > 0.95
-    assert found == pytest.approx(4e-4, rel=0.1)
-    tried = [fitted(hypothesis.columns(scene, shape), truth, kept, scene)[1] for shape in hypothesis.variants]
-    assert max(tried) > 0.85
-    assert hypothesis.variants[int(np.argmax(tried))]["gap"] == pytest.approx(4e-4, rel=0.25)
-
-
-def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str], Known]) -> None:
+def test_a_joint_that_stands_still_has_no_law_of_its_own(known_robots: Callable[[str], Known]) -> None:
     """Its shapes would be parts of no speed and no range; what it does to other joints' torques is offered."""
-    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    scene, _, _ = played(known_robots(HEAVY), Effect("offset", 1, 0.0), WAY)
     run = scene.sampled.run
     q = run.q.copy()
     q[3] = 0.1 + 0.2
@@ -340,9 +265,9 @@ def test_a_joint_that_stands_still_has_no_law_of_its_own(robots: Callable[[str],
         assert np.all(np.isfinite(one.columns(locked, {}))), effect
 
 
-def test_gains_of_other_conventions_are_possible(robots: Callable[[str], Known]) -> None:
+def test_gains_of_other_conventions_are_possible(known_robots: Callable[[str], Known]) -> None:
     """Peak current for rms, one motor of two; a robot file takes every gain that may be found."""
-    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    scene, _, _ = played(known_robots(HEAVY), Effect("offset", 1, 0.0), WAY)
     (one,) = offered([scene], "torque_gain", 2)
     (error,) = one.coefficients
     assert error.lower is not None
@@ -354,9 +279,9 @@ def test_gains_of_other_conventions_are_possible(robots: Callable[[str], Known])
         repaired(find_robot("kr500").read_text(encoding="utf-8"), "kr500.yaml", [found])
 
 
-def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -> None:
+def test_what_the_file_corrects_is_not_offered(known_robots: Callable[[str], Known]) -> None:
     """Nor a second rotor on a joint that has one."""
-    scene, _, _ = played(robots(HEAVY), Effect("offset", 1, 0.0), WAY)
+    scene, _, _ = played(known_robots(HEAVY), Effect("offset", 1, 0.0), WAY)
     robot, n = scene.robot, len(scene.robot.moving)
     one = [sympy.Integer(int(k == 1)) for k in range(n)]
     gains = tuple(sympy.Integer(1 + int(k == 1)) for k in range(n))
@@ -380,41 +305,3 @@ def test_what_the_file_corrects_is_not_offered(robots: Callable[[str], Known]) -
     assert offered([scene], "coupled_rotor", 6)
     there = replace(robot, effects=(*robot.effects, EffectUse("coupled_rotor", (6,))))
     assert not offered([with_robot(scene, there)], "coupled_rotor", 6)
-
-
-def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(robots: Callable[[str], Known]) -> None:
-    scene, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
-    run = replace(scene.sampled.run, others={"qs2": scene.t})
-    watched = replace(scene, sampled=replace(scene.sampled, run=run))
-    gap = EffectUse("joint_elasticity", (2,), {"gap": Quantity(sympy.Rational(1, 1000), "rad")})
-    sets = {"stiff": ParameterSet("stiff", "", "", {"k2": ParameterValue(1e4, "N m/rad")})}
-    effects = (*scene.robot.effects, gap)
-    elastic = with_robot(scene, replace(scene.robot, flexible=(2,), effects=effects, parameter_sets=sets))
-    for candidate in ("joint_elasticity", "backlash"):
-        assert offered([scene], candidate, 2), candidate
-        assert not offered([watched], candidate, 2), candidate
-        assert not offered([elastic], candidate, 2), candidate
-    soft = with_robot(scene, replace(scene.robot, flexible=(2,)))
-    assert offered([soft], "joint_elasticity", 2), "no parameter set says how stiff it is"
-
-
-def test_late_encoders_on_links_are_told_without_torque(robots: Callable[[str], Known]) -> None:
-    """The simulated robot's latency, to a twentieth; none for encoders on time or told by the file."""
-    sensors = replace(CLEAN, link_encoders=2)
-    scene, _, _ = played(robots(SCARA), Effect("link_latency", 1, 4e-3), WAY, sensors)
-    found = [one for number in (1, 2, 3, 4) for one in offered([scene], "link_delay", number)]
-    assert [(one.joint, one.kind) for one in found] == [(1, SIGNAL), (2, SIGNAL)]
-    for one, added in zip(found, measured(found), strict=True):
-        (value,) = one.measured.values()
-        assert value.value == pytest.approx(4e-3, rel=0.05)
-        assert not one.columns(scene, one.variants[0]).any()
-        assert (added.joints, added.values) == ((one.joint,), {"link_delay": value.value})
-    stated = with_robot(
-        scene, replace(scene.robot, signals=Signals(link_delay=(sympy.Rational(1, 250), *[sympy.S.Zero] * 3)))
-    )
-    punctual, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY, sensors)
-    blind, _, _ = played(robots(SCARA), Effect("offset", 1, 0.0), WAY)
-    for number in (1, 2):
-        assert not offered([punctual], "link_delay", number)
-        assert not offered([blind], "link_delay", number)
-        assert bool(offered([stated], "link_delay", number)) == (number == 2)
