@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from identification.diagnosis.candidates import wrist
 from identification.diagnosis.diagnosis import NAMED
 from identification.diagnosis.scene import Scene
 from identification.observation import Motion, Regressors
+from identification.outcome import Value
 from tests.diagnosed_arm import diagnosis_of, ready
 from tests.recorded import Array, Recorded
 
@@ -74,6 +76,10 @@ def test_a_rotor_that_stands_while_its_joints_move(seed: int, tmp_path: Path) ->
     assert (one.hypothesis.effect, one.hypothesis.joints) == ("coupled_rotor", (1, 2))
     assert one.parameters["Fcr2"].value == pytest.approx(FRICTION, rel=0.05)
     assert one.parameters["Fvr2"].value == pytest.approx(VISCOUS, rel=0.05)
+    assert one.variable == "qd"
+    zero, some = Value(0.0, 0.0, ""), Value(1.0, 0.1, "kg m2")
+    inertia = replace(one, parameters={"Iar2": some, "Fvr2": zero, "Fcr2": zero})
+    assert inertia.variable == "qdd"
 
 
 @pytest.mark.parametrize("fixed", [0, 2])

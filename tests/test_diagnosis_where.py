@@ -53,7 +53,7 @@ def test_an_event_is_told_with_its_time_where_nothing_orders_the_residual() -> N
 
 
 def finding(variable: str) -> Any:
-    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2, variable=variable))
+    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2), variable=variable)
 
 
 @pytest.mark.parametrize(

@@ -121,6 +121,13 @@ class Finding:
         return not self.disagreement
 
     @property
+    def variable(self) -> str:
+        """What it shows over: of its coefficients that are not zero, where they agree."""
+        whole = self.hypothesis.variable
+        own = {one.variable or whole for one in self.hypothesis.coefficients if self.parameters[one.name].value}
+        return own.pop() if len(own) == 1 else whole
+
+    @property
     def told(self) -> tuple[Told, ...]:
         """Coefficients, then the shape."""
         units = {**self.hypothesis.units, **{shape.name: shape.unit for shape in self.hypothesis.shapes}}

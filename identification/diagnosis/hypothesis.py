@@ -23,7 +23,8 @@ EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base",
 class Coefficient:
     """A parameter that the columns multiply: its name in the robot's parameters or in the correction, its unit [SI],
     and closed physical bounds, None where free. Without one that is ``essential`` the effect would be another one; one
-    that ``refines`` is taken only where it explains beyond chance.
+    that ``refines`` is taken only where it explains beyond chance. ``variable`` is what it shows over where that is
+    not what its effect shows over.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Coefficient:
     upper: float | None = None
     essential: bool = False
     refines: bool = False
+    variable: str = ""
 
 
 @dataclass(frozen=True)

@@ -107,7 +107,7 @@ def led(before: Where, first: Finding) -> Where:
     mine = before.views[joint]
     _, shares = strongest(mine)
     ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
-    variable = first.hypothesis.variable or ordering
+    variable = first.variable or ordering
     if of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
     region = _region(mine, variable)

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 _WRIST = 3
 #: Below this share of the other joint's speed a coupled rotor is the joint's own (report section 2.3.1).
 _WEAKEST = 0.1
+#: What a parameter shows over that is no friction.
+_SHOWN = {"Iar": "qdd"}
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -66,7 +68,10 @@ def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypot
         EFFECT.id,
         EFFECT.title,
         joint.number,
-        tuple(Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower) for one in EFFECT.parameters),
+        tuple(
+            Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, variable=_SHOWN.get(one.stem, ""))
+            for one in EFFECT.parameters
+        ),
         partial(_columns, joint),
         given={"other": float(other.number), "ratio": ratio},
         joints=(other.number, joint.number),
