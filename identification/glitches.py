@@ -20,6 +20,12 @@ Array = NDArray[np.float64]
 _ALONE = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 6
 #: Time [s] for which a signal may be wrong, and wrong samples in a row at most: what lasts is the robot's own.
 _TIME, _MOST = 0.008, 3
+#: What wrong samples in a row make of the distances about them, one column each, and the inverse, by their number.
+_IN_A_ROW = [
+    (made, np.linalg.pinv(made))
+    for count in range(1, _MOST + 1)
+    for made in [np.stack([np.pad(_ALONE, (k, count - 1 - k)) for k in range(count)], axis=1)]
+]
 #: Part of a sample that times are rounded by.
 _CLOSE = 0.01
 #: Distances of usual samples, of those that are rarely as far off, and steps of a signal, that a wrong one is off.
@@ -55,15 +61,16 @@ def glitches(x: Array, period: float) -> NDArray[np.int_]:
 
 def _wrong(x: Array, off: Array, first: int, far: float, most: int) -> list[int]:
     """The wrong samples, of which number ``first`` is the first one, that make the distances about it."""
-    for count in range(1, most + 1):
+    for count, (made, inverse) in enumerate(_IN_A_ROW[:most], start=1):
         window = off[first - 2 : first + count + 2]
         if first < 2 or len(window) < count + 4:
             return []
-        made = np.stack([np.pad(_ALONE, (k, count - 1 - k)) for k in range(count)], axis=1)
-        by, *_ = np.linalg.lstsq(made, window, rcond=None)
+        by = inverse @ window
+        size = np.abs(by)
+        if size.min() <= far or abs(by.sum()) < size.sum():
+            continue
         explained = np.linalg.norm(window - made @ by) < _LEFT * np.linalg.norm(window)
-        least = max(far, _BACK * _change(x, first, first + count), _ALIKE * float(np.abs(by).max()))
-        if explained and (np.all(by > least) or np.all(by < -least)):
+        if explained and size.min() > max(_BACK * _change(x, first, first + count), _ALIKE * float(size.max())):
             return list(range(first, first + count))
     return []
 
