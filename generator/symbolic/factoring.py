@@ -27,13 +27,15 @@ def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
     Long chains' functions take one pass.
     """
     shortest = _factored_once(program, roots)
+    fewest = _operations(program, shortest)
     while len(program.reachable(shortest)) <= _LONG:
         opened = _opened(program, shortest)
         ways = [_factored_once(program, start) for start in ([shortest] if opened == shortest else [shortest, opened])]
-        shorter = min(ways, key=lambda way: _operations(program, way))
-        if _operations(program, shorter) >= _operations(program, shortest):
+        counts = [_operations(program, way) for way in ways]
+        if min(counts) >= fewest:
             break
-        shortest = shorter
+        fewest = min(counts)
+        shortest = ways[counts.index(fewest)]
     return shortest
 
 
@@ -60,7 +62,7 @@ def _uses(nodes: Sequence[Node], roots: Sequence[Node]) -> Counter[Node]:
 
 
 def _operations(program: Program, roots: Sequence[Node]) -> int:
-    return program.count(node for node in program.reachable(roots) if not node.parameter_only).total
+    return program.count(program.moving(roots)).total
 
 
 @dataclass

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 
-from generator.symbolic.statements import Count, Node, Program
+from generator.symbolic.counts import Count
+from generator.symbolic.statements import Node, Program
 
 #: The input signal that holds the robot's parameters; C passes it prepared, other backends as a vector.
 PARAMETERS = "parameters"

@@ -8,9 +8,10 @@ moved outwards, so that a unary minus (which the counts take as free) is the onl
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Union
+
+from generator.symbolic.counts import Count
 
 Number = int | Fraction
 Operand = Union["Node", int, Fraction]
@@ -31,10 +32,11 @@ class Node:
 
     ``operation`` is ``constant``, ``input``, ``add``, ``sub``, ``mul``, ``div``, ``neg``, ``pow``, ``directed`` or one
     of ``FUNCTIONS``. ``value`` is the fraction of a constant, ``(signal, index)`` of an input, else None.
-    ``parameter_only`` tells that no input signal of the moving robot is among its ancestors.
+    ``parameter_only`` tells that no input signal of the moving robot is among its ancestors. ``depth`` is how long a
+    processor waits for it, in additions one after the other.
     """
 
-    __slots__ = ("arguments", "index", "name", "number", "operation", "parameter_only", "program", "value")
+    __slots__ = ("arguments", "depth", "index", "name", "number", "operation", "parameter_only", "program", "value")
 
     def __init__(
         self,
@@ -53,6 +55,7 @@ class Node:
         #: The exact value of a constant, None for every other node.
         self.number: Fraction | None = value if type(value) is Fraction else None
         self.parameter_only = parameter_only
+        self.depth: int = max([one.depth for one in arguments], default=0) + _LATENCY.get(operation, 1)
         self.name: str | None = None
 
     @property
@@ -104,25 +107,6 @@ class Node:
         if self.operation == "input":
             return "{}[{}]".format(*self.source)
         return f"{self.operation}({', '.join(map(repr, self.arguments))})"
-
-
-@dataclass(frozen=True)
-class Count:
-    """Operations of a piece of program: ``div`` counts quotients, ``trig`` sines and cosines, ``other`` the rest."""
-
-    mul: int = 0
-    add: int = 0
-    div: int = 0
-    trig: int = 0
-    other: int = 0
-
-    @property
-    def total(self) -> int:
-        """Multiplications, additions and divisions: the measure that the literature compares."""
-        return self.mul + self.add + self.div
-
-    def as_dict(self) -> dict[str, int]:
-        return {"mul": self.mul, "add": self.add, "div": self.div, "trig": self.trig, "other": self.other}
 
 
 class Program:
@@ -299,7 +283,7 @@ class Program:
         """
         done = set(known)
         wanted = list(outputs)
-        depth = self._depths(wanted, done)
+        depth = self._depths(wanted, done) if done else None
         ordered: list[Node] = []
         for output in wanted:
             stack = [output]
@@ -311,7 +295,7 @@ class Program:
                 pending = [argument for argument in node.arguments if argument not in done]
                 if pending:
                     # The last on the stack comes first.
-                    stack += sorted(pending, key=lambda one: (depth[one], one.index))
+                    stack += sorted(pending, key=lambda one: (one.depth if depth is None else depth[one], one.index))
                 else:
                     done.add(node)
                     ordered.append(node)
@@ -319,7 +303,7 @@ class Program:
         return ordered
 
     def _depths(self, outputs: Iterable[Node], known: set[Node]) -> dict[Node, int]:
-        """How long a processor waits for each node that ``outputs`` need, in operations one after the other."""
+        """The depth of each node that ``outputs`` need where ``known`` ones are at hand."""
         depth = dict.fromkeys(known, 0)
         stack = list(outputs)
         while stack:
@@ -333,14 +317,20 @@ class Program:
                 depth[node] = max((depth[one] for one in node.arguments), default=0) + _LATENCY.get(node.operation, 1)
         return depth
 
+    def moving(self, outputs: Iterable[Node]) -> list[Node]:
+        """The nodes that ``outputs`` need and that are not of parameters alone, in no order."""
+        stack = [node for node in dict.fromkeys(outputs) if not node.parameter_only]
+        found = set(stack)
+        for node in stack:
+            for argument in node.arguments:
+                if not argument.parameter_only and argument not in found:
+                    found.add(argument)
+                    stack.append(argument)
+        return stack
+
     def count(self, nodes: Iterable[Node]) -> Count:
         """Operation count of a list of nodes; a unary minus is free."""
-        tally = {"mul": 0, "add": 0, "div": 0, "trig": 0, "other": 0}
-        kind = {"mul": "mul", "add": "add", "sub": "add", "div": "div", "sin": "trig", "cos": "trig"}
-        for node in nodes:
-            if node.operation not in ("constant", "input", "neg"):
-                tally[kind.get(node.operation, "other")] += 1
-        return Count(**tally)
+        return Count.of(node.operation for node in nodes)
 
     # -- making ---------------------------------------------------------------------------------------------------
 

@@ -152,5 +152,4 @@ def _entries(chain: Chain, columns: Mapping[str, Mapping[int, Node]]) -> Array:
 
 def operations(chain: Chain, results: Array) -> int:
     """Multiplications, additions and divisions per call of some results."""
-    nodes = chain.program.reachable(results.ravel())
-    return chain.program.count(node for node in nodes if not node.parameter_only).total
+    return chain.program.count(chain.program.moving(results.ravel())).total

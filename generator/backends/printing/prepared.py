@@ -10,8 +10,9 @@ from generator.backends.printing.language import Language
 from generator.backends.printing.signals import safe
 from generator.backends.printing.straight_line import Block, straight_line
 from generator.robot.parameters import Parameter
+from generator.symbolic.counts import Count
 from generator.symbolic.function import PARAMETERS, Function
-from generator.symbolic.statements import FUNCTIONS, Count, Node
+from generator.symbolic.statements import FUNCTIONS, Node
 
 #: How a prepared value is explained to a reader: plain names and numbers.
 _WORDS = Language(
