@@ -11,7 +11,7 @@ import numpy as np
 
 from generator.reference import sample
 from generator.reference.joint_effects import LAWS
-from generator.reference.quantities import NAMES, reference
+from generator.reference.quantities import NAMES, Reference
 from generator.reference.sample import payload, physical_parameters, signal
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.function import Function, Signal
@@ -52,6 +52,7 @@ def cases(model: Model) -> tuple[Case, ...]:
     given = {name: ParameterValue(value, "") for name, value in values.items()}
     parameters = tuple(float(value) for value in parameter_vector(model, given))
     standard = tuple(values[parameter.name] for parameter in model.standard_parameters)
+    reference = Reference(known, values)
     positions = [_positions(model, state) for state in range(_STATES)]
     result = []
     for function in model.functions.values():
@@ -60,7 +61,7 @@ def cases(model: Model) -> tuple[Case, ...]:
         for state in range(_STATES):
             inputs = {s.name: _input(s, state, positions[state], standard) for s in function.inputs}
             tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
-            outputs = _outputs(model, known, function, values, inputs)
+            outputs = _outputs(model, reference, function, inputs)
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)
 
@@ -107,13 +108,13 @@ def _input(wanted: Signal, state: int, positions: tuple[float, ...], standard: t
 
 
 def _outputs(
-    model: Model, known: Robot, function: Function, values: Mapping[str, float], inputs: Mapping[str, Sequence[float]]
+    model: Model, reference: Reference, function: Function, inputs: Mapping[str, Sequence[float]]
 ) -> dict[str, tuple[float, ...]]:
     heads = [base.head for base in model.grouping.base]
     columns = [parameter.name for parameter in model.standard_parameters]
     if "standard" not in function.name:
         columns = heads + [parameter.name for parameter in model.motor_parameters] * ("flexible" in function.name)
-    computed = reference(known, function.name.removesuffix(_PACKED), values, inputs, columns)
+    computed = reference(function.name.removesuffix(_PACKED), inputs, columns)
     if function.sparsity is not None:
         places = (list(function.sparsity.rows), list(function.sparsity.columns))
         computed = {name: matrix[places] for name, matrix in computed.items()}

@@ -14,7 +14,7 @@ from generator.derivation import derive
 from generator.effects.library import library
 from generator.reference import sample
 from generator.reference.matter import INERTIAL
-from generator.reference.quantities import reference
+from generator.reference.quantities import Reference
 from generator.reference.rigid import Rigid, rigid
 from generator.robot.description import Robot
 from generator.symbolic.function import Function, Signal
@@ -116,6 +116,10 @@ class Subject:
         """The reference's rigid robot, for many states."""
         return rigid(self.robot, self.values)
 
+    @cached_property
+    def _reference(self) -> Reference:
+        return Reference(self.robot, self.values)
+
     @property
     def heads(self) -> list[str]:
         """Standard parameters whose columns the base regressor keeps."""
@@ -156,7 +160,7 @@ class Subject:
 
     def expected(self, name: str, inputs: Mapping[str, ArrayLike]) -> dict[str, Vector]:
         """Outputs of the same quantity by the reference."""
-        return reference(self.robot, name, self.values, inputs, self._columns(name))
+        return self._reference(name, inputs, self._columns(name))
 
     def output(self, name: str, **inputs: ArrayLike) -> Vector:
         """The only output of a generated function."""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from generator.derivation import derive
-from generator.reference.quantities import reference
+from generator.reference.quantities import Reference
 from generator.reference.sample import physical_parameters, positions
 from generator.resources import find_robot
 from generator.robot.readers import read
@@ -100,7 +100,7 @@ def test_a_file_of_standard_parameters_against_the_reference(
     file = tmp_path / "standard.json"
     file.write_text(json.dumps(values))
     result = printed(name, quantity, *given, "--parameters", file, capsys=capsys)
-    expected = reference(robot, quantity, values, inputs)
+    expected = Reference(robot, values)(quantity, inputs)
     assert result.keys() == expected.keys()
     for output, value in expected.items():
         np.testing.assert_allclose(result[output], value, rtol=1e-9, atol=1e-9 * np.abs(value).max())
@@ -141,8 +141,8 @@ def test_a_set_can_move_symbolic_lengths(tmp_path: Path, capsys: pytest.CaptureF
     (tmp_path / "moved.json").write_text(json.dumps(values))
     q = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6]
     result = printed("puma560", "gravity", "--q", *map(str, q), "--parameters", tmp_path / "moved.json", capsys=capsys)
-    np.testing.assert_allclose(result["Q"], reference(robot, "gravity", values, {"q": q})["Q"], atol=1e-10)
-    unmoved = reference(robot, "gravity", values | nominal, {"q": q})["Q"]
+    np.testing.assert_allclose(result["Q"], Reference(robot, values)("gravity", {"q": q})["Q"], atol=1e-10)
+    unmoved = Reference(robot, values | nominal)("gravity", {"q": q})["Q"]
     assert np.abs(result["Q"] - unmoved).max() > 1
 
 

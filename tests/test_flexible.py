@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from sympy import Integer, pi
 
 from generator.reference.matter import INERTIAL
-from generator.reference.quantities import reference
+from generator.reference.quantities import Reference
 from generator.resources import find_robot, robots
 from generator.robot.description import FIXED, REVOLUTE, EffectUse, Robot
 from generator.robot.readers import read
@@ -98,7 +98,7 @@ def check_against_chain(arm: Subject, seed: int) -> None:
     elastic = list(arm.model.elastic)
 
     in_chain = {name: unstacked(inputs[name], places) for name in ("q", "qd", "qdd")}
-    torques = reference(chain.robot, "inverse_dynamics", values, in_chain)["tau"][places]
+    torques = Reference(chain.robot, values)("inverse_dynamics", in_chain)["tau"][places]
     seen = arm.generated("flexible_inverse_dynamics", inputs)
     assert close(seen["tau_e"], torques[n:])
     # The chain's motors feel the links' torque, which on a real motion is the spring's.
@@ -108,9 +108,9 @@ def check_against_chain(arm: Subject, seed: int) -> None:
 
     tau = arm.inputs(arm.model.functions["flexible_direct_dynamics"], seed)["tau"]
     driven = {"q": in_chain["q"], "qd": in_chain["qd"], "tau": unstacked(np.concatenate([tau, springs]), places)}
-    expected = reference(chain.robot, "direct_dynamics", values, driven)["qdd"][places]
+    expected = Reference(chain.robot, values)("direct_dynamics", driven)["qdd"][places]
     qdd = arm.output("flexible_direct_dynamics", q=inputs["q"], qd=inputs["qd"], tau=tau)
-    M = reference(chain.robot, "inertia_matrix", values, {"q": in_chain["q"]})["M"]
+    M = Reference(chain.robot, values)("inertia_matrix", {"q": in_chain["q"]})["M"]
     assert close(qdd, expected, 1e-12 * max(100.0, np.linalg.cond(M)))
 
 
@@ -195,7 +195,7 @@ def test_the_balancer_acts_on_the_link_side() -> None:
     arm = subject(read(find_robot("kr500")), names=QUANTITIES).only("F0")
     q = np.array([0.1, -1.0, 0.2, 0.3, 0.4, 0.5, 0.01, 0.3, 0.01, 0.02, 0.03, 0.04])
     seen = arm.generated("flexible_inverse_dynamics", {"q": q, "qd": 0 * q, "qdd": 0 * q})
-    pull = reference(arm.robot, "balancer", arm.values, {"q": q[:6] + q[6:]})["torque"]
+    pull = Reference(arm.robot, arm.values)("balancer", {"q": q[:6] + q[6:]})["torque"]
     assert close(seen["tau_e"], [0, pull, 0, 0, 0, 0])
     assert not seen["tau_mdi"].any()
 

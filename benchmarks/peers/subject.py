@@ -12,7 +12,7 @@ import sympy
 from numpy.typing import NDArray
 
 from generator.derivation import derive
-from generator.reference.quantities import reference
+from generator.reference.quantities import Reference
 from generator.reference.sample import physical_parameters
 from generator.resources import find_robot
 from generator.robot.description import FIXED, ParameterValue, Robot
@@ -89,7 +89,7 @@ class Subject:
     def expected(self, function: str, state: int) -> Array:
         """What a function of the whole robot returns, by the independent implementation of the self-tests."""
         signals = dict(zip(("q", "qd", "qdd", "tau"), self.states[state], strict=True))
-        (result,) = reference(self.whole.robot, function, self.values, signals).values()
+        (result,) = Reference(self.whole.robot, self.values)(function, signals).values()
         return result
 
     @cached_property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import localcontext
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,10 +23,13 @@ Results = Mapping[str, object]
 
 @dataclass(frozen=True)
 class Case:
-    """One evaluation: a robot, values of its parameters, the input signals by name, and the columns of a regressor."""
+    """One evaluation: a robot, values of its parameters and what they make of it at rest, the input signals by name,
+    and the columns of a regressor.
+    """
 
     robot: Robot
     values: Mapping[str, float]
+    resting: Rigid
     signals: Mapping[str, Array]
     columns: Sequence[str]
 
@@ -40,11 +44,10 @@ class Case:
     def motion(self) -> tuple[Array, Array, Array]:
         return self["q"], self["qd"], self["qdd"]
 
-    @property
+    @cached_property
     def rigid(self) -> Rigid:
-        robot = rigid(self.robot, self.values)
-        states, warmth = self.signals.get("states", ()), self.signals.get("warmth", robot.warmth)
-        return replace(robot, states=tuple(states), warmth=warmth)
+        states, warmth = self.signals.get("states", ()), self.signals.get("warmth", self.resting.warmth)
+        return replace(self.resting, states=tuple(states), warmth=warmth)
 
     @property
     def loaded(self) -> Rigid:
@@ -59,24 +62,32 @@ class Case:
         return drive_train(self.robot, self.values, self.rigid.warmth)
 
 
-def reference(
-    robot: Robot,
-    name: str,
-    values: Mapping[str, float],
-    inputs: Mapping[str, ArrayLike],
-    columns: Sequence[str] = (),
-) -> dict[str, NDArray[np.float64]]:
-    """The quantity ``name`` of ``robot`` at one state, as {output: array}, each entry the nearest double.
-
-    ``values`` holds standard parameters (and Iam1, k1, kt1 ...), zero where absent, and lengths, nominal where absent;
-    ``inputs`` the quantity's input signals, one sample each, in SI units. ``columns`` names the standard parameters of
-    a regressor, in order: for base parameters those that stay, for the elastic robot motor-side ones as well.
-    Raises KeyError for a quantity that is not in ``NAMES`` and for an input that is missing.
+@dataclass(frozen=True)
+class Reference:
+    """Every quantity of ``robot`` with ``values`` [SI] of standard parameters (and Iam1, k1, kt1 ...), zero where
+    absent, and of lengths, nominal where absent.
     """
-    with localcontext(CONTEXT):
-        signals = {signal: decimals(value) for signal, value in inputs.items()}
-        results = _QUANTITIES[name](Case(robot, values, signals, columns))
-        return {output: floats(value) for output, value in results.items()}
+
+    robot: Robot
+    values: Mapping[str, float]
+
+    def __call__(
+        self, name: str, inputs: Mapping[str, ArrayLike], columns: Sequence[str] = ()
+    ) -> dict[str, NDArray[np.float64]]:
+        """The quantity ``name`` at one state, as {output: array}, each entry the nearest double.
+
+        ``inputs`` are the quantity's input signals, one sample each, in SI units. ``columns`` names the standard
+        parameters of a regressor, in order: for base parameters those that stay, for the elastic robot motor-side ones
+        as well. Raises KeyError for a quantity that is not in ``NAMES`` and for an input that is missing.
+        """
+        with localcontext(CONTEXT):
+            signals = {signal: decimals(value) for signal, value in inputs.items()}
+            results = _QUANTITIES[name](Case(self.robot, self.values, self._resting, signals, columns))
+            return {output: floats(value) for output, value in results.items()}
+
+    @cached_property
+    def _resting(self) -> Rigid:
+        return rigid(self.robot, self.values)
 
 
 def _transforms(case: Case) -> Results:
@@ -208,5 +219,5 @@ _QUANTITIES: Mapping[str, Callable[[Case], Results]] = {
     "flexible_regressor": lambda case: {"W": case.flexible.regressor(case.columns, *case.motion)},
 }
 
-#: The quantities that ``reference`` knows.
+#: The quantities that a ``Reference`` knows.
 NAMES = tuple(_QUANTITIES)

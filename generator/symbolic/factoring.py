@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from generator.symbolic.sliding import replaced
 from generator.symbolic.statements import Node, Program
@@ -55,10 +56,7 @@ def _opened(program: Program, roots: Sequence[Node]) -> list[Node]:
 
 
 def _uses(nodes: Sequence[Node], roots: Sequence[Node]) -> Counter[Node]:
-    uses: Counter[Node] = Counter(roots)
-    for node in nodes:
-        uses.update(node.arguments)
-    return uses
+    return Counter(chain(roots, chain.from_iterable(node.arguments for node in nodes)))
 
 
 def _operations(program: Program, roots: Sequence[Node]) -> int:
@@ -80,7 +78,9 @@ class _Rewriter:
         elif node.operation == "mul" and (weighted := self._weighted(*node.arguments)) is not None:
             self.done[node] = weighted
         else:
-            self.done[node] = self.program.apply(node.operation, [self.done[a] for a in node.arguments])
+            arguments = tuple(self.done[argument] for argument in node.arguments)
+            same = arguments == node.arguments
+            self.done[node] = node if same else self.program.apply(node.operation, arguments)
         if node.name and self.done[node].name is None and self.done[node].arguments:
             self.done[node].name = node.name
 
@@ -153,9 +153,7 @@ class _Rewriter:
     def _sum_of_moving(self, terms: list[Term]) -> Node:
         products = [(place, term) for place, term in enumerate(terms) if self._is_private_product(term[1])]
         factors = {place: self._factors(product) for place, (_, product) in products}
-        counts: Counter[Node] = Counter()
-        for found in factors.values():
-            counts.update(set(found))
+        counts = Counter(chain.from_iterable(map(set, factors.values())))
         best = max(counts, key=lambda factor: (counts[factor], -factor.index), default=None)
         if best is None or counts[best] < 2:
             return self._added([(negative, self.done[node]) for negative, node in terms])

@@ -86,15 +86,21 @@ def _check(model: Model, name: str, value: ParameterValue, known: Mapping[str, P
 
 def _grouped(model: Model, values: Values) -> dict[str, float]:
     """Base parameters [SI] as sums of standard ones, at the lengths of ``values`` where it has them."""
-    lengths = {
-        sympy.Symbol(length.name, real=True): (
-            sympy.Rational(values[length.name].value) if length.symbolic and length.name in values else length.value
-        )
-        for length in model.robot.lengths
-    }
+    numbers = model.grouping.numeric()
+    if any(length.symbolic and length.name in values for length in model.robot.lengths):
+        lengths = {
+            sympy.Symbol(length.name, real=True): (
+                sympy.Rational(values[length.name].value) if length.symbolic and length.name in values else length.value
+            )
+            for length in model.robot.lengths
+        }
+        numbers = {
+            base.name: {name: float(coefficient.subs(lengths)) for coefficient, name in base.terms}
+            for base in model.grouping.base
+        }
     return {
-        base.name: sum(float(coefficient.subs(lengths)) * _number(values, name) for coefficient, name in base.terms)
-        for base in model.grouping.base
+        base: sum(coefficient * _number(values, name) for name, coefficient in terms.items())
+        for base, terms in numbers.items()
     }
 
 

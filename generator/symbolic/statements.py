@@ -76,11 +76,11 @@ class Node:
 
     def __sub__(self, other: Operand) -> Node:
         b = self.program.operand(other)
-        return NotImplemented if b is None else self.program.add(self, self.program.negate(b))
+        return NotImplemented if b is None else self.program.subtract(self, b)
 
     def __rsub__(self, other: Operand) -> Node:
         a = self.program.operand(other)
-        return NotImplemented if a is None else self.program.add(a, self.program.negate(self))
+        return NotImplemented if a is None else self.program.subtract(a, self)
 
     def __mul__(self, other: Operand) -> Node:
         b = self.program.operand(other)
@@ -163,24 +163,10 @@ class Program:
         return self._intern("neg", (a,))
 
     def add(self, a: Node, b: Node) -> Node:
-        if a is self.zero:
-            return b
-        if b is self.zero:
-            return a
-        if a.number is not None and b.number is not None:
-            return self.constant(a.number + b.number)
-        negative_a, size_a = self._sign_and_size(a)
-        negative_b, size_b = self._sign_and_size(b)
-        if size_a is size_b:
-            return self.zero if negative_a != negative_b else self.multiply(self.constant(2), a)
-        if size_a.index > size_b.index:
-            negative_a, negative_b, size_a, size_b = negative_b, negative_a, size_b, size_a
-        if negative_a and negative_b:
-            return self.negate(self._intern("add", (size_a, size_b)))
-        if negative_a != negative_b:
-            difference = self._intern("sub", (size_a, size_b))
-            return self.negate(difference) if negative_a else difference
-        return self._intern("add", (size_a, size_b))
+        return self._sum(a, b, False)
+
+    def subtract(self, a: Node, b: Node) -> Node:
+        return self._sum(a, b, True)
 
     def multiply(self, a: Node, b: Node) -> Node:
         if a is self.zero or b is self.zero:
@@ -259,7 +245,7 @@ class Program:
         if operation == "add":
             return self.add(*arguments)
         if operation == "sub":
-            return self.add(arguments[0], self.negate(arguments[1]))
+            return self.subtract(*arguments)
         if operation == "mul":
             return self.multiply(*arguments)
         if operation == "div":
@@ -293,13 +279,14 @@ class Program:
                     stack.pop()
                     continue
                 pending = [argument for argument in node.arguments if argument not in done]
-                if pending:
-                    # The last on the stack comes first.
-                    stack += sorted(pending, key=lambda one: (one.depth if depth is None else depth[one], one.index))
-                else:
+                if not pending:
                     done.add(node)
                     ordered.append(node)
                     stack.pop()
+                    continue
+                if len(pending) > 1:  # the last on the stack comes first
+                    pending.sort(key=lambda one: (one.depth if depth is None else depth[one], one.index))
+                stack += pending
         return ordered
 
     def _depths(self, outputs: Iterable[Node], known: set[Node]) -> dict[Node, int]:
@@ -334,6 +321,28 @@ class Program:
 
     # -- making ---------------------------------------------------------------------------------------------------
 
+    def _sum(self, a: Node, b: Node, subtracted: bool) -> Node:
+        """a + b, or a - b if ``subtracted``."""
+        if b is self.zero:
+            return a
+        if a is self.zero:
+            return self.negate(b) if subtracted else b
+        if a.number is not None and b.number is not None:
+            return self.constant(a.number - b.number if subtracted else a.number + b.number)
+        negative_a, size_a = self._sign_and_size(a)
+        negative_b, size_b = self._sign_and_size(b)
+        negative_b = negative_b != subtracted
+        if size_a is size_b:
+            return self.zero if negative_a != negative_b else self.multiply(self.constant(2), a)
+        if size_a.index > size_b.index:
+            negative_a, negative_b, size_a, size_b = negative_b, negative_a, size_b, size_a
+        if negative_a and negative_b:
+            return self.negate(self._intern("add", (size_a, size_b)))
+        if negative_a != negative_b:
+            difference = self._intern("sub", (size_a, size_b))
+            return self.negate(difference) if negative_a else difference
+        return self._intern("add", (size_a, size_b))
+
     def _gathered_product(self, a: Node, b: Node) -> Node | None:
         """a (p x) as (a p) x where a and p are parameter-only, also above a quotient."""
         if not a.parameter_only or b.parameter_only:
@@ -356,7 +365,7 @@ class Program:
         return False, a
 
     def _intern(self, operation: str, arguments: tuple[Node, ...], value: object = None) -> Node:
-        key = (operation, value, *(argument.index for argument in arguments))
+        key = (operation, value, arguments)
         node = self._nodes.get(key)
         if node is None:
             if operation == "input":
