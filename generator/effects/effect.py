@@ -22,14 +22,15 @@ Column = Mapping[int, sympy.Expr]
 class LinearParameter:
     """A parameter that multiplies a regressor column. The name is ``stem`` and the joint's number.
 
-    ``units`` are those on a revolute and on a prismatic joint; ``lower`` is the physical bound, None if free. One that
-    ``refines`` the others is sought only where runs ask for it.
+    ``units`` are those on a revolute and on a prismatic joint; ``lower`` and ``upper`` are the physical bounds, None if
+    free. One that ``refines`` the others is sought only where runs ask for it.
     """
 
     stem: str
     units: tuple[str, str]
     meaning: str
     lower: float | None = None
+    upper: float | None = None
     refines: bool = False
 
     def unit(self, joint: Joint) -> str:

@@ -14,7 +14,7 @@ def _columns(at: Site) -> tuple[Column, ...]:
 EFFECT = Effect(
     id="load_friction",
     title="friction that grows with the load",
-    parameters=(LinearParameter("Fl", ("1", "1"), "friction per torque that the transmission carries", 0.0),),
+    parameters=(LinearParameter("Fl", ("1", "1"), "friction per torque that the transmission carries", 0.0, 1.0),),
     columns=_columns,
     shapes=(
         Shape(

@@ -16,7 +16,7 @@ from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.homogeneity import disagreements
 from identification.diagnosis.hypothesis import Hypothesis, on_joints
-from identification.diagnosis.lack_of_fit import Lack
+from identification.diagnosis.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.loop import Search, search
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
@@ -35,9 +35,9 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 #: The verdict where nothing was looked for by name.
 LOCATED = "located"
 
-#: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint; chance.
-_SMALL, _PART, _CHANCE = 0.2, 0.3, 1e-4
-#: Where nothing repeats the noise is not known apart from the model, and more must stay.
+#: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint.
+_SMALL, _PART = 0.2, 0.3
+#: Where nothing repeats, nor follows the motion, the noise is not known apart from the model, and more must stay.
 _SMALL_APERIODIC = 0.5
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
 _ELASTIC, _SURE = 0.5, 4.0
@@ -92,7 +92,7 @@ def diagnose(
     told("looking where the residual is")
     start, weights = found.start, found.weights
     first, last = seen(found, start), seen(found, weights)
-    before = located(first, [lack for lack in first.lack if lack.p < _CHANCE or lack.burst is not None])
+    before = located(first, [lack for lack in first.lack if lack.p < CHANCE or lack.burst is not None])
     bounces = _bounces(found, weights)
     explained = _explained(found, start, weights)
     open_ = [] if dry else [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
@@ -100,12 +100,13 @@ def diagnose(
     open_ = open_ or _doubtful(found, last, disagreeing)
     after = located(last, open_)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
-    beyond = {one.joint: one.size for one in last.lack if one.p < _CHANCE and one.size > _told_from(one)}
+    beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
     if open_:
+        notes += [f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows]
         notes += odd_run.notes(found)
     if named and not open_:
         notes += _little([lack for lack in last.lack if lack.joint not in bounces])
@@ -164,7 +165,7 @@ def _large(lack: Lack, explained: float, bounces: float) -> bool:
     """
     if lack.burst is not None:
         return True
-    return lack.p < _CHANCE and lack.size > max(_told_from(lack), _PART * float(np.hypot(explained, bounces)))
+    return lack.p < CHANCE and lack.size > max(_told_from(lack), _PART * float(np.hypot(explained, bounces)))
 
 
 def _little(lacks: Sequence[Lack]) -> list[str]:
@@ -172,7 +173,7 @@ def _little(lacks: Sequence[Lack]) -> list[str]:
     sizes = [
         f"{one.size:.2g} times the noise on joint {one.joint}"
         for one in lacks
-        if one.p < _CHANCE and one.size > _told_from(one)
+        if one.p < CHANCE and one.size > _told_from(one)
     ]
     if not sizes:
         return []
@@ -184,7 +185,7 @@ def _little(lacks: Sequence[Lack]) -> list[str]:
 
 def _told_from(lack: Lack) -> float:
     """Size [parts of the noise] from which what a joint's model lacks is told from the noise."""
-    return _SMALL if lack.repeats else _SMALL_APERIODIC
+    return _SMALL if lack.repeats or lack.follows else _SMALL_APERIODIC
 
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:

@@ -41,9 +41,11 @@ BALANCERS = ("gas_balancer", "spring_balancer")
 SPRINGS = (*BALANCERS, "cable_spring", "joint_spring")
 #: What lets the link come after the motor, or the log after both.
 _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
-#: Laws are never exact: least part of what others that are not common explain on the same joint, and where they are
-#: alike: friction of the speed, or behind the motor.
-_BESIDE, _ALIKE = 0.03, 0.15
+#: What a joint has one of: a robot file says no more, and the second tells what the first one leaves.
+_ONE_OF = (BALANCERS, ("joint_elasticity", "backlash"))
+#: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
+#: the same, and where they are alike: friction of the speed, or behind the motor.
+_ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
 _OF_SPEED = ("qd", "time since reversal")
@@ -292,15 +294,14 @@ class Weighing:
         if common(variant):
             return least
         for other, drop in zip(others, self._drops(others), strict=True):
-            if {variant.hypothesis.effect, other.hypothesis.effect} <= set(BALANCERS):
-                # A robot file has one on a joint.
-                least = np.inf if variant.hypothesis.joint == other.hypothesis.joint else max(least, _SECOND * drop)
+            effects = {variant.hypothesis.effect, other.hypothesis.effect}
+            here = variant.hypothesis.joint == other.hypothesis.joint
+            if here and any(effects <= set(one) for one in _ONE_OF):
+                least = np.inf
+            elif effects <= set(BALANCERS):
+                least = max(least, _SECOND * drop)
             elif set(other.joints) & set(variant.joints) and not common(other):
-                alike = variant.hypothesis.variable in _OF_SPEED and other.hypothesis.variable in _OF_SPEED
-                # What a delay of the whole robot explains is not of one joint.
-                behind = {variant.hypothesis.effect, other.hypothesis.effect} <= set(_BEHIND)
-                alike |= behind and other.hypothesis.joint != 0
-                least = max(least, (_ALIKE if alike else _BESIDE) * drop)
+                least = max(least, _lacking(variant.hypothesis, other.hypothesis) * drop)
         return least
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
@@ -312,6 +313,13 @@ class Weighing:
             ]
         return self._known_drops[key]
 
+    def visible(self, variant: Variant) -> bool:
+        """Whether the model leaves a part of the torque that it would make."""
+        return bool(self._left_of(variant) >= _VISIBLE)
+
+    def _left_of(self, variant: Variant) -> float:
+        return float(self.normal.left[np.array(variant.columns) - self.normal.base].max())
+
     def invisible(self) -> list[Hypothesis]:
         """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
         no torque along the runs.
@@ -320,8 +328,7 @@ class Weighing:
         whose: dict[Key, Hypothesis] = {}
         for variant in self.bank.variants:
             key = key_of(variant)
-            at = np.array(variant.columns) - self.normal.base
-            left.setdefault(key, []).append(float(self.normal.left[at].max()))
+            left.setdefault(key, []).append(self._left_of(variant))
             whose[key] = variant.hypothesis
         taken_up = [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
         nowhere = [one for key, one in self.bank.nowhere.items() if key not in left and not one.measured]
@@ -347,6 +354,15 @@ def key_of(variant: Variant) -> Key:
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
     return [number for one in chosen for number in one.columns]
+
+
+def _lacking(one: Hypothesis, other: Hypothesis) -> float:
+    """Part of what ``other`` explains that its law may lack and ``one`` would explain."""
+    # What a delay of the whole robot explains is not of one joint.
+    behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
+    if behind or {one.variable, other.variable} <= set(_OF_SPEED):
+        return _ALIKE
+    return _BESIDE if one.variable == other.variable else _ELSE
 
 
 def _chance(drop: float, variant: Variant) -> float:

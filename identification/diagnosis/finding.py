@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -101,7 +101,8 @@ class Finding:
 
     ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
     ``shape_std`` are standard deviations of the shape values that were searched. ``disagreement`` tells in words how
-    the runs disagree on its amplitude, if they do.
+    the runs disagree on its amplitude, if they do; ``apart`` whether no other shape of those that are tried alone does
+    as well.
     """
 
     hypothesis: Hypothesis
@@ -114,6 +115,12 @@ class Finding:
     amplitude: Mapping[int, float]
     shape_std: Mapping[str, float]
     disagreement: str = ""
+    apart: bool = True
+
+    @property
+    def effect(self) -> str:
+        """Id of the generator's library, or of a correction."""
+        return self.hypothesis.effect
 
     @property
     def homogeneous(self) -> bool:
@@ -152,7 +159,8 @@ class Finding:
         """Whether the runs tell its values one by one, and not only the torque that they make together."""
         shapes = {one.name: one for one in self.hypothesis.shapes}
         sizes = {name: abs(self.shape[name]) if shapes[name].log else shapes[name].spacing for name in self.shape_std}
-        return all(std <= _VAGUE * sizes[name] for name, std in self.shape_std.items())
+        told = all(std <= _VAGUE * sizes[name] for name, std in self.shape_std.items())
+        return told and self.apart and not all(map(_vague, self.main))
 
 
 def findings(
@@ -190,19 +198,29 @@ def findings(
                 _amplitude(found, one, solution[at]),
                 of_shape,
                 disagreements.get(key_of(variant), ""),
+                one.apart,
             )
         )
     pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    told = [_doubted(one, left, several) for one in result]
+    told = _beside_any_torque([_doubted(one, left, several) for one in result])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
+
+
+def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
+    """With offsets as sure as the torques of the position beside them: another law there takes another offset."""
+    doubted = {number for one in told if one.effect in SPRINGS and one.status == TENTATIVE for number in one.joints}
+    return [
+        replace(one, status=TENTATIVE) if one.effect == "offset" and not doubted.isdisjoint(one.joints) else one
+        for one in told
+    ]
 
 
 def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) -> Finding:
     """Tentative where its torque is known and its law is not: it leaves too much of it, it is one of ``several``
     springs on a joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
     """
-    effect, kind = one.hypothesis.effect, one.hypothesis.kind
+    effect, kind = one.effect, one.hypothesis.kind
     most = max(one.joints, key=lambda number: one.amplitude.get(number, 0.0))
     remains = left.get(most, 0.0) / one.evidence.size
     any_torque = effect in SPRINGS and (
@@ -213,9 +231,13 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
         whole = "motion over the joint's whole range, with another payload"
         other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
-    if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
+    if remains > _LEFT or (kind == BODY and _vague(one.main[0])) or all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE)
     return one
+
+
+def _unknown(one: Value) -> bool:
+    return (one.std or 0.0) > abs(one.value or 0.0)
 
 
 def _vague(one: Value) -> bool:

@@ -18,6 +18,8 @@ from identification.diagnosis.prepared import Prepared
 
 Array = NDArray[np.float64]
 
+#: Chance below which more than noise is left.
+CHANCE = 1e-4
 #: Rows of a burst that is looked for.
 _BURST = 10
 #: By how much an event must stand out of the rest of the residual, in parts of its mean power.
@@ -30,8 +32,9 @@ _BEYOND = 4.0
 class Lack:
     """Of a joint: the part ``size`` of the noise's rms that the model leaves unexplained, ratio and p-value.
 
-    ``ratio`` is 1 when the model is right. ``repeats`` tells whether periods were compared. ``burst`` is the time [s]
-    and run of an event that happens once, None without one.
+    ``ratio`` is 1 when the model is right. ``repeats`` tells whether periods were compared; ``follows`` what of the
+    motion it follows, where that was compared with the rest. ``burst`` is the time [s] and run of an event that happens
+    once, None without one.
     """
 
     joint: int
@@ -40,6 +43,7 @@ class Lack:
     size: float
     repeats: bool
     burst: tuple[str, float] | None = None
+    follows: str = ""
 
 
 def lack_of_fit(

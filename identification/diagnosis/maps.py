@@ -34,6 +34,19 @@ def maps(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> list[list[Array]]
     return [_of(runs, scenes, k) for k in range(len(scenes[0].motion.q))]
 
 
+def groups(joints: Sequence[int], k: int) -> dict[str, NDArray[np.intp]]:
+    """The rows of joint k's maps that are of one kind, by what the torque then follows, in words."""
+    place, others = 2 * _PLACES, np.delete(joints, k)
+    first = place + _SPEEDS
+    last = first + 2 * len(others)
+    return {
+        "its place": np.arange(place),
+        "its speed": np.arange(place, first),
+        **{f"the speed of joint {j}": first + np.array([i, len(others) + i]) for i, j in enumerate(others)},
+        "the time since it turned round": np.arange(last, last + len(_FADING)),
+    }
+
+
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
     ends = _ends([scene.motion.q[k] for scene in scenes])
     fastest = max(float(np.abs(scene.motion.qd[k]).max()) for scene in scenes)

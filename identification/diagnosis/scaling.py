@@ -1,6 +1,7 @@
 """Effects that scale a drive's torque scale all of it: what the model has, and what was found beside it.
 
-Where only what was found grows or fades, its own law is another one, and no drive has changed.
+Where only what was found grows or fades, its own law is another one, and no drive has changed. Where the fit takes up
+whatever scales the model's own torque, only what was found would tell of the drive: a gain that takes its place.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ _SHOWN, _VAGUE = 0.5, 0.25
 
 
 def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether the model's own torque is scaled like the rest, as far as the runs tell; also of what scales nothing."""
+    """Whether the model's own torque shows and is scaled like the rest, as far as the runs tell; also of what scales
+    nothing.
+    """
     hypothesis = variant.hypothesis
     if hypothesis.of_model is None or not _beside(weighing):
         return True
@@ -30,6 +33,8 @@ def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) 
         return True
     weighing.refresh()
     own = part.only(variant.used)
+    if not weighing.visible(own):
+        return False
     products = weighing.normal.part([*variant.columns, *own.columns], columns_of(others))
     C = inverse(products[:-1, :-1], 1e-8)
     k = len(variant.columns)

@@ -35,8 +35,8 @@ _GROSS = 20.0
 _BETTER, _EQUAL = 6.0, 0.01
 #: Part of the evidence by which a rare effect must be better than a common one.
 _RARE = 0.1
-#: Most effects that are not common, and rounds of exchange at the end.
-_MOST, _ROUNDS = 12, 3
+#: Most effects that are not common, of a robot and of a joint; rounds of exchange at the end.
+_MOST, _MOST_OF_JOINT, _ROUNDS = 12, 3, 3
 #: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have.
 _RIVALS, _RIVAL = 3, 0.4
 #: Hypotheses whose pairs are tried when single ones do not do.
@@ -47,12 +47,14 @@ _PAIRED = 20
 class Choice:
     """A variant that was taken, with its evidence beside the others and what may stand in its place.
 
-    ``odds`` are those of its whole orders against what lies between, infinite where it has none.
+    ``odds`` are those of its whole orders against what lies between, infinite where it has none. ``apart`` tells
+    whether no other of the shapes that are tried alone explains as much.
     """
 
     evidence: Evidence
     alternatives: tuple[Evidence, ...] = ()
     odds: float = inf
+    apart: bool = True
 
 
 class Selection:
@@ -71,7 +73,8 @@ class Selection:
         paired = False
         seen: set[frozenset[Key]] = set()
         refused: set[Key] = set()
-        while sum(not common(one) for one in chosen) < _MOST and (known := frozenset(map(key_of, chosen))) not in seen:
+        most = max(_MOST, _MOST_OF_JOINT * self.weighing.bank.dof)
+        while sum(not common(one) for one in chosen) < most and (known := frozenset(map(key_of, chosen))) not in seen:
             offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
             offered.sort(key=lambda one: not likely(one.variant, chosen))
             whole = (self._whole(one, chosen) for one in offered if one.passes)
@@ -249,7 +252,15 @@ class Selection:
                 margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
                 near.append(other)
-        return Choice(mine, tuple(near), self._odds_of(one, others))
+        return Choice(mine, tuple(near), self._odds_of(one, others), self._apart(mine, others))
+
+    def _apart(self, mine: Evidence, others: Sequence[Variant]) -> bool:
+        """Whether it explains clearly more than its hypothesis with another value of a shape that is not searched."""
+        one = mine.variant
+        tried = [shape.name for shape in one.hypothesis.shapes if not shape.free]
+        same = [each for each in self.weighing.bank.variants if key_of(each) == key_of(one)]
+        unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
+        return all(self.weighing.beside(each, others)[1] < mine.drop - _BETTER for each in unlike)
 
 
 def _agrees(one: Evidence) -> bool:

@@ -35,6 +35,8 @@ def deviations(
     base = len(found.bank.base)
     value = dict(zip(columns, solution[base:].tolist(), strict=True))
     steps: list[tuple[int, str, dict[int, float]]] = []
+    # Columns of torque at the values found: a compliance and a stiffness differ by sixteen digits in their own units.
+    units = [1.0] * base + [abs(one) or 1.0 for one in value.values()]
     for choice in found.choices:
         variant = choice.evidence.variant
         for shape in variant.hypothesis.shapes:
@@ -48,6 +50,7 @@ def deviations(
                 for number, sign in ((other, 1.0), (own, -1.0))
             }
             steps.append((id(choice), shape.name, change))
+            units.append(abs(variant.shape[shape.name]) or 1.0)
     normal = found.weighing.normal
     chosen = [*range(base), *columns]
     T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
@@ -55,11 +58,12 @@ def deviations(
     for k, (_, _, change) in enumerate(steps):
         for number, weight in change.items():
             T[number, len(chosen) + k] += weight
+    T *= units
     A = T.T @ normal.whole @ T
     C = inverse(A)
     # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
     seen = np.diag(C @ A) > _SEEN
-    std = np.where(seen, np.sqrt(np.maximum(np.diag(C), 0.0)), np.inf)
+    std = np.where(seen, np.sqrt(np.maximum(np.diag(C), 0.0)) * units, np.inf)
     shapes: dict[int, dict[str, float]] = {}
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])

@@ -23,6 +23,9 @@ _QUICKEST, _SLOWEST = 0.01, 0.2
 _STEPS, _DAMPINGS, _GAPS = 10, 3, 24
 #: Step of the logarithm by which a gap is searched between them; of a rotor's inertia, in parts of the link's.
 _FINE = 0.1
+#: Part of the gap of the fall's time that the torque's size must tell at least, and the other way round: a link that
+#: falls is missing with all its load.
+_ALIKE = 0.1
 #: Parts of an inertia that are a rotor's where nothing tells it, and the least part of it that a rotor or a link has.
 _PARTS, _LEAST = (0.3, 0.6, 0.9), 0.02
 
@@ -32,7 +35,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     torques lack what is quick (``torque_band``).
 
     The coefficient is the gap by the torque's size, the shape ``gap`` that by the times of its crossing; they agree
-    where ``Iam``, the drive train's inertia, is known. ``k`` is the stiffness beyond the gap.
+    closely where ``Iam``, the drive train's inertia, is known. ``k`` is the stiffness beyond the gap.
     """
     if not scenes or np.isfinite(end(scenes)):
         return []
@@ -84,12 +87,18 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
+        agrees=_agrees,
         twice={f"gap{joint.number}": ("gap", 1)} if rotor or rotor_is_told(side.scene, side.k) else {},
         starts=tuple(
             {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
             for inertia, stiffness, damping, gap in found
         ),
     )
+
+
+def _agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
+    """Whether the size of the torque tells nearly the gap that the time of the fall tells."""
+    return bool(_ALIKE < coefficients[0] / shape["gap"] < 1 / _ALIKE)
 
 
 def _rotor(inertia: float, lightest: float, unit: str) -> ShapeRange:

@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 _LARGEST = 0.3
 #: Positions at which columns are compared; the part of one, and the torque per unit [N m], that are nothing.
 _POSITIONS, _NOTHING = 200, 1e-6
+#: Part of a torque by which one that stays the same changes.
+_SAME = 0.01
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -46,7 +48,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     model = scenes[0].regressors.model
     hidden = _hidden(weights, model, _some_positions(scenes))
     columns = _Columns(model, weights, hidden)
-    if not any(columns(scene, {}).any() for scene in scenes):
+    if not _varies(np.concatenate([columns(scene, {}) for scene in scenes], axis=2)):
         return []
     standard = {one.name: one.unit for one in model.standard_parameters}
     return [
@@ -69,6 +71,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             },
         )
     ]
+
+
+def _varies(torques: Array) -> bool:
+    """Whether torques (... x N) change along the runs: what stays the same is an offset's."""
+    return bool(np.any(np.ptp(torques, axis=-1) > _SAME * np.abs(torques).max(axis=-1, initial=0.0)))
 
 
 class Weight:

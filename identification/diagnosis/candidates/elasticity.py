@@ -20,8 +20,9 @@ Array = NDArray[np.float64]
 
 #: Stiffnesses and damping ratios that are looked at.
 _STEPS, _DAMPINGS = 60, 3
-#: By how much the stiffness that the torque's size tells may differ from the one of the swing.
-_ALIKE = 0.3
+#: Part of the stiffness of the swing that the torque's size must tell at least, and the other way round: where the
+#: rotor's inertia is known, and where it is not.
+_ALIKE, _ROUGHLY = 0.3, 0.1
 #: Step of the logarithm by which a stiffness is searched between them.
 _FINE = 0.05
 
@@ -32,7 +33,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     where recorded torques lack what is quick (``torque_band``), as those of elastic drive trains do.
 
     The coefficient is the compliance 1/k by the torque's size, the shape ``k`` the stiffness by the frequency of the
-    swing; they agree where ``Iam``, the drive train's inertia, is known.
+    swing; they agree, closely where ``Iam``, the drive train's inertia, is known.
     """
     if not scenes or np.isfinite(end(scenes)):
         return []
@@ -75,15 +76,15 @@ def _hypothesis(joint: Joint, side: LinkSide) -> Hypothesis:
             "fourth power",
         },
         tries=_STEPS * _DAMPINGS,
-        agrees=_agrees if told else None,
+        agrees=partial(_agrees, _ALIKE if told else _ROUGHLY),
         twice={f"compliance{joint.number}": ("k", -1)} if told else {},
         starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
     )
 
 
-def _agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
+def _agrees(least: float, coefficients: Array, shape: Mapping[str, float]) -> bool:
     """Whether the size of the torque tells nearly the stiffness that the swing tells."""
-    return bool(_ALIKE < shape["k"] * coefficients[0] < 1 / _ALIKE)
+    return bool(least < shape["k"] * coefficients[0] < 1 / least)
 
 
 def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:

@@ -120,7 +120,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
         found = ShapeRange(shape.name, unit, low, max(points), log=not even, points=points)
         shapes.append(replace(found, whole=shape.whole, exact=shape.exact))
     coefficients = tuple(
-        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, refines=one.refines)
+        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
         for one in effect.parameters
     )
     sought = {one.name for one in shapes}
