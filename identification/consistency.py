@@ -89,6 +89,7 @@ def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str,
     constraints = [X >> 0 for X in relative]
     constraints += [(s | base)[name] == value for name, value in knowledge.given.items()]
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
+    constraints += [s[p.name] <= p.upper for p in model.standard_parameters if p.upper is not None]
     constraints += [s[name] == 0 for name in _silent(model, estimate, knowledge)]
     problem = cp.Problem(cp.Minimize(cost), constraints)
     problem.solve(solver=cp.CLARABEL, **(_ACCURACY if knowledge.weight > 0 else {}))

@@ -94,6 +94,7 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     cost += weight * cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
     constraints = [X >> 0 for X in relative]
     constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
+    constraints += [s[p.name] <= p.upper for p in model.standard_parameters if p.upper is not None]
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
     _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
     bodies = [*(str(joint.number) for joint in found.robot.bodies), *(one.name for one in payloads)]

@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.signal import lfilter
 
 from generator.robot.readers import read
-from identification.diagnosis.candidates import base_tilt
+from identification.diagnosis.candidates import backlash, base_tilt, elasticity
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.finding import FIRM
@@ -71,14 +71,32 @@ def diagnosis(folder: Path, dry: Dry, late: float) -> Diagnosis:
 def test_a_force_that_is_late_and_friction_that_rises_are_told_together(tmp_path: Path) -> None:
     found = diagnosis(tmp_path, lambda qd: DRY * np.tanh(qd / RISE), LATE)
     assert found.verdict == NAMED
-    named = {one.effect: one for one in found.findings}
+    named = {one.hypothesis.effect: one for one in found.findings}
     assert set(named) == {"gradual_friction", "torque_delay"}
     assert {one.status for one in found.findings} == {FIRM}
+    assert "torque_gain" in {one.effect for one in found.invisible}
     assert named["torque_delay"].parameters["torque_delay"].value == pytest.approx(LATE, abs=2e-4)
     assert named["gradual_friction"].parameters["Fg1"].value == pytest.approx(DRY, rel=0.2)
 
 
-def test_nothing_is_named_where_nothing_is_missing(tmp_path: Path) -> None:
-    found = diagnosis(tmp_path, lambda qd: DRY * np.sign(qd), 0.0)
-    assert (found.verdict, found.findings) == (NOTHING, ())
-    assert base_tilt.hypotheses(found.found.bank.scenes) == []
+@pytest.fixture(scope="module")
+def right(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
+    """Of a model that lacks nothing."""
+    return diagnosis(tmp_path_factory.mktemp("right"), lambda qd: DRY * np.sign(qd), 0.0)
+
+
+def test_nothing_is_named_where_nothing_is_missing(right: Diagnosis) -> None:
+    assert (right.verdict, right.findings) == (NOTHING, ())
+    assert "torque_gain" in {one.effect for one in right.invisible}
+    assert base_tilt.hypotheses(right.found.bank.scenes) == []
+
+
+@pytest.mark.parametrize(("part", "alike"), [(1.0, True), (0.2, True), (0.05, False), (20.0, False)])
+def test_size_and_time_tell_one_drive_train(part: float, alike: bool, right: Diagnosis) -> None:
+    """The file knows no rotor, so that they may differ by a factor of ten and no more."""
+    scenes = right.found.bank.scenes
+    (soft,), (loose,) = elasticity.hypotheses(scenes), backlash.hypotheses(scenes)
+    assert soft.agrees is not None
+    assert soft.agrees(np.array([part / 1e4]), {"k": 1e4}) == alike
+    assert loose.agrees is not None
+    assert loose.agrees(np.array([part * 1e-3]), {"gap": 1e-3}) == alike

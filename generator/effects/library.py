@@ -40,7 +40,7 @@ class Instance:
     def parameters(self) -> tuple[Parameter, ...]:
         side = ", motor side" if self.suffix else ""
         return tuple(
-            Parameter(name, p.unit(self.joint), self.joint.number, p.meaning + side, p.lower)
+            Parameter(name, p.unit(self.joint), self.joint.number, p.meaning + side, p.lower, p.upper)
             for name, p in zip(self.names, self.effect.parameters, strict=True)
         )
 

@@ -36,8 +36,9 @@ def _section(effect: Effect) -> Iterator[str]:
     yield "| | unit | | |"
     yield "| --- | --- | --- | --- |"
     for parameter in effect.parameters:
-        bound = "" if parameter.lower is None else f"at least {parameter.lower:g}"
-        yield f"| `{parameter.stem}` | {_units(*parameter.units)} | {parameter.meaning} | {bound} |"
+        bounds = [f"at least {parameter.lower:g}"] if parameter.lower is not None else []
+        bounds += [f"at most {parameter.upper:g}"] if parameter.upper is not None else []
+        yield f"| `{parameter.stem}` | {_units(*parameter.units)} | {parameter.meaning} | {', '.join(bounds)} |"
     for shape in effect.shapes:
         limits = [f"more than {shape.lower:g}"] if shape.lower is not None else []
         limits += [f"less than {shape.upper:g}"] if shape.upper is not None else []

@@ -26,8 +26,8 @@ class Parameter:
     """A parameter of the model.
 
     ``name`` is the field's symbol and the joint's number ("ZZ1R", "Fv1", "k1"), or a length's name. ``joint`` is 0
-    where it belongs to none. ``lower`` is a physical bound on its value (a friction coefficient is not negative), None
-    where it has none.
+    where it belongs to none. ``lower`` and ``upper`` are physical bounds on its value (a friction coefficient is not
+    negative), None where it has none.
     """
 
     name: str
@@ -35,6 +35,7 @@ class Parameter:
     joint: int
     meaning: str
     lower: float | None = None
+    upper: float | None = None
 
 
 def inertial_parameters(joint: Joint) -> tuple[Parameter, ...]:

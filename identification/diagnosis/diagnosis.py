@@ -21,6 +21,7 @@ from identification.diagnosis.loop import Search, search
 from identification.diagnosis.normal import Prior
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
+from identification.diagnosis.scaling import taken_up
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.stated_elasticity import TOGETHER, names_of_backlash, stated
 from identification.diagnosis.steps import Steps, steps
@@ -106,7 +107,8 @@ def diagnose(
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
     if open_:
-        notes += [f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows]
+        follow = {f"what is left on joint {one.joint} follows {one.follows}": None for one in open_ if one.follows}
+        notes += follow
         notes += odd_run.notes(found)
     if named and not open_:
         notes += _little([lack for lack in last.lack if lack.joint not in bounces])
@@ -131,7 +133,8 @@ def diagnose(
 def _invisible(found: Search) -> tuple[Hypothesis, ...]:
     """What these runs cannot show, without what was found all the same."""
     chosen = {key_of(one.evidence.variant) for one in found.choices}
-    return tuple(one for one in found.weighing.invisible() if (one.effect, one.joint) not in chosen)
+    taken = {(one.effect, one.joint): one for one in (*found.weighing.invisible(), *taken_up(found.weighing))}
+    return tuple(one for key, one in taken.items() if key not in chosen)
 
 
 def _bounces(found: Search, values: Mapping[int, float]) -> dict[int, float]:

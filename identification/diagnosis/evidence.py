@@ -44,11 +44,13 @@ _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
 #: What a joint has one of: a robot file says no more, and the second tells what the first one leaves.
 _ONE_OF = (BALANCERS, ("joint_elasticity", "backlash"))
 #: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
-#: the same, and where they are alike: friction of the speed, or behind the motor.
+#: nearly the same, and where they are alike: friction of the speed, or behind the motor.
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
 _OF_SPEED = ("qd", "time since reversal")
+#: Variables over which an effect of one of them shows as well.
+_SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
@@ -362,7 +364,7 @@ def _lacking(one: Hypothesis, other: Hypothesis) -> float:
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
     if behind or {one.variable, other.variable} <= set(_OF_SPEED):
         return _ALIKE
-    return _BESIDE if one.variable == other.variable else _ELSE
+    return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE
 
 
 def _chance(drop: float, variant: Variant) -> float:

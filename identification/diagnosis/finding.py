@@ -118,11 +118,6 @@ class Finding:
     apart: bool = True
 
     @property
-    def effect(self) -> str:
-        """Id of the generator's library, or of a correction."""
-        return self.hypothesis.effect
-
-    @property
     def homogeneous(self) -> bool:
         """Whether one amplitude holds in all runs, and along each that repeats."""
         return not self.disagreement
@@ -209,9 +204,13 @@ def findings(
 
 def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     """With offsets as sure as the torques of the position beside them: another law there takes another offset."""
-    doubted = {number for one in told if one.effect in SPRINGS and one.status == TENTATIVE for number in one.joints}
+    doubted = {
+        number for one in told if one.hypothesis.effect in SPRINGS and one.status == TENTATIVE for number in one.joints
+    }
     return [
-        replace(one, status=TENTATIVE) if one.effect == "offset" and not doubted.isdisjoint(one.joints) else one
+        replace(one, status=TENTATIVE)
+        if one.hypothesis.effect == "offset" and not doubted.isdisjoint(one.joints)
+        else one
         for one in told
     ]
 
@@ -220,7 +219,7 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
     """Tentative where its torque is known and its law is not: it leaves too much of it, it is one of ``several``
     springs on a joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
     """
-    effect, kind = one.effect, one.hypothesis.kind
+    effect, kind = one.hypothesis.effect, one.hypothesis.kind
     most = max(one.joints, key=lambda number: one.amplitude.get(number, 0.0))
     remains = left.get(most, 0.0) / one.evidence.size
     any_torque = effect in SPRINGS and (
@@ -237,7 +236,7 @@ def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) 
 
 
 def _unknown(one: Value) -> bool:
-    return (one.std or 0.0) > abs(one.value or 0.0)
+    return (one.std or 0.0) >= abs(one.value or 0.0)
 
 
 def _vague(one: Value) -> bool:

@@ -7,6 +7,7 @@ One map at a time, held against what it leaves, tells of it all the same.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,31 +24,35 @@ _ROWS = 5
 
 
 def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Array], k: int, lack: Lack) -> Lack:
-    """The ``lack`` of coordinate k, or what of its white ``residuals`` (kept rows, one a run) follows one of ``maps``
-    (m x rows, one a run) if that is more; of a joint whose periods were compared the first.
+    """The ``lack`` of coordinate k, or where more than chance of its white ``residuals`` (kept rows, one a run) follows
+    one of ``maps`` (m x rows, one a run), that; of a joint whose periods were compared the first.
     """
     if lack.repeats or not maps:
         return lack
     e = np.concatenate(list(residuals))
-    X = np.concatenate(
-        [colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps, bank.runs, strict=True)],
-        axis=1,
-    )
+    white = [
+        colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps, bank.runs, strict=True)
+    ]
+    X = np.concatenate(white, axis=1)
     each = groups([joint.number for joint in bank.scenes[0].robot.moving], k)
     found = [_follows(X[part], e, what, lack, len(each)) for what, part in each.items()]
-    return max([lack, *found], key=lambda one: (one.p < CHANCE, one.size))
+    return max((one for one in found if one.p < CHANCE), key=lambda one: one.size, default=lack)
 
 
 def _follows(X: Array, e: Array, what: str, lack: Lack, tried: int) -> Lack:
-    """How much of e is a sum of the rows of X (m x N), beyond what as many rows of noise are: an F test."""
+    """How much of e is a sum of the rows of X (m x N), beyond what as many rows of noise are: an F test.
+
+    The size is that of all that the joint lacks, if its power says so too.
+    """
     _, s, V = np.linalg.svd(X, full_matrices=False)
     V = V[s > 1e-6 * s.max(initial=0.0)]
     free = len(e) - len(V)
     if not len(V) or len(e) < _ROWS * len(V):
-        return lack
+        return replace(lack, p=1.0)
     explained = float(np.sum((V @ e) ** 2))
     left = float(e @ e) - explained
     ratio = (explained / len(V)) / max(left / free, 1e-300)
     p = min(1.0, tried * float(f.sf(ratio, len(V), free)))
     size = float(np.sqrt(max(ratio - 1, 0.0) * len(V) / len(e)))
+    size = max(size, lack.size) if lack.p < CHANCE else size
     return Lack(lack.joint, ratio, p, size, False, lack.burst, follows=what)

@@ -34,17 +34,16 @@ def maps(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> list[list[Array]]
     return [_of(runs, scenes, k) for k in range(len(scenes[0].motion.q))]
 
 
-def groups(joints: Sequence[int], k: int) -> dict[str, NDArray[np.intp]]:
+def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
     """The rows of joint k's maps that are of one kind, by what the torque then follows, in words."""
-    place, others = 2 * _PLACES, np.delete(joints, k)
-    first = place + _SPEEDS
-    last = first + 2 * len(others)
-    return {
-        "its place": np.arange(place),
-        "its speed": np.arange(place, first),
-        **{f"the speed of joint {j}": first + np.array([i, len(others) + i]) for i, j in enumerate(others)},
-        "the time since it turned round": np.arange(last, last + len(_FADING)),
+    sizes = {
+        "its place": 2 * _PLACES,
+        "its speed": _SPEEDS,
+        **{f"the speed of joint {number}": 2 for i, number in enumerate(joints) if i != k},
+        "the time since it turned round": len(_FADING),
     }
+    ends = np.cumsum([*sizes.values()]).tolist()
+    return {what: slice(end - size, end) for (what, size), end in zip(sizes.items(), ends, strict=True)}
 
 
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
@@ -58,14 +57,14 @@ def _ends(signals: Sequence[Array]) -> tuple[float, float]:
 
 
 def _columns(scene: Scene, k: int, ends: tuple[float, float], fastest: float) -> Array:
-    """Columns (m x N) at the recorded rate."""
+    """Columns (m x N) at the recorded rate, kind by kind as ``groups`` has them."""
     q, qd = scene.motion.q[k], scene.motion.qd
     sign = np.sign(qd[k])
     place = _tents(q, ends, _PLACES)
     speed = _tents(qd[k], (-fastest, fastest), _SPEEDS)
-    others = np.delete(qd, k, axis=0)
+    drag = [row for other in np.delete(qd, k, axis=0) for row in (other, sign * np.abs(other))]
     fading = [sign * np.exp(-since_reversal(scene, k) / time) for time in _FADING]
-    return np.concatenate([place, sign * place, speed, others, sign * np.abs(others), fading])
+    return np.concatenate([place, sign * place, speed, [*drag, *fading]])
 
 
 def _tents(x: Array, ends: tuple[float, float], count: int) -> Array:

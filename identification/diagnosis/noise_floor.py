@@ -16,8 +16,9 @@ Array = NDArray[np.float64]
 
 #: Points of the integral over the frequency.
 _POINTS = 400
-#: Part of the torque's spread from which noise is more than a sensor's.
-_LOUD = 0.1
+#: Part of the torque's spread from which noise is more than a sensor's; on a joint where it is several times the part
+#: that it is on most joints.
+_LOUD, _LOUDER, _TIMES = 0.1, 0.03, 3.0
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:
@@ -40,14 +41,14 @@ def notes(bank: Bank, aside: Collection[int] = ()) -> list[str]:
 
     Of coordinates ``aside`` it is known what it is.
     """
-    loud = []
+    parts = {}
+    filters = bank.runs[0].sampled.filters
     for k, joint in enumerate(bank.scenes[0].robot.moving):
-        if k in aside:
-            continue
         tau = np.concatenate([run.tau[k][run.kept[k]] for run in bank.runs])
-        filters = bank.runs[0].sampled.filters
-        if len(tau) and (floor := noise_floor(bank, k, filters.rate / filters.factor)) > _LOUD * np.std(tau):
-            loud.append(f"{100 * floor / np.std(tau):.0f} % on joint {joint.number}")
+        if k not in aside and len(tau) and np.ptp(tau):
+            parts[joint.number] = noise_floor(bank, k, filters.rate / filters.factor) / float(np.std(tau))
+    least = min(_LOUD, max(_LOUDER, _TIMES * float(np.median([*parts.values()])))) if len(parts) > 2 else _LOUD
+    loud = [f"{100 * part:.0f} % on joint {number}" for number, part in parts.items() if part > least]
     if not loud:
         return []
     return [

@@ -106,5 +106,6 @@ def _lack(one: Lack) -> dict[str, Any]:
         "p": one.p,
         "size": one.size,
         "repeats": one.repeats,
+        "follows": one.follows or None,
         "event": burst,
     }

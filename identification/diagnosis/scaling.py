@@ -13,6 +13,7 @@ import numpy as np
 
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import Weighing, columns_of
+from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.normal import inverse
 
 #: Least part of an effect's coefficients that the model's own torque must show, and the deviation, in parts of them,
@@ -20,19 +21,18 @@ from identification.diagnosis.normal import inverse
 _SHOWN, _VAGUE = 0.5, 0.25
 
 
+def taken_up(weighing: Weighing) -> list[Hypothesis]:
+    """Gains of drives whose part of the model's own torque the fit takes up."""
+    gains = [one for one in weighing.bank.variants if one.hypothesis.of_model and not one.hypothesis.shapes]
+    return [one.hypothesis for one in gains if (own := _own(weighing, one)) and not weighing.visible(own)]
+
+
 def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> bool:
     """Whether the model's own torque shows and is scaled like the rest, as far as the runs tell; also of what scales
     nothing.
     """
-    hypothesis = variant.hypothesis
-    if hypothesis.of_model is None or not _beside(weighing):
+    if variant.hypothesis.of_model is None or not _beside(weighing) or (own := _own(weighing, variant)) is None:
         return True
-    alone = replace(hypothesis, effect=f"{hypothesis.effect} of the model", columns=hypothesis.of_model)
-    part = weighing.bank.add(alone, variant.shape, offered=False)
-    if part is None:
-        return True
-    weighing.refresh()
-    own = part.only(variant.used)
     if not weighing.visible(own):
         return False
     products = weighing.normal.part([*variant.columns, *own.columns], columns_of(others))
@@ -44,6 +44,19 @@ def scales_all(weighing: Weighing, variant: Variant, others: Sequence[Variant]) 
     pick = np.eye(2 * k)[0] + np.eye(2 * k)[k]
     std = float(np.sqrt(pick @ C @ pick))
     return std > _VAGUE * abs(whole) or float(pick @ values) * np.sign(whole) > _SHOWN * abs(whole)
+
+
+def _own(weighing: Weighing, variant: Variant) -> Variant | None:
+    """What an effect that scales a drive's torque makes of the model's own, None of what scales nothing."""
+    hypothesis = variant.hypothesis
+    if hypothesis.of_model is None:
+        return None
+    alone = replace(hypothesis, effect=f"{hypothesis.effect} of the model", columns=hypothesis.of_model)
+    part = weighing.bank.add(alone, variant.shape, offered=False)
+    if part is None:
+        return None
+    weighing.refresh()
+    return part.only(variant.used)
 
 
 def _beside(weighing: Weighing) -> bool:

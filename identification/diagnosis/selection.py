@@ -260,7 +260,8 @@ class Selection:
         tried = [shape.name for shape in one.hypothesis.shapes if not shape.free]
         same = [each for each in self.weighing.bank.variants if key_of(each) == key_of(one)]
         unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
-        return all(self.weighing.beside(each, others)[1] < mine.drop - _BETTER for each in unlike)
+        drops = [self.weighing.beside(each.only(one.used), others)[1] for each in unlike]
+        return all(drop < mine.drop - _BETTER for drop in drops)
 
 
 def _agrees(one: Evidence) -> bool:

@@ -58,6 +58,7 @@ def _parameter(instance: Instance, k: int, index: str) -> list[Content]:
     parameter = instance.effect.parameters[k]
     name = Name(f"{parameter.stem}{index}" if index.isdigit() else f"{parameter.stem}_{index}")
     bound = "" if parameter.lower is None else f", ≥\u00a0{parameter.lower:g}"
+    bound += "" if parameter.upper is None else f", ≤\u00a0{parameter.upper:g}"
     return [math(name), f" {parameter.meaning} [{unit(parameter.unit(instance.joint))}]{bound}. "]
 
 

@@ -34,8 +34,8 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """One a joint without a gap in the robot's file and without an encoder on its link; none where recorded
     torques lack what is quick (``torque_band``).
 
-    The coefficient is the gap by the torque's size, the shape ``gap`` that by the times of its crossing; they agree
-    closely where ``Iam``, the drive train's inertia, is known. ``k`` is the stiffness beyond the gap.
+    The coefficient is the gap by the torque's size, the shape ``gap`` that by the times of its crossing.
+    ``Iam`` is the drive train's inertia, ``k`` is the stiffness beyond the gap.
     """
     if not scenes or np.isfinite(end(scenes)):
         return []
@@ -88,7 +88,7 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
         agrees=_agrees,
-        twice={f"gap{joint.number}": ("gap", 1)} if rotor or rotor_is_told(side.scene, side.k) else {},
+        twice={f"gap{joint.number}": ("gap", 1)},
         starts=tuple(
             {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
             for inertia, stiffness, damping, gap in found

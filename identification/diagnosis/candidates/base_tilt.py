@@ -48,7 +48,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     model = scenes[0].regressors.model
     hidden = _hidden(weights, model, _some_positions(scenes))
     columns = _Columns(model, weights, hidden)
-    if not _varies(np.concatenate([columns(scene, {}) for scene in scenes], axis=2)):
+    if not _varies([columns(scene, {}) for scene in scenes]):
         return []
     standard = {one.name: one.unit for one in model.standard_parameters}
     return [
@@ -73,9 +73,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     ]
 
 
-def _varies(torques: Array) -> bool:
-    """Whether torques (... x N) change along the runs: what stays the same is an offset's."""
-    return bool(np.any(np.ptp(torques, axis=-1) > _SAME * np.abs(torques).max(axis=-1, initial=0.0)))
+def _varies(torques: Sequence[Array]) -> bool:
+    """Whether torques (... x N each) change along the runs: what stays the same is an offset's."""
+    least = np.min([one.min(axis=-1) for one in torques], axis=0)
+    most = np.max([one.max(axis=-1) for one in torques], axis=0)
+    return bool(np.any(most - least > _SAME * np.maximum(np.abs(least), np.abs(most))))
 
 
 class Weight:

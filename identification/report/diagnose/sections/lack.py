@@ -27,7 +27,7 @@ def render(subject: Subject) -> Markup:
         "What repetitions of the motion have in common, beside what differs between them (an F test)."
         if repeats
         else "The power of the residual beside that of the noise, which is measured on the same rows: weaker evidence"
-        " than a motion that repeats would give."
+        " than a motion that repeats would give; where the residual follows the motion, what does beside what does not."
     )
     text = f"{how} A ratio of 1 is a model without fault; the size is what it lacks, in the noise's rms."
     bars = [
