@@ -258,7 +258,11 @@ class Selection:
         """Whether it explains clearly more than its hypothesis with another value of a shape that is not searched."""
         one = mine.variant
         tried = [shape.name for shape in one.hypothesis.shapes if not shape.free]
-        same = [each for each in self.weighing.bank.variants if key_of(each) == key_of(one)]
+        same = [
+            each
+            for each in self.weighing.bank.variants
+            if key_of(each) == key_of(one) and each.shape.keys() == one.shape.keys()
+        ]
         unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
         drops = [self.weighing.beside(each.only(one.used), others)[1] for each in unlike]
         return all(drop < mine.drop - _BETTER for drop in drops)
