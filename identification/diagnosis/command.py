@@ -89,7 +89,8 @@ def diagnosed(
         found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
         ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
         bank = found.found.bank
-        ended += effort_rounding.notes(bank) + noise_floor.notes(bank, effort_rounding.told(bank))
+        known_in_part = [k for k, one in enumerate(found.after.lack) if one.follows]
+        ended += effort_rounding.notes(bank) + noise_floor.notes(bank, {*effort_rounding.told(bank), *known_in_part})
         found = changed(found, notes=(*notes, *found.notes, *doubts(found, known, wanted.dry), *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
