@@ -16,6 +16,7 @@ from scipy.stats import f
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.maps import groups
+from identification.diagnosis.may_act import enough
 
 Array = NDArray[np.float64]
 
@@ -25,11 +26,14 @@ _ROWS = 5
 
 def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Array], k: int, lack: Lack) -> Lack:
     """The ``lack`` of coordinate k, or where more than chance of its white ``residuals`` (kept rows, one a run) follows
-    one of ``maps`` (m x rows, one a run), that; of a joint whose periods were compared the first.
+    one of ``maps`` (m x rows, one a run), that; the first where periods were compared or maps taken out of the noise.
     """
     if lack.repeats or not maps:
         return lack
     e = np.concatenate(list(residuals))
+    model = {number for r in range(len(bank.runs)) for number in bank.raw(r, k)[0] if number < len(bank.base)}
+    if enough(len(e), len(model) + len(maps[0])):
+        return lack
     white = [
         colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps, bank.runs, strict=True)
     ]

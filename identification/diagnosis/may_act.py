@@ -66,10 +66,10 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
         return list(parts)
     p, more = len(bank.base), len(maps[0])
     model = len({number for part in parts for number in part.numbers if number < p})
-    most = allowed(sum(int(part.kept.sum()) for part in parts))
-    if most <= model + more:
+    count = sum(int(part.kept.sum()) for part in parts)
+    if not enough(count, model + more):
         return list(parts)
-    apart = most > model + more + model * len(parts)
+    apart = enough(count, model + more + model * len(parts))
     result = []
     for r, (part, rows) in enumerate(zip(parts, maps, strict=True)):
         own = [i for i, number in enumerate(part.numbers) if number < p and apart]
@@ -80,6 +80,11 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
             noise = np.concatenate([np.zeros_like(rows), noise[own], noise])
         result.append(Rows(numbers, columns, part.tau, part.kept, noise))
     return result
+
+
+def enough(rows: int, columns: int) -> bool:
+    """Whether rows are more than so many columns may use up."""
+    return allowed(rows) > columns
 
 
 def allowed(rows: int) -> int:
