@@ -107,8 +107,9 @@ def diagnose(
         before = led(before, named[0])
     notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
     if open_:
-        follow = {f"what is left on joint {one.joint} follows {one.follows}": None for one in open_ if one.follows}
-        notes += follow
+        notes += dict.fromkeys(
+            f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows
+        )
         notes += odd_run.notes(found)
     if named and not open_:
         notes += _little([lack for lack in last.lack if lack.joint not in bounces])

@@ -39,7 +39,8 @@ _FITS = 5
 class Search:
     """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
 
-    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N].
+    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N]; ``maps``
+    are those of the motion, by joint and run, none where a run repeats.
     """
 
     bank: Bank
@@ -51,6 +52,7 @@ class Search:
     train: tuple[int, ...]
     validate: tuple[int, ...]
     rounded: tuple[Array, ...]
+    maps: Sequence[Sequence[Array]] = ()
 
     @property
     def variants(self) -> list[Variant]:
@@ -122,7 +124,8 @@ def search(
             for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
         )
         noisy = redrawn(clear, scenes)
-        bank.whiten(colours(bank, rounded, maps(clear, scenes), noisy))
+        may_follow = maps(clear, scenes)
+        bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy)
         told("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
@@ -136,8 +139,9 @@ def search(
         if swinging(chosen) and turn + 1 < _PASSES:
             told("settling how drive trains swing")
             chosen, values, acting = settled(weighing, chosen)
+    found = tuple(choices)
     return Search(
-        bank, weighing, tuple(choices), values, covariance, tuple(offered), tuple(train), tuple(validate), rounded
+        bank, weighing, found, values, covariance, tuple(offered), tuple(train), tuple(validate), rounded, may_follow
     )
 
 

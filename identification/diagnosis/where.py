@@ -15,7 +15,6 @@ from identification.diagnosis.following import following
 from identification.diagnosis.hypothesis import ELASTIC
 from identification.diagnosis.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.loop import Search
-from identification.diagnosis.maps import maps
 from identification.diagnosis.views import View, strongest, views
 
 Array = NDArray[np.float64]
@@ -54,7 +53,6 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     chosen = found.variants
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
     stiff = {column: x for column, x in weights.items() if column not in elastic}
-    may_follow = maps(bank.runs, bank.scenes)
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
@@ -63,7 +61,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
             doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
         lack = lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, k))
-        lacks.append(following(bank, white, may_follow[k] if may_follow else (), k, lack))
+        lacks.append(following(bank, white, found.maps[k] if found.maps else (), k, lack))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
