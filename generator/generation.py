@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import json
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
+
+from threadpoolctl import threadpool_limits
 
 import generator.backends
 from generator.derivation import derive
@@ -36,17 +39,36 @@ def generate(
     numbers, and the folder is ``out/<robot's name>_<set>``. Nothing is written before everything has been derived.
     Raises InputError for a bad robot file, a set that it lacks or a folder that cannot be written.
     """
-    with stage(f"reading {robot_file.name}"):
-        robot = read(robot_file)
-    with stage(f"deriving the model of {robot.name}"):
-        model = derive(robot, plain=plain, parameter_set=parameter_set)
-    with stage("emitting the files"):
-        files = emitted(model)
+    with _one_thread(), _no_garbage_collection():
+        with stage(f"reading {robot_file.name}"):
+            robot = read(robot_file)
+        with stage(f"deriving the model of {robot.name}"):
+            model = derive(robot, plain=plain, parameter_set=parameter_set)
+        with stage("emitting the files"):
+            files = emitted(model)
     contents = manifest(model, sorted(files))
     files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
     folder = out / model.robot.name
     replace(folder, files)
     return folder, contents
+
+
+def _one_thread() -> AbstractContextManager[object]:
+    """Matrices of a model are small: threads would wait for each other, a hundred times as long on a busy machine."""
+    limits: AbstractContextManager[object] = threadpool_limits(limits=1, user_api="blas")
+    return limits
+
+
+@contextmanager
+def _no_garbage_collection() -> Iterator[None]:
+    """Python's collector walks a model's nodes again and again and frees none: all live until the files are written."""
+    before = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if before:
+            gc.enable()
 
 
 def emitted(model: Model) -> dict[str, bytes]:

@@ -9,7 +9,7 @@ apart, so that no function gets longer.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 
@@ -27,11 +27,13 @@ def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
 
     Long chains' functions take one pass.
     """
-    shortest = _factored_once(program, roots)
+    shortest = _factored_once(program, roots, program.reachable(roots))
     fewest = _operations(program, shortest)
-    while len(program.reachable(shortest)) <= _LONG:
-        opened = _opened(program, shortest)
-        ways = [_factored_once(program, start) for start in ([shortest] if opened == shortest else [shortest, opened])]
+    while len(nodes := program.reachable(shortest)) <= _LONG:
+        ways = [_factored_once(program, shortest, nodes)]
+        opened = _opened(program, shortest, nodes)
+        if opened != shortest:
+            ways.append(_factored_once(program, opened, program.reachable(opened)))
         counts = [_operations(program, way) for way in ways]
         if min(counts) >= fewest:
             break
@@ -40,17 +42,16 @@ def factored(program: Program, roots: Sequence[Node]) -> list[Node]:
     return shortest
 
 
-def _factored_once(program: Program, roots: Sequence[Node]) -> list[Node]:
-    nodes = program.reachable(roots)
+def _factored_once(program: Program, roots: Sequence[Node], nodes: Sequence[Node]) -> list[Node]:
+    """One pass over the ``nodes`` that ``roots`` need."""
     rewriter = _Rewriter(program, _uses(nodes, roots))
     for node in nodes:
         rewriter.rewrite(node)
     return [rewriter.done[root] for root in roots]
 
 
-def _opened(program: Program, roots: Sequence[Node]) -> list[Node]:
+def _opened(program: Program, roots: Sequence[Node], nodes: Sequence[Node]) -> list[Node]:
     """The same values with x (f a + g b) as f x a + g x b in sums that have other products with f and with g."""
-    nodes = program.reachable(roots)
     openings = _Rewriter(program, _uses(nodes, roots)).openings(nodes)
     return replaced(program, roots, openings) if openings else list(roots)
 
@@ -90,13 +91,13 @@ class _Rewriter:
         for node in nodes:
             if node.operation in ("add", "sub") and not node.parameter_only:
                 products = [term for _, term in self._terms(node) if self._is_private_product(term)]
-                factors = Counter(factor for product in products for factor in set(self._factors(product)))
+                factors = set(chain.from_iterable(map(self._factors, products)))
                 for product in products:
                     if (opened := self._multiplied_out(product, factors)) is not None:
                         found[_size(product)] = opened
         return found
 
-    def _multiplied_out(self, product: Node, factors: Counter[Node]) -> Node | None:
+    def _multiplied_out(self, product: Node, factors: set[Node]) -> Node | None:
         """x (f a + g b) as f x a + g x b if f and g are among ``factors``, else None."""
         own = self._factors(product)
         sums = [node for node in own if node.operation in ("add", "sub") and self._single(node)]
@@ -104,7 +105,7 @@ class _Rewriter:
             return None
         terms = self._terms(sums[0])
         for _, term in terms:
-            if not self._is_private_product(term) or factors.keys().isdisjoint(self._factors(term)):
+            if not self._is_private_product(term) or factors.isdisjoint(self._factors(term)):
                 return None
         weight = self.program.one
         for factor in own:
@@ -151,11 +152,10 @@ class _Rewriter:
         return total + self._added(still) if still else total
 
     def _sum_of_moving(self, terms: list[Term]) -> Node:
-        products = [(place, term) for place, term in enumerate(terms) if self._is_private_product(term[1])]
-        factors = {place: self._factors(product) for place, (_, product) in products}
-        counts = Counter(chain.from_iterable(map(set, factors.values())))
-        best = max(counts, key=lambda factor: (counts[factor], -factor.index), default=None)
-        if best is None or counts[best] < 2:
+        places = [place for place, (_, node) in enumerate(terms) if self._is_private_product(node)]
+        factors = {place: self._factors(terms[place][1]) for place in places} if len(places) > 1 else {}
+        best = _most_common(factors.values())
+        if best is None:
             return self._added([(negative, self.done[node]) for negative, node in terms])
         chosen = [place for place, found in factors.items() if best in found]
         bracket = self._added(
@@ -192,6 +192,13 @@ class _Rewriter:
         for negative, node in terms:
             total = total - node if negative else total + node
         return total
+
+
+def _most_common(products: Iterable[Iterable[Node]]) -> Node | None:
+    """The factor of the most products, of equal ones the earliest; None where none has two."""
+    counts = Counter(chain.from_iterable(map(set, products)))
+    shared = [factor for factor, count in counts.items() if count > 1]
+    return max(shared, key=lambda factor: (counts[factor], -factor.index), default=None)
 
 
 def _negative(product: Node) -> bool:

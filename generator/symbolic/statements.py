@@ -371,7 +371,7 @@ class Program:
             if operation == "input":
                 parameter_only = value[0] in self._parameter_signals  # type: ignore[index]
             else:
-                parameter_only = all(argument.parameter_only for argument in arguments)
+                parameter_only = False not in [argument.parameter_only for argument in arguments]
             node = Node(self, len(self._nodes), operation, arguments, value, parameter_only)
             self._nodes[key] = node
         return node
