@@ -9,8 +9,6 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 import generator.backends
 from generator.derivation import derive
 from generator.discovery import modules
@@ -39,7 +37,7 @@ def generate(
     numbers, and the folder is ``out/<robot's name>_<set>``. Nothing is written before everything has been derived.
     Raises InputError for a bad robot file, a set that it lacks or a folder that cannot be written.
     """
-    with _one_thread(), _no_garbage_collection():
+    with _no_garbage_collection():
         with stage(f"reading {robot_file.name}"):
             robot = read(robot_file)
         with stage(f"deriving the model of {robot.name}"):
@@ -51,12 +49,6 @@ def generate(
     folder = out / model.robot.name
     replace(folder, files)
     return folder, contents
-
-
-def _one_thread() -> AbstractContextManager[object]:
-    """Matrices of a model are small: threads would wait for each other, a hundred times as long on a busy machine."""
-    limits: AbstractContextManager[object] = threadpool_limits(limits=1, user_api="blas")
-    return limits
 
 
 @contextmanager

@@ -6,12 +6,13 @@ explains the torques far better, the columns are refused and named.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.library import library
 from generator.errors import InputError, Place
 from generator.symbolic.model import Model
 from identification.factors import Factor, triangular
@@ -26,8 +27,8 @@ Array = NDArray[np.float64]
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.
 _DOUBTFUL, _REFUSED = 10.0, 50.0
-#: Standard deviations from which a parameter's sign is told, and how many must tell it.
-_SURE, _SEVERAL = 4.0, 2
+#: Standard deviations from which a parameter's sign is told for sure and from which it is likely; how many must be.
+_SURE, _LIKELY, _SEVERAL = 4.0, 2.5, 2
 #: By how much the product of the joints' residuals must fall.
 _BETTER = 20.0
 #: Samples that the fits are repeated on.
@@ -59,15 +60,33 @@ def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
             _swapped(one, regressors, bad)
 
 
-def directed(place: Place, model: Model, values: Mapping[str, float], std: Mapping[str, float]) -> None:
-    """Raises InputError where all that a fit shows of parameters that cannot be negative is far below that: the torques
-    have the other sign. ``std`` are standard deviations by name, of what was fitted and shows.
+def directed(
+    place: Place, model: Model, values: Mapping[str, float], std: Mapping[str, float], aside: Collection[int] = ()
+) -> None:
+    """Raises InputError where all that a fit shows of friction and inertia that cannot be negative is, by far, of all
+    joints or of one: the torques have the other sign. ``std`` are standard deviations by name, of what was fitted and
+    shows. One of joints number ``aside`` tells nothing by itself.
     """
-    bounded = [one.name for one in model.base_parameters if one.lower == 0.0 and std.get(one.name)]
-    shown = [values[name] for name in bounded if abs(values[name]) > _SURE * std[name]]
-    if len(shown) >= _SEVERAL and max(shown) < 0:
-        problem = "all friction and inertia that the torques show alone is negative"
-        raise InputError(place, problem, "torques of the drives on the joints; a sidecar can change their sign")
+    storing = {
+        f"{one.stem}{joint}"
+        for use in model.robot.effects
+        if library()[use.effect].potential_energy
+        for one in library()[use.effect].parameters
+        for joint in use.joints
+    }
+    bounded = [
+        one for one in model.base_parameters if one.lower == 0.0 and std.get(one.name) and one.name not in storing
+    ]
+    sizes = {one.name: values[one.name] / std[one.name] for one in bounded}
+    moving = {joint.number for joint in model.robot.moving}
+    for joints in (moving, *({number} for number in sorted(moving.difference(aside)))):
+        mine = [sizes[one.name] for one in bounded if one.joint in joints]
+        sure = [size for size in mine if abs(size) > _SURE]
+        likely = [size for size in mine if abs(size) > _LIKELY]
+        if len(likely) >= _SEVERAL and max(likely) < 0 and sure:
+            whose = "" if joints == moving else f" of joint {min(joints)}"
+            problem = f"all friction and inertia that the torques{whose} show alone is negative"
+            raise InputError(place, problem, "torques of the drives on the joints; a sidecar can change their sign")
 
 
 def _doubtful(residuals: Residuals) -> list[int]:

@@ -291,3 +291,17 @@ def test_generate_works_from_any_folder_and_with_a_relative_path(pendulum: Path)
     done = process("generate", "pendulum.yaml", "--out", "here", cwd=pendulum.parent)
     assert done.status == 0
     assert (pendulum.parent / "here" / "pendulum" / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_commands_use_one_thread_unless_told_otherwise(given: dict[str, str], used: str) -> None:
+    """It must be said before NumPy is imported, and NumPy is when the commands are found."""
+    program = (
+        "import os, sys; from generator.cli.main import main; early = 'numpy' in sys.modules; main(['list']);"
+        "print(early, os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    clean = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    done = subprocess.run(
+        [sys.executable, "-c", program], env={**clean, "PYTHONPATH": str(ROOT), **given}, capture_output=True, text=True
+    )
+    assert done.stdout.split()[-2:] == ["False", used]

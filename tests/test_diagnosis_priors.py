@@ -233,3 +233,18 @@ def test_what_is_added_and_not_known_takes_its_direction_out_of_the_prior() -> N
     assert direction @ unknown.precision @ direction == pytest.approx(0.0, abs=1e-12)
     assert prior.shifted(np.array([0.0, 0.0, 1.0]), 0.7, np.inf).precision == pytest.approx(prior.precision)
     assert prior.shifted(direction, 0.7, 0.0).precision == pytest.approx(prior.precision)
+
+
+@pytest.mark.parametrize("rounding", [-1.4e-18, 3e-20])
+def test_a_zero_but_for_rounding_is_not_known_to_its_digits(rounding: float, tmp_path: Path) -> None:
+    """As drawings export it: two hundredths of nothing would be all that counts."""
+    path = tmp_path / "arm.yaml"
+    lines = [
+        f"      {name}: {{value: {value}, unit: {unit}, relative_std: 2}}" for name, (value, unit, _) in VALUES.items()
+    ]
+    path.write_text(ARM + "\n".join([*lines, f"      YZ2: {{value: {rounding}, unit: kg m2, relative_std: 2}}"]) + "\n")
+    model = Regressors(read(path)).model
+    prior = prior_of(model, "drawing")
+    at = [one.name for one in model.base_parameters].index("YZ2")
+    largest = max(abs(value) for value, unit, _ in VALUES.values() if unit == "kg m2")
+    assert 1e-8 * largest < 1 / np.sqrt(prior.precision[at, at]) < 1e-3 * largest

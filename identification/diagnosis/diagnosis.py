@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +19,14 @@ from identification.diagnosis.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.loop import Search, search
 from identification.diagnosis.normal import Prior
+from identification.diagnosis.overlooked import untested, untold
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.scaling import taken_up
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.stated_elasticity import TOGETHER, names_of_backlash, stated
 from identification.diagnosis.steps import Steps, steps
-from identification.diagnosis.trial import along
+from identification.diagnosis.trial import Trial, along
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -99,13 +100,15 @@ def diagnose(
     open_ = [] if dry else [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
     disagreeing = disagreements(found)
     open_ = open_ or _doubtful(found, last, disagreeing)
-    after = located(last, open_)
+    overlooked = {} if dry or open_ or found.choices else _overlooked(found, trial)
+    open_ = open_ or [last.lack[k] for k in overlooked]
+    after = _placed(located(last, open_), overlooked)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
-    notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone)]
+    notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone), *overlooked.values()]
     if open_:
         notes += dict.fromkeys(
             f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows
@@ -124,7 +127,7 @@ def diagnose(
         roles,
         tuple(runs),
         found,
-        steps(found, trial),
+        steps(found, trial if found.choices else None),
         tuple(_residuals(found, start)),
         tuple(_residuals(found, weights)),
         tuple(notes),
@@ -197,6 +200,32 @@ def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[
     return [last.lack[k] for one in found.variants if key_of(one) in disagreeing for k in one.joints]
 
 
+def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
+    """By coordinate, the worst first, why something is missing though nothing was found, in words."""
+    numbers = [joint.number for joint in found.bank.scenes[0].robot.moving]
+    most = untold(found, found.start)
+    tested = {} if trial is None else untested(found, trial)
+    said = {
+        k: f"most of the torque of joint {numbers[k]} follows from nothing: that is no noise"
+        for k in sorted(most, key=lambda k: -most[k])
+    }
+    said |= {
+        k: f"the runs that test keep {tested[k]:.2g} times the noise on joint {numbers[k]}, the others do not: what is "
+        "missing there changes from run to run, or with time"
+        for k in sorted(tested, key=lambda k: -tested[k])
+        if k not in most
+    }
+    return said
+
+
+def _placed(after: Where, overlooked: Mapping[int, str]) -> Where:
+    """Where the runs say what was ``overlooked`` they do not say over which variable."""
+    if not overlooked:
+        return after
+    first = after.lack[next(iter(overlooked))].joint
+    return replace(after, joint=first, variable="time", region="changes with time or from run to run", shares={})
+
+
 def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
     bank = found.bank
     return [
@@ -234,7 +263,8 @@ def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
         if run.unlike:
             unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
     notes = [
-        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well"
+        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well, and "
+        "what is small beside it is not firm"
         for why, names in unlike.items()
     ]
     for one in found:

@@ -254,10 +254,13 @@ class Weighing:
         return replace(one, passes=True)
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
-        """Without coefficients that only refine, where they explain chance, or more than what they refine."""
+        """Without coefficients that only refine, where they explain chance, or more than what they refine.
+
+        Once what they refine is at its bounds, and gone, they are all that is left.
+        """
         drop, variant, x = found
         kept = [i for i, one in enumerate(variant.coefficients) if not one.refines]
-        if len(kept) == len(x):
+        if not kept or len(kept) == len(x):
             return found
         plain = variant.only(kept)
         values, less = self.beside(plain, others)

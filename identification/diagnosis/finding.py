@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
+from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import BALANCERS, SPRINGS, Evidence, Key, columns_of, key_of
 from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
 from identification.diagnosis.loop import Search
+from identification.diagnosis.may_act import taken
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.shape_uncertainty import apart, deviations
 from identification.diagnosis.whole_orders import UNSURE
@@ -29,6 +31,9 @@ _VAGUE = 0.5
 #: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
 #: to where it rests, which any torque of the position looks like.
 _LEFT, _PULLED = 1.0, 0.15
+#: Size of a finding, in parts of the noise's rms, below which it is not firm where nothing repeats: the noise is then
+#: not known apart from the model. Where rows are too few to take what may act out of it as well.
+_APERIODIC, _SHORT = 0.5, 1.0
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 #: What tells ripples apart, of which those of motors turn with another joint's as well in a coupled wrist.
@@ -146,8 +151,10 @@ class Finding:
 
     @property
     def main(self) -> tuple[Value, ...]:
-        """Its coefficients but those that refine it."""
-        return tuple(self.parameters[c.name] for c in self.hypothesis.coefficients if not c.refines)
+        """Its coefficients but those that refine it, unless they are all that it has."""
+        plain = tuple(self.parameters[c.name] for c in self.hypothesis.coefficients if not c.refines)
+        refining = tuple(self.parameters[c.name] for c in self.hypothesis.coefficients if c.refines)
+        return plain if any(one.value for one in plain) else refining or plain
 
     @property
     def determined(self) -> bool:
@@ -184,7 +191,7 @@ def findings(
         result.append(
             Finding(
                 hypothesis,
-                FIRM if firm and not alternatives else TENTATIVE,
+                FIRM if firm and not alternatives and one.evidence.size >= _least(found, variant) else TENTATIVE,
                 hypothesis.joints or (hypothesis.joint,),
                 variant.shape,
                 values,
@@ -200,6 +207,13 @@ def findings(
     several = {number for number in pulled if pulled.count(number) > 1}
     told = _beside_any_torque([_doubted(one, left, several) for one in result])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
+
+
+def _least(found: Search, variant: Variant) -> float:
+    """Size from which a finding is firm."""
+    if not found.maps:
+        return 0.0
+    return _APERIODIC if all(taken(found.bank, found.maps, k) for k in variant.joints) else _SHORT
 
 
 def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:

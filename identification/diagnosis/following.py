@@ -16,7 +16,7 @@ from scipy.stats import f
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.maps import groups
-from identification.diagnosis.may_act import enough
+from identification.diagnosis.may_act import taken
 
 Array = NDArray[np.float64]
 
@@ -24,18 +24,16 @@ Array = NDArray[np.float64]
 _ROWS = 5
 
 
-def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Array], k: int, lack: Lack) -> Lack:
+def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Array]], k: int, lack: Lack) -> Lack:
     """The ``lack`` of coordinate k, or where more than chance of its white ``residuals`` (kept rows, one a run) follows
-    one of ``maps`` (m x rows, one a run), that; the first where periods were compared or maps taken out of the noise.
+    one of its ``maps`` (by joint and run, m x rows), that; the first where periods were compared or maps taken out of
+    the noise.
     """
-    if lack.repeats or not maps:
+    if lack.repeats or not maps or taken(bank, maps, k):
         return lack
     e = np.concatenate(list(residuals))
-    model = {number for r in range(len(bank.runs)) for number in bank.raw(r, k)[0] if number < len(bank.base)}
-    if enough(len(e), len(model) + len(maps[0])):
-        return lack
     white = [
-        colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps, bank.runs, strict=True)
+        colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps[k], bank.runs, strict=True)
     ]
     X = np.concatenate(white, axis=1)
     each = groups([joint.number for joint in bank.scenes[0].robot.moving], k)

@@ -82,6 +82,13 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
     return result
 
 
+def taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
+    """Whether rows of a joint are enough for its maps to be taken out of its noise."""
+    rows = sum(int(run.kept[joint].sum()) for run in bank.runs)
+    model = {number for r in range(len(bank.runs)) for number in bank.raw(r, joint)[0] if number < len(bank.base)}
+    return enough(rows, len(model) + len(maps[joint][0]))
+
+
 def enough(rows: int, columns: int) -> bool:
     """Whether rows are more than so many columns may use up."""
     return allowed(rows) > columns

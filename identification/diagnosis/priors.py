@@ -19,9 +19,9 @@ from identification.named_set import named_set
 
 Array = NDArray[np.float64]
 
-#: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, in parts
-#: of the largest of its unit.
-_UNTOLD, _KNOWN, _ZERO = 0.05, 1e-4, 1e-3
+#: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, and the
+#: least of any value, which may be zero but for rounding, in parts of the largest of its unit.
+_UNTOLD, _KNOWN, _ZERO, _ROUNDED = 0.05, 1e-4, 1e-3, 1e-7
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6
 
@@ -133,7 +133,7 @@ def _deviation(one: ParameterValue, largest: float) -> float:
     """Standard deviation of a value; no part of zero tells one, and none at all would be no knowledge."""
     if one.relative_std is None or one.value == 0:
         return max(_UNTOLD * abs(one.value), _ZERO * largest)
-    return abs(one.value) * min(max(one.relative_std / 100, _KNOWN), 1 / _KNOWN)
+    return max(abs(one.value) * min(max(one.relative_std / 100, _KNOWN), 1 / _KNOWN), _ROUNDED * largest)
 
 
 def _precision(root: Array) -> Array:

@@ -184,7 +184,23 @@ class Selection:
         if one.hypothesis.starts:
             same = [other for other in self.weighing.bank.variants if key_of(other) == key_of(one)]
             one = self.weighing.best_shape([one, *same], others).variant
-        return nearest(self.weighing, refined(self.weighing, one, others), others)
+        each = [refined(self.weighing, start, others) for start in (one, *self._of_other_forms(one, others))]
+        best = max(each, key=lambda shaped: self.weighing.of(shaped, others).score) if len(each) > 1 else each[0]
+        return nearest(self.weighing, best, others)
+
+    def _of_other_forms(self, one: Variant, others: Sequence[Variant]) -> list[Variant]:
+        """The best variant of each other form: with other values of the shapes that are tried alone, where others are
+        searched. Before those are, another form may seem the better one.
+        """
+        alone = [shape.name for shape in one.hypothesis.shapes if not shape.free]
+        if not alone or len(alone) == len(one.hypothesis.shapes):
+            return []
+        forms: dict[tuple[float, ...], list[Variant]] = {}
+        for other in self.weighing.bank.variants:
+            if key_of(other) == key_of(one):
+                forms.setdefault(tuple(other.shape[name] for name in alone), []).append(other)
+        forms.pop(tuple(one.shape[name] for name in alone), None)
+        return [self.weighing.best_shape(same, others).variant for same in forms.values()]
 
     def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:
         """Other hypotheses in the place of ``mine``, the best first.

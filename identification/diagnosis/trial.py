@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +27,7 @@ _PLAIN = Colour((np.ones(1),), (1.0,))
 class Trial:
     """White ``columns`` (c x N) of the testing runs, those of the base and of what was found, and ``torque`` (N).
 
+    ``recorded`` are the same rows as they were recorded, by coordinate: columns (c x N), torque (N) [N m, N].
     ``normal`` is of the runs that fit and validate. ``usual`` (N) is how much of the noise that a row is white by, that
     of the noisiest run, all of them have in the mean. ``places`` tells the columns of each hypothesis, by its effect
     and joint; -1 where they make no torque.
@@ -35,6 +36,7 @@ class Trial:
     normal: Normal
     columns: Array
     torque: Array
+    recorded: Mapping[int, tuple[Array, Array]]
     usual: Array
     places: dict[tuple[str, int], tuple[int, ...]]
 
@@ -60,10 +62,10 @@ class Trial:
 def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
     """Joints that the other runs show, white by the noisiest of them.
 
-    None without rows or findings, and where what was found is impossible along a run: a testing run may lack what the
+    None without rows, and where what was found is impossible along a run: a testing run may lack what the
     others have, such as a temperature.
     """
-    if not (found.choices and test):
+    if not test:
         return None
     like = found.bank.scenes[0]
     jumps = Acting(tuple(found.variants)).jumps
@@ -83,15 +85,26 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
         places[key_of(variant)] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
     bank.whiten([noisiest for _ in test])
     blocks, usual = [np.empty((bank.count + 1, 0))], [np.empty(0)]
+    recorded: dict[int, list[Array]] = {}
     for r in range(len(test)):
-        for k in np.flatnonzero(shown):
-            numbers, white = bank.white(r, int(k))
-            block = np.zeros((bank.count + 1, white.shape[1]))
-            block[[*numbers, bank.count]] = white
-            blocks.append(block)
+        for k in map(int, np.flatnonzero(shown)):
+            numbers, white = bank.white(r, k)
+            blocks.append(_placed([*numbers, bank.count], white))
+            _, columns, torque, kept = bank.raw(r, k)
+            plain = np.concatenate([columns, torque[None]])[:, kept]
+            recorded.setdefault(k, []).append(_placed([*numbers, bank.count], plain))
             mean = np.sqrt(np.mean([one.deviations[-1] ** 2 for one in of_joint[k]]))
             usual.append(np.full(white.shape[1], mean / noisiest[k].deviations[-1]))
     rows = np.concatenate(blocks, axis=1)
     if not rows.shape[1]:
         return None
-    return Trial(found.weighing.all, rows[:-1], rows[-1], np.concatenate(usual), places)
+    whole = {k: np.concatenate(parts, axis=1) for k, parts in recorded.items()}
+    plainly = {k: (part[:-1], part[-1]) for k, part in whole.items()}
+    return Trial(found.weighing.all, rows[:-1], rows[-1], plainly, np.concatenate(usual), places)
+
+
+def _placed(numbers: Sequence[int], rows: Array) -> Array:
+    """Rows in the places of their numbers, the last number the greatest of all; zero elsewhere."""
+    result = np.zeros((numbers[-1] + 1, rows.shape[1]))
+    result[list(numbers)] = rows
+    return result

@@ -61,7 +61,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
             doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
         lack = lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, k))
-        lacks.append(following(bank, white, found.maps[k] if found.maps else (), k, lack))
+        lacks.append(following(bank, white, found.maps, k, lack))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
