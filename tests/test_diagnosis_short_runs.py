@@ -1,4 +1,4 @@
-"""Short runs that do not repeat: the noise is not known apart from the model, and what is small beside it is not firm."""
+"""Runs that do not repeat: noise is not known apart from the model, and what is small beside it is not firm."""
 
 from __future__ import annotations
 
