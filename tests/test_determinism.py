@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
 from pathlib import Path
 
 import pytest
 
+from generator.errors import InputError
+from generator.generation import generate
 from generator.resources import find_robot
 from tests.commands import ROOT, process, tree
 
@@ -26,3 +29,14 @@ def test_hash_seed_folder_locale_and_time_zone_do_not_matter(name: str, tmp_path
     assert files == tree(elsewhere / "second")
     for place in (tmp_path, ROOT):
         assert not [path for path, content in files.items() if str(place).encode() in content]
+
+
+@pytest.mark.parametrize("collects", [True, False])
+def test_garbage_is_collected_afterwards_as_before(collects: bool, tmp_path: Path) -> None:
+    (gc.enable if collects else gc.disable)()
+    try:
+        with pytest.raises(InputError):
+            generate(tmp_path / "nothing.yaml", tmp_path / "out")
+        assert gc.isenabled() == collects
+    finally:
+        gc.enable()

@@ -247,4 +247,4 @@ def test_a_zero_but_for_rounding_is_not_known_to_its_digits(rounding: float, tmp
     prior = prior_of(model, "drawing")
     at = [one.name for one in model.base_parameters].index("YZ2")
     largest = max(abs(value) for value, unit, _ in VALUES.values() if unit == "kg m2")
-    assert 1e-8 * largest < 1 / np.sqrt(prior.precision[at, at]) < 1e-3 * largest
+    assert 1e-10 * largest < 1 / np.sqrt(prior.precision[at, at]) < 1e-3 * largest

@@ -29,7 +29,7 @@ DONE, BAD_INPUT, INTERRUPTED = 0, 2, 130
 
 #: Matrices here are small or narrow: more threads of NumPy's BLAS gain nothing, and on a busy machine they wait for
 #: each other. It is read when NumPy is imported, by the command.
-ONE_THREAD = ("OPENBLAS_NUM_THREADS", "1")
+_THREADS = "OPENBLAS_NUM_THREADS"
 
 
 class Command(Protocol):
@@ -53,7 +53,7 @@ class _Parser(argparse.ArgumentParser):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command that ``argv`` names (the process's own arguments, if None); returns the exit status."""
-    os.environ.setdefault(*ONE_THREAD)
+    os.environ.setdefault(_THREADS, "1")
     try:
         arguments = _parser(commands()).parse_args(argv)
         arguments.command.run(arguments)

@@ -89,7 +89,7 @@ def diagnose(
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
     found = search(runs, train, validate, regressors, prior, told, dry)
-    trial = along(found, test)
+    trial = None if dry else along(found, test)
     found, gone = confirmed(found, trial)
     told("looking where the residual is")
     start, weights = found.start, found.weights
@@ -102,13 +102,19 @@ def diagnose(
     open_ = open_ or _doubtful(found, last, disagreeing)
     overlooked = {} if dry or open_ or found.choices else _overlooked(found, trial)
     open_ = open_ or [last.lack[k] for k in overlooked]
-    after = _placed(located(last, open_), overlooked)
+    after = _over_time(located(last, open_), overlooked)
     verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
-    notes = [*roles.notes, *_of_elasticity(found), *_notes(named, runs), *_taken_back(gone), *overlooked.values()]
+    notes = [
+        *roles.notes,
+        *_of_elasticity(found),
+        *_notes(named, runs, bool(found.maps)),
+        *_taken_back(gone),
+        *overlooked.values(),
+    ]
     if open_:
         notes += dict.fromkeys(
             f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows
@@ -127,7 +133,7 @@ def diagnose(
         roles,
         tuple(runs),
         found,
-        steps(found, trial if found.choices else None),
+        steps(found, trial),
         tuple(_residuals(found, start)),
         tuple(_residuals(found, weights)),
         tuple(notes),
@@ -206,7 +212,7 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
     most = untold(found, found.start)
     tested = {} if trial is None else untested(found, trial)
     said = {
-        k: f"most of the torque of joint {numbers[k]} follows from nothing: that is no noise"
+        k: f"most of how the torque of joint {numbers[k]} varies follows from nothing, too slowly for noise"
         for k in sorted(most, key=lambda k: -most[k])
     }
     said |= {
@@ -218,7 +224,7 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
     return said
 
 
-def _placed(after: Where, overlooked: Mapping[int, str]) -> Where:
+def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
     """Where the runs say what was ``overlooked`` they do not say over which variable."""
     if not overlooked:
         return after
@@ -257,14 +263,14 @@ def _taken_back(gone: Sequence[Choice]) -> list[str]:
     return [f"{one.evidence.variant.hypothesis.named} {why}" for one in gone]
 
 
-def _notes(found: Sequence[Finding], runs: Sequence[Prepared]) -> list[str]:
+def _notes(found: Sequence[Finding], runs: Sequence[Prepared], aperiodic: bool) -> list[str]:
+    small = ", and what is small beside it is not firm" if found and aperiodic else ""
     unlike: dict[str, list[str]] = {}
     for run in runs:
         if run.unlike:
             unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
     notes = [
-        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well, and "
-        "what is small beside it is not firm"
+        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well{small}"
         for why, names in unlike.items()
     ]
     for one in found:

@@ -14,7 +14,7 @@ from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import BALANCERS, SPRINGS, Evidence, Key, columns_of, key_of
 from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
 from identification.diagnosis.loop import Search
-from identification.diagnosis.may_act import taken
+from identification.diagnosis.may_act import maps_taken
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.shape_uncertainty import apart, deviations
 from identification.diagnosis.whole_orders import UNSURE
@@ -213,7 +213,7 @@ def _least(found: Search, variant: Variant) -> float:
     """Size from which a finding is firm."""
     if not found.maps:
         return 0.0
-    return _APERIODIC if all(taken(found.bank, found.maps, k) for k in variant.joints) else _SHORT
+    return _APERIODIC if all(maps_taken(found.bank, found.maps, k) for k in variant.joints) else _SHORT
 
 
 def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:

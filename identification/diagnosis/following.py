@@ -16,7 +16,7 @@ from scipy.stats import f
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.maps import groups
-from identification.diagnosis.may_act import taken
+from identification.diagnosis.may_act import maps_taken
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     one of its ``maps`` (by joint and run, m x rows), that; the first where periods were compared or maps taken out of
     the noise.
     """
-    if lack.repeats or not maps or taken(bank, maps, k):
+    if lack.repeats or not maps or maps_taken(bank, maps, k):
         return lack
     e = np.concatenate(list(residuals))
     white = [

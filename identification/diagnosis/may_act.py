@@ -65,8 +65,7 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
     if not maps:
         return list(parts)
     p, more = len(bank.base), len(maps[0])
-    model = len({number for part in parts for number in part.numbers if number < p})
-    count = sum(int(part.kept.sum()) for part in parts)
+    count, model = _counts(bank, parts)
     if not enough(count, model + more):
         return list(parts)
     apart = enough(count, model + more + model * len(parts))
@@ -82,11 +81,16 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
     return result
 
 
-def taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
+def maps_taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
     """Whether rows of a joint are enough for its maps to be taken out of its noise."""
-    rows = sum(int(run.kept[joint].sum()) for run in bank.runs)
-    model = {number for r in range(len(bank.runs)) for number in bank.raw(r, joint)[0] if number < len(bank.base)}
-    return enough(rows, len(model) + len(maps[joint][0]))
+    rows, model = _counts(bank, [without_record(bank, r, joint) for r in range(len(bank.runs))])
+    return enough(rows, model + len(maps[joint][0]))
+
+
+def _counts(bank: Bank, parts: Sequence[Rows]) -> tuple[int, int]:
+    """Rows of a joint in all runs, and base columns that act on it."""
+    model = {number for part in parts for number in part.numbers if 0 <= number < len(bank.base)}
+    return sum(int(part.kept.sum()) for part in parts), len(model)
 
 
 def enough(rows: int, columns: int) -> bool:

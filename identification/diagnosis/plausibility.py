@@ -38,9 +38,9 @@ def doubts(found: Diagnosis, known: Prior | None, dry: bool) -> list[str]:
             _alike(run, run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion)), "the known parameters")
     base, values = bank.base, found.found.values
     std = np.sqrt(np.diag(found.found.covariance))[: len(base)]
-    # Beside another law over the speed the model's own friction may come out as what that one has too much.
-    rubbing = {number for one in found.findings if one.variable == "qd" for number in one.joints}
-    directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), rubbing)
+    # Beside another law of its joint the model's own friction may come out as what that one has too much.
+    explained = {one.joints[0] for one in found.findings if len(one.joints) == 1}
+    directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), explained)
     return suspect(runs, regressors, left)
 
 

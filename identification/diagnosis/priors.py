@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 #: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, and the
 #: least of any value, which may be zero but for rounding, in parts of the largest of its unit.
-_UNTOLD, _KNOWN, _ZERO, _ROUNDED = 0.05, 1e-4, 1e-3, 1e-7
+_UNTOLD, _KNOWN, _ZERO, _ROUNDED = 0.05, 1e-4, 1e-3, 1e-9
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6
 

@@ -185,8 +185,10 @@ class Selection:
             same = [other for other in self.weighing.bank.variants if key_of(other) == key_of(one)]
             one = self.weighing.best_shape([one, *same], others).variant
         each = [refined(self.weighing, start, others) for start in (one, *self._of_other_forms(one, others))]
-        best = max(each, key=lambda shaped: self.weighing.of(shaped, others).score) if len(each) > 1 else each[0]
-        return nearest(self.weighing, best, others)
+        if len(each) > 1:
+            weighed = [self.weighing.of(shaped, others) for shaped in each]
+            each = [max(weighed, key=lambda form: (form.passes, form.score)).variant]
+        return nearest(self.weighing, each[0], others)
 
     def _of_other_forms(self, one: Variant, others: Sequence[Variant]) -> list[Variant]:
         """The best variant of each other form: with other values of the shapes that are tried alone, where others are

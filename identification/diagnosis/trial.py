@@ -27,7 +27,8 @@ _PLAIN = Colour((np.ones(1),), (1.0,))
 class Trial:
     """White ``columns`` (c x N) of the testing runs, those of the base and of what was found, and ``torque`` (N).
 
-    ``recorded`` are the same rows as they were recorded, by coordinate: columns (c x N), torque (N) [N m, N].
+    ``recorded`` are settled ones of these rows as they were recorded, by coordinate: columns (c x N), torque (N) [N m,
+    N], ``rate`` a second.
     ``normal`` is of the runs that fit and validate. ``usual`` (N) is how much of the noise that a row is white by, that
     of the noisiest run, all of them have in the mean. ``places`` tells the columns of each hypothesis, by its effect
     and joint; -1 where they make no torque.
@@ -37,6 +38,7 @@ class Trial:
     columns: Array
     torque: Array
     recorded: Mapping[int, tuple[Array, Array]]
+    rate: float
     usual: Array
     places: dict[tuple[str, int], tuple[int, ...]]
 
@@ -91,7 +93,7 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
             numbers, white = bank.white(r, k)
             blocks.append(_placed([*numbers, bank.count], white))
             _, columns, torque, kept = bank.raw(r, k)
-            plain = np.concatenate([columns, torque[None]])[:, kept]
+            plain = np.concatenate([columns, torque[None]])[:, kept & ~test[r].unsettled[k]]
             recorded.setdefault(k, []).append(_placed([*numbers, bank.count], plain))
             mean = np.sqrt(np.mean([one.deviations[-1] ** 2 for one in of_joint[k]]))
             usual.append(np.full(white.shape[1], mean / noisiest[k].deviations[-1]))
@@ -100,7 +102,8 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
         return None
     whole = {k: np.concatenate(parts, axis=1) for k, parts in recorded.items()}
     plainly = {k: (part[:-1], part[-1]) for k, part in whole.items()}
-    return Trial(found.weighing.all, rows[:-1], rows[-1], plainly, np.concatenate(usual), places)
+    rate = 1 / float(np.median(np.concatenate([np.diff(run.t) for run in test])))
+    return Trial(found.weighing.all, rows[:-1], rows[-1], plainly, rate, np.concatenate(usual), places)
 
 
 def _placed(numbers: Sequence[int], rows: Array) -> Array:
