@@ -37,7 +37,7 @@ def generate(
     numbers, and the folder is ``out/<robot's name>_<set>``. Nothing is written before everything has been derived.
     Raises InputError for a bad robot file, a set that it lacks or a folder that cannot be written.
     """
-    with _no_garbage_collection():
+    with uncollected():
         with stage(f"reading {robot_file.name}"):
             robot = read(robot_file)
         with stage(f"deriving the model of {robot.name}"):
@@ -52,7 +52,7 @@ def generate(
 
 
 @contextmanager
-def _no_garbage_collection() -> Iterator[None]:
+def uncollected() -> Iterator[None]:
     """Python's collector walks a model's nodes again and again and frees none: all live until the files are written."""
     before = gc.isenabled()
     gc.disable()
