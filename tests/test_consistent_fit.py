@@ -86,7 +86,8 @@ def test_impossible_estimates_become_possible(links: Regressors, folder: Path) -
 def test_torques_of_no_robot_are_doubted(links: Regressors, folder: Path) -> None:
     """A link of negative inertia and mass: free parameters explain it as well as any other."""
     truth = grouped(links.model, STANDARD)
-    one = found(links, recorded(links, {**truth, "ZZ2": -20 * truth["ZZ2"], "MX2": -truth["MX2"]}, noise=0.005), folder / "impossible.csv")
+    impossible = {**truth, "ZZ2": -20 * truth["ZZ2"], "MX2": -truth["MX2"]}
+    one = found(links, recorded(links, impossible, noise=0.005), folder / "impossible.csv")
     assert one.full.train.total.relative_to_mean < 20
     (doubt,) = doubts(one, consistent_fit(one, None, WEIGHT))
     assert doubt.startswith("no possible bodies and friction explain these torques (")
