@@ -150,10 +150,14 @@ def recorded(
     if payload is not None:
         tau = tau + np.array([np.asarray(payload) @ W for W in of.payload(motion)])
     tau = tau + noise * tau.std(axis=1)[:, None] * np.random.default_rng(seed + 100).normal(size=tau.shape)
+    return as_recorded(of, t, motion.q, tau)
+
+
+def as_recorded(of: Regressors, t: Array, q: Array, tau: Array) -> Recorded:
+    """A run of times (N), positions and torques (n x N)."""
     numbers = [joint.number for joint in of.model.robot.moving]
     named = [
-        {f"{stem}{j}": row for j, row in zip(numbers, rows, strict=True)}
-        for stem, rows in (("q", motion.q), ("tau", tau))
+        {f"{stem}{j}": row for j, row in zip(numbers, rows, strict=True)} for stem, rows in (("q", q), ("tau", tau))
     ]
     return Recorded({"t": t, **named[0], **named[1]})
 

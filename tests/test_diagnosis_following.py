@@ -7,11 +7,9 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import lfilter
 
-from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
-from identification.observation import Regressors
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
 #: Seconds of a run: too few rows for all maps of the motion. Frequency [Hz] of its slowest sine.
 SECONDS, SLOWEST = 6.0, 0.11
@@ -21,19 +19,15 @@ NOISE = 0.3
 
 def diagnosis(folder: Path, drag: float) -> Diagnosis:
     """What joint 2 drags grows with the speed of joint 1, by ``drag`` [N m s/rad]."""
-    path = folder / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(11), []
+    regressors, draw, sources = two_links(folder), np.random.default_rng(11), []
     for seed in (1, 2, 3):
-        t, motion = fourier(robot, SECONDS, 250.0, seed, SLOWEST)
+        t, motion = fourier(regressors.model.robot, SECONDS, 250.0, seed, SLOWEST)
         tau = regressors.torques(TRUTH, motion)
         tau[1] += drag * np.sign(motion.qd[1]) * np.abs(motion.qd[0])
         tau += lfilter([1], [1, -0.5], NOISE * draw.normal(size=tau.shape))
-        columns = {"t": t} | {f"q{k + 1}": motion.q[k] for k in range(2)} | {f"tau{k + 1}": tau[k] for k in range(2)}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
     request = Request(sources[:2], test=sources[2:])
-    return diagnosed(path, robot, request, folder / "out", lambda *about: {})[0]
+    return diagnosed(folder / "two_links.yaml", regressors.model.robot, request, folder / "out", lambda *about: {})[0]
 
 
 def test_drag_by_another_joint_is_unexplained_and_told(tmp_path: Path) -> None:

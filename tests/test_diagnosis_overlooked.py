@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.overlooked import untold
-from identification.observation import Motion, Regressors
+from identification.observation import Motion
 from tests.matrices import bank, run
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
 Array = NDArray[np.float64]
 
@@ -28,12 +27,9 @@ def diagnosis(folder: Path, changed: Callable[[int, Array, Motion, Array], Array
     """Of three runs and one that tests; torques of joint 2 are ``changed`` from what they are by the run's number, the
     time and the motion. It turns round in all runs, or in the last one alone.
     """
-    path = folder / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(17), []
+    regressors, draw, sources = two_links(folder), np.random.default_rng(17), []
     for number in range(4):
-        t, motion = fourier(robot, SECONDS, 250.0, number)
+        t, motion = fourier(regressors.model.robot, SECONDS, 250.0, number)
         if not turning and number < 3:
             q, qd, qdd = (np.copy(x) for x in (motion.q, motion.qd, motion.qdd))
             q[1], qd[1], qdd[1] = 0.2 * t + 0.1 * np.sin(t) - 2, 0.2 + 0.1 * np.cos(t), -0.1 * np.sin(t)
@@ -41,10 +37,9 @@ def diagnosis(folder: Path, changed: Callable[[int, Array, Motion, Array], Array
         tau = regressors.torques(TRUTH, motion)
         tau[1] = changed(number, t, motion, tau[1])
         tau += NOISE * draw.normal(size=tau.shape)
-        columns = {"t": t} | {f"q{k + 1}": motion.q[k] for k in range(2)} | {f"tau{k + 1}": tau[k] for k in range(2)}
-        sources.append(str(Recorded(columns).save(folder / f"{number}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{number}.csv")))
     request = Request(sources[:3], test=sources[3:])
-    return diagnosed(path, robot, request, folder / "out", lambda *about: {})[0]
+    return diagnosed(folder / "two_links.yaml", regressors.model.robot, request, folder / "out", lambda *about: {})[0]
 
 
 def same(number: int, t: Array, motion: Motion, tau: Array) -> Array:

@@ -11,10 +11,9 @@ from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.inverse_model import identify
-from identification.observation import Regressors
 from tests.diagnosed_arm import ARM, TRUTH, recorded, torque
 from tests.recorded import TRUTH as LINKS
-from tests.recorded import TWO_LINKS, Recorded, fourier
+from tests.recorded import Recorded, as_recorded, fourier, two_links
 
 #: What the arm's file knows beforehand.
 _UNITS = {"ZZ1": "kg m2", "MX1": "kg m", "MY1": "kg m", "Fv1": "N m s/rad", "Fc1": "N m", "Off1": "N m"}
@@ -59,17 +58,15 @@ def test_torques_of_another_sign_than_what_was_known_are_refused(tmp_path: Path)
 
 def test_torques_of_one_joint_that_have_the_other_sign_are_refused(tmp_path: Path) -> None:
     """The other joint's are as they should be."""
-    path = tmp_path / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(3), []
+    regressors, draw, sources = two_links(tmp_path), np.random.default_rng(3), []
+    robot = regressors.model.robot
     for seed in (1, 2):
         t, motion = fourier(robot, 10.0, 250.0, seed)
         tau = regressors.torques(LINKS, motion) + 0.3 * draw.normal(size=motion.q.shape)
-        columns = {"t": t} | {f"q{k + 1}": motion.q[k] for k in range(2)} | {"tau1": tau[0], "tau2": -tau[1]}
-        sources.append(str(Recorded(columns).save(tmp_path / f"{seed}.csv")))
+        turned = tau * np.array([[1.0], [-1.0]])
+        sources.append(str(as_recorded(regressors, t, motion.q, turned).save(tmp_path / f"{seed}.csv")))
     message = "1.csv:1:1: all friction and inertia that the torques of joint 2 show alone is negative"
     with pytest.raises(InputError, match=message):
-        diagnosed(path, robot, Request(sources), tmp_path / "out", lambda *about: {})
+        diagnosed(tmp_path / "two_links.yaml", robot, Request(sources), tmp_path / "out", lambda *about: {})
     with pytest.raises(InputError, match=message):
         identify(robot, [Path(one) for one in sources])

@@ -7,11 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.finding import FIRM, TENTATIVE, Finding
-from identification.observation import Regressors
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
 #: Frequency [Hz] of the slowest sine, and the noise [N m].
 SLOWEST, NOISE = 0.11, 0.3
@@ -19,18 +17,16 @@ SLOWEST, NOISE = 0.11, 0.3
 
 def found(folder: Path, seconds: float, delay: float) -> Finding:
     """The one finding in runs whose torques of joint 2 are recorded late by ``delay`` [s]."""
-    path = folder / "two_links.yaml"
-    path.write_text(TWO_LINKS)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(23), []
+    regressors, draw, sources = two_links(folder), np.random.default_rng(23), []
     for seed in (1, 2):
-        t, motion = fourier(robot, seconds, 250.0, seed, SLOWEST)
+        t, motion = fourier(regressors.model.robot, seconds, 250.0, seed, SLOWEST)
         tau = regressors.torques(TRUTH, motion)
         tau[1] = np.interp(t - delay, t, tau[1])
         tau += NOISE * draw.normal(size=tau.shape)
-        columns = {"t": t} | {f"q{k + 1}": motion.q[k] for k in range(2)} | {f"tau{k + 1}": tau[k] for k in range(2)}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
-    (one,) = diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})[0].findings
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
+    (one,) = diagnosed(
+        folder / "two_links.yaml", regressors.model.robot, Request(sources), folder / "out", lambda *about: {}
+    )[0].findings
     return one
 
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.bank import Bank
 from identification.diagnosis.loop import Search
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.stated_elasticity import stated
@@ -50,22 +51,38 @@ def untested(found: Search, trial: Trial) -> dict[int, float]:
     """
     if stated(found.bank.scenes[0].robot):
         return {}
-    theta, C = trial.fitted(())
-    p, result = trial.normal.base, {}
-    size, unseen = _unseen(trial.normal.whole[:p, :p])
+    theta, C = trial.normal.solution([])
     # Noise of the positions makes values small, which motion of another kind shows.
-    right = np.concatenate([found.weighing.fitted((), True)[0][:p], np.zeros(len(theta) - p)])
-    for k, (columns, torque) in trial.recorded.items():
-        scaled = columns[:p] / size[:, None]
+    right, _ = found.weighing.fitted((), True)
+    size, unseen = _unseen(trial.normal.whole[: len(theta), : len(theta)])
+    rate = 1 / float(np.median(np.concatenate([np.diff(run.t) for run in trial.bank.runs])))
+    result = {}
+    for k in trial.shown:
+        columns, torque = _settled(trial.bank, k)
+        scaled = columns / size[:, None]
         told = np.linalg.norm(unseen @ scaled, axis=0) < _BEYOND * np.linalg.norm(scaled, axis=0)
         X = columns[:, told]
         if X.shape[1] < _FEWEST:
             continue
         e = min((torque[told] - values @ X for values in (theta, right)), key=_rms)
-        noise = float(np.sqrt(_loudest(found, k, trial.rate) ** 2 + np.mean(np.sum(X * (C @ X), axis=0))))
+        noise = float(np.sqrt(_loudest(found, k, rate) ** 2 + np.mean(np.sum(X * (C @ X), axis=0))))
         if _rms(e) > _FAR * noise and _rms(_slow(e)) > _SLOW * _rms(e):
             result[k] = _rms(e) / noise
     return result
+
+
+def _settled(bank: Bank, k: int) -> tuple[Array, Array]:
+    """Base columns (p x N) and torque (N) [N m, N] of a coordinate, as recorded, without rows close to standstill."""
+    p, parts = len(bank.base), []
+    for r, run in enumerate(bank.runs):
+        numbers, columns, torque, kept = bank.raw(r, k)
+        rows = kept & ~run.unsettled[k]
+        part = np.zeros((p + 1, int(rows.sum())))
+        own = [i for i, number in enumerate(numbers) if number < p]
+        part[[numbers[i] for i in own]], part[p] = columns[own][:, rows], torque[rows]
+        parts.append(part)
+    whole = np.concatenate(parts, axis=1)
+    return whole[:p], whole[p]
 
 
 def _loudest(found: Search, k: int, rate: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +27,7 @@ _PLAIN = Colour((np.ones(1),), (1.0,))
 class Trial:
     """White ``columns`` (c x N) of the testing runs, those of the base and of what was found, and ``torque`` (N).
 
-    ``recorded`` are settled ones of these rows as they were recorded, by coordinate: columns (c x N), torque (N) [N m,
-    N], ``rate`` a second.
+    ``bank`` holds these runs as recorded; ``shown`` are the coordinates that the other runs show.
     ``normal`` is of the runs that fit and validate. ``usual`` (N) is how much of the noise that a row is white by, that
     of the noisiest run, all of them have in the mean. ``places`` tells the columns of each hypothesis, by its effect
     and joint; -1 where they make no torque.
@@ -37,8 +36,8 @@ class Trial:
     normal: Normal
     columns: Array
     torque: Array
-    recorded: Mapping[int, tuple[Array, Array]]
-    rate: float
+    bank: Bank
+    shown: tuple[int, ...]
     usual: Array
     places: dict[tuple[str, int], tuple[int, ...]]
 
@@ -87,27 +86,16 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
         places[key_of(variant)] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
     bank.whiten([noisiest for _ in test])
     blocks, usual = [np.empty((bank.count + 1, 0))], [np.empty(0)]
-    recorded: dict[int, list[Array]] = {}
+    known = tuple(np.flatnonzero(shown).tolist())
     for r in range(len(test)):
-        for k in map(int, np.flatnonzero(shown)):
+        for k in known:
             numbers, white = bank.white(r, k)
-            blocks.append(_placed([*numbers, bank.count], white))
-            _, columns, torque, kept = bank.raw(r, k)
-            plain = np.concatenate([columns, torque[None]])[:, kept & ~test[r].unsettled[k]]
-            recorded.setdefault(k, []).append(_placed([*numbers, bank.count], plain))
+            block = np.zeros((bank.count + 1, white.shape[1]))
+            block[[*numbers, bank.count]] = white
+            blocks.append(block)
             mean = np.sqrt(np.mean([one.deviations[-1] ** 2 for one in of_joint[k]]))
             usual.append(np.full(white.shape[1], mean / noisiest[k].deviations[-1]))
     rows = np.concatenate(blocks, axis=1)
     if not rows.shape[1]:
         return None
-    whole = {k: np.concatenate(parts, axis=1) for k, parts in recorded.items()}
-    plainly = {k: (part[:-1], part[-1]) for k, part in whole.items()}
-    rate = 1 / float(np.median(np.concatenate([np.diff(run.t) for run in test])))
-    return Trial(found.weighing.all, rows[:-1], rows[-1], plainly, rate, np.concatenate(usual), places)
-
-
-def _placed(numbers: Sequence[int], rows: Array) -> Array:
-    """Rows in the places of their numbers, the last number the greatest of all; zero elsewhere."""
-    result = np.zeros((numbers[-1] + 1, rows.shape[1]))
-    result[list(numbers)] = rows
-    return result
+    return Trial(found.weighing.all, rows[:-1], rows[-1], bank, known, np.concatenate(usual), places)
