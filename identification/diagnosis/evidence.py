@@ -346,10 +346,13 @@ def common(variant: Variant) -> bool:
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place."""
+    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place, whole: a
+    spring without stiffness pushes as gas does.
+    """
     effect = variant.hypothesis.effect
     if effect in BALANCERS:
-        return variant.hypothesis.usual and not any(other.hypothesis.effect in BALANCERS for other in others)
+        whole = len(variant.used) == len(variant.hypothesis.coefficients)
+        return whole and variant.hypothesis.usual and not any(one.hypothesis.effect in BALANCERS for one in others)
     return common(variant) or effect in _WRIST
 
 

@@ -58,10 +58,10 @@ class Effect:
             return np.array(self.weights, dtype=float)
         j = self.joint - 1
         unit: NDArray[np.float64] = np.eye(robot.joints)
-        if not self.what.of_rotor:
-            return np.asarray(unit[j])
         row = robot.ratios[j] / robot.ratios[j, j]
-        return np.asarray(row if np.count_nonzero(row) > 1 else unit[j] + unit[j - 1])
+        if self.what.of_rotor:
+            return np.asarray(row if np.count_nonzero(row) > 1 else unit[j] + unit[j - 1])
+        return np.asarray(row if self.what.of_motor else unit[j])
 
     def record(self, robot: Robot) -> dict[str, object]:
         """What it is on a robot, for a study's own books."""

@@ -42,6 +42,9 @@ class Law:
     of_links: bool = False
     #: Acts along the motor's share of the joints' speeds, where the effect has no weights of its own.
     of_rotor: bool = False
+    #: Acts along the row of the motor in the gear ratios, where the effect has no weights of its own: what repeats with
+    #: the motor's turn does no work in a whole one.
+    of_motor: bool = False
     change: Callable[[Machine, Effect], None] | None = None
     #: What it does to the readings: command (of currents), delay (of positions) or link_latency; size is its amount.
     reading: str = ""

@@ -13,4 +13,5 @@ LAW = Law(
 const double x = order * rotor + phase;
 return size * wander(t, 0.1, phase) * (cos(x) + 0.2 * cos(2.0 * x + 0.4));
     """,
+    of_motor=True,
 )

@@ -13,4 +13,5 @@ LAW = Law(
 const double stress = load / load_scale, x = 2.0 * rotor + phase;
 return size * wander(t, 0.1, phase) * (0.8 + 0.2 * sqrt(1.0 + stress * stress)) * cos(x);
     """,
+    of_motor=True,
 )

@@ -11,4 +11,5 @@ LAW = Law(
     values={"order": 0.3819, "phase": 0.9},
     torque="return size * wander(t, 0.1, phase) * cos(order * rotor + phase);",
     outside=True,
+    of_motor=True,
 )
