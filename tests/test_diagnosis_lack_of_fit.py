@@ -87,6 +87,16 @@ def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
     assert t == pytest.approx(624 / 50, abs=0.15)
 
 
+def test_what_comes_again_with_each_period_is_no_event_but_lacks() -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    for period in range(COUNT // PERIOD):
+        e[PERIOD * period + 20 : PERIOD * period + 28] += 8.0
+    found = lack(e)
+    assert found.burst is None
+    assert found.p < 1e-10
+
+
 def test_no_event_is_told_where_a_joint_is_unsettled() -> None:
     draw = np.random.default_rng(6)
     e = draw.normal(size=COUNT)

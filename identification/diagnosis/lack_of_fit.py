@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
 from scipy.stats import chi2, f
 
 from identification.diagnosis.prepared import Prepared
@@ -89,8 +90,8 @@ def lack_of_fit(
 def _burst(
     runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]
 ) -> tuple[str, float] | None:
-    """Where the residual is far above the noise and of what may be ``late`` then, for a short time, once in all runs;
-    not where a joint is unsettled.
+    """Where the residual is far above the noise, above what may be ``late`` then, and above itself a period before and
+    after, for a short time, once in all runs; not where a joint is unsettled.
     """
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
@@ -99,14 +100,24 @@ def _burst(
             continue
         unsettled = run.unsettled[k][run.kept[k]]
         power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
+        place = np.flatnonzero(run.kept[k])[_BURST // 2 :][: len(power)]
+        least = np.maximum(least, _a_period_away(power, place, run.period))
         power[power < _BEYOND * least] = 0.0
         if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
             continue
         i = int(np.argmax(power))
-        found.append(
-            (float(power[i]), run.sampled.run.name, float(run.t[np.flatnonzero(run.kept[k])[i + _BURST // 2]]))
-        )
+        found.append((float(power[i]), run.sampled.run.name, float(run.t[place[i]])))
     if not found:
         return None
     power_, name, t = max(found)
     return (name, t) if chi2.logsf(power_, _BURST) < np.log(1e-12 / max(rows, 1)) else None
+
+
+def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
+    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before and after; zero without one."""
+    if not period:
+        return np.zeros_like(power)
+    rows = np.zeros(place[-1] + 1 + 2 * period)
+    rows[place + period] = power
+    near = maximum_filter1d(rows, _BURST)
+    return np.maximum(near[place], near[place + 2 * period])
