@@ -120,4 +120,4 @@ def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array
     rows = np.zeros(place[-1] + 1 + 2 * period)
     rows[place + period] = power
     near = maximum_filter1d(rows, _BURST)
-    return np.maximum(near[place], near[place + 2 * period])
+    return np.asarray(np.maximum(near[place], near[place + 2 * period]))
