@@ -93,12 +93,12 @@ class Function:
         """The nodes that a call reads or computes where the ``prepared`` ones are at hand, arguments before users."""
         return self.program.reachable(self.roots, known=self.prepared)
 
-    @property
+    @cached_property
     def moving(self) -> list[Node]:
         """The nodes computed at each call, in order."""
         return [node for node in self.nodes if not node.parameter_only]
 
-    @property
+    @cached_property
     def count(self) -> Count:
         """Operations per call, parameter-only work left out."""
         return self.program.count(self.moving)
