@@ -78,7 +78,7 @@ class Numbers:
 
     def length(self, expression: sympy.Expr) -> Scalar:
         """A rational expression of the lengths."""
-        value = exact_constant(expression.subs(self._values))
+        value = exact_constant(expression.xreplace(self._values))
         if not value:
             return self.zero
         return Scalar(self._rational(expression), value)
