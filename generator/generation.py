@@ -60,6 +60,9 @@ def uncollected() -> Iterator[None]:
         yield
     finally:
         if before:
+            # To the old at once: the next collection of the young would walk all that has been made.
+            gc.freeze()
+            gc.unfreeze()
             gc.enable()
 
 

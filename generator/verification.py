@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.quantities.regressors import standard_columns
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.model import Model
 
@@ -61,5 +60,5 @@ def _coefficients(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
 
 def _observation_matrix(model: Model, names: Sequence[str]) -> NDArray[np.float64]:
     """The standard regressor over random states, one under the other."""
-    columns = model.sampled_columns(standard_columns(model), {PARAMETERS: model.default_parameters()})
+    columns = model.sampled_columns(model.standard_columns, {PARAMETERS: model.default_parameters()})
     return np.stack([columns[name] for name in names], axis=1)

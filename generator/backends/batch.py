@@ -58,7 +58,8 @@ def emit(model: Model) -> dict[str, str | bytes]:
     prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})
     dynamics, regressor = model.functions[DYNAMICS], model.functions[REGRESSOR]
     assert regressor.sparsity is not None
-    used = {node.operation for name in (DYNAMICS, REGRESSOR) for node in prepared.moving[name]}
+    called = [*dynamics.called, *regressor.called]
+    used = {node.operation for node in called}
     context = {
         "prefix": prefix,
         "macro": prefix.upper(),
@@ -72,7 +73,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "trigonometry": [name for name in _TRIGONOMETRY if name in used],
         "uses_sign": "sign" in used,
         "uses_directed": "directed" in used,
-        "spread": _spread([*prepared.moving[DYNAMICS], *prepared.moving[REGRESSOR]]),
+        "spread": _spread(called),
     }
     return {
         f"{prefix}_batch.h": render("batch/header.h.jinja", **context),
@@ -82,7 +83,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
 
 def lane_function(function: Function, prepared: Prepared) -> LaneFunction:
     """A function whose signals are lanes, each with one sample, and whose parameters are read from ``prepared``."""
-    nodes = prepared.moving[function.name]
+    nodes = function.called
     fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
     signals = {
         node: f"{signal_of(node)}[{index(node)}]"

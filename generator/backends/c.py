@@ -68,7 +68,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
     tests, parameter_sets = self_tests(functions, reference)
     names = Identifiers(f"{macro}_{word}" for word in _MACROS)
     constants = _constants(model.parameters, f"{macro}_", names)
-    moving = _operations(prepared.moving.values())
+    moving = _operations(function.called for function in model.functions.values())
     angles = bool(moving & {"sin", "cos"})
     context = {
         "prefix": prefix,

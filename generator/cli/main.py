@@ -7,6 +7,8 @@ Exit status 0 is done; 2 is bad input, with ``error: FILE:LINE:COL: what is wron
 from __future__ import annotations
 
 import argparse
+import atexit
+import gc
 import importlib
 import os
 import sys
@@ -54,6 +56,8 @@ class _Parser(argparse.ArgumentParser):
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command that ``argv`` names (the process's own arguments, if None); returns the exit status."""
     os.environ.setdefault(_THREADS, "1")
+    # What a command leaves goes with the process; Python's last collection would walk all of it first.
+    atexit.register(gc.freeze)
     try:
         arguments = _parser(commands()).parse_args(argv)
         arguments.command.run(arguments)

@@ -128,9 +128,10 @@ def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:
     lower, upper = site.joint.lower, site.joint.upper
     if effect.positive is None or lower is None or upper is None:
         return
+    first, span = float(lower), float(upper - lower)
     for name, expression in effect.positive(site).items():
         value = sympy.lambdify(site.q, expression, "math")
-        least = min(value(float(lower + (upper - lower) * step / _STEPS)) for step in range(_STEPS + 1))
+        least = min(value(first + span * step / _STEPS) for step in range(_STEPS + 1))
         if least <= 0:
             place = use.values[name].place if name in use.values else use.place
             raise InputError(

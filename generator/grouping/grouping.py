@@ -89,9 +89,10 @@ def _regroup(
     """Linear forms of the kept parameters, and the rule of each eliminated one, by the recursion from the tips."""
     gravity = _gravity_in_frame_0(robot, numbers)
     reach = {0: base_reach(gravity, numbers)}
+    transports = {joint.number: transport(joint, numbers) for joint in robot.joints}
     by_antecedent = {}
     for joint in robot.joints:
-        by_antecedent[joint.number] = carried(joint, reach[joint.antecedent], numbers)
+        by_antecedent[joint.number] = carried(joint, reach[joint.antecedent], transports[joint.number], numbers)
         reach[joint.number] = moved(joint, by_antecedent[joint.number], numbers)
     received: dict[int, list[dict[str, Scalar]]] = {j.number: [{} for _ in STEMS] for j in robot.joints}
     forms: dict[str, dict[str, Scalar]] = {}
@@ -117,7 +118,7 @@ def _regroup(
             if names[pivot] in standard:
                 rules[names[pivot]] = rule_of(joint, STEMS, pivot, vector)
         if joint.antecedent:
-            _hand_over(received[joint.antecedent], onward, transport(joint, numbers), numbers)
+            _hand_over(received[joint.antecedent], onward, transports[j], numbers)
         for k, name in enumerate(names):
             if name in standard and name not in rules:
                 forms[name] = entries[k]

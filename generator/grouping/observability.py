@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from generator.grouping.linear_algebra import Matrix, Span, Vector, null_space, times
-from generator.grouping.rigid_motion import drift, energy, screw, transport, turn_to_frame, twist_drift, twist_transport
+from generator.grouping.rigid_motion import drift, energy, screw, turn_to_frame, twist_drift, twist_transport
 from generator.grouping.scalars import Numbers, Scalar
 from generator.robot.description import FIXED, PRISMATIC, Joint
 
@@ -40,11 +40,14 @@ def base_reach(gravity: Sequence[Scalar], numbers: Numbers) -> Reach:
     return still
 
 
-def carried(joint: Joint, before: Reach, numbers: Numbers) -> Reach:
-    """What the antecedent's motion alone makes the frame of ``joint`` do, over every position of the joint."""
-    x, t = twist_transport(joint, numbers), transport(joint, numbers)
+def carried(joint: Joint, before: Reach, transport: Matrix, numbers: Numbers) -> Reach:
+    """What the antecedent's motion alone makes the frame of ``joint`` do, over every position of the joint.
+
+    ``transport`` is that of the joint (see ``rigid_motion``).
+    """
+    x = twist_transport(joint, numbers)
     twists = Span(6, numbers).add_all(times(row, x, numbers) for row in before.twists.basis)
-    energies = Span(10, numbers).add_all(times(row, t, numbers) for row in before.energies.basis)
+    energies = Span(10, numbers).add_all(times(row, transport, numbers) for row in before.energies.basis)
     gravity = Span(4, numbers)
     for row in before.gravity.basis:
         gravity.add([*turn_to_frame(row[:3], joint, numbers), row[3]])

@@ -31,9 +31,13 @@ class Scalar:
     value: Fraction
 
     def __add__(self, other: Scalar) -> Scalar:
+        if not self.symbol or not other.symbol:
+            return self if self.symbol else other
         return _settled(self.symbol + other.symbol, self.value + other.value)
 
     def __sub__(self, other: Scalar) -> Scalar:
+        if not other.symbol:
+            return self
         return _settled(self.symbol - other.symbol, self.value - other.value)
 
     def __mul__(self, other: Scalar) -> Scalar:
@@ -74,7 +78,7 @@ class Numbers:
 
     def length(self, expression: sympy.Expr) -> Scalar:
         """A rational expression of the lengths."""
-        value = exact_constant(expression.subs(self._values))
+        value = exact_constant(expression.xreplace(self._values))
         if not value:
             return self.zero
         return Scalar(self._rational(expression), value)

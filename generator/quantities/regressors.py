@@ -1,4 +1,4 @@
-"""What the regressors share: their columns, once per model, and how a dense and a packed quantity are made of them."""
+"""How a dense and a packed regressor are made of their columns."""
 
 from __future__ import annotations
 
@@ -11,16 +11,6 @@ from generator.symbolic.sparse import Columns, dense, packed, sparsity
 from generator.symbolic.vectors import Array
 
 Signals = Callable[[Model], Sequence[Signal]]
-
-
-def base_columns(model: Model) -> Columns:
-    """Columns of the base parameters: those of the standard parameters that stay (report eq. 41)."""
-    return model.base.regressor_columns([base.head for base in model.grouping.base])
-
-
-def standard_columns(model: Model) -> Columns:
-    """Columns of the standard parameters (report eq. 3)."""
-    return model.standard.regressor_columns([parameter.name for parameter in model.standard_parameters])
 
 
 def dense_regressor(

@@ -8,7 +8,7 @@ R. P. Paul, Robot Manipulators, 1981, ch. 6. ``matter`` maps frame numbers to ps
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 
 import numpy as np
@@ -32,16 +32,17 @@ def torque(chain: Chain, matter: Matter, q: Array, qd: Array, qdd: Array) -> Arr
     return tau
 
 
-def columns(chain: Chain, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
-    """Torques (n) per unit of each inertial parameter of a body in frame ``number``."""
+def columns(chain: Chain, numbers: Iterable[int], q: Array, qd: Array, qdd: Array) -> dict[int, dict[str, Array]]:
+    """By the number of a frame, torques (n) per unit of each inertial parameter of a body there."""
     moved = motion(chain, q, qd, qdd)
     D, unit = generators(chain, moved.pose), units()
-    result = {name: zeros(chain.dof) for name in unit}
-    T, B = moved.pose[number], moved.acceleration[number] - _free_fall(chain)
-    for i in chain.links[number - 1].carriers:
-        weight = (D[i] @ T).T @ B
-        for name, sigma in unit.items():
-            result[name][i] = np.sum(weight * sigma)
+    result = {number: {name: zeros(chain.dof) for name in unit} for number in numbers}
+    for number, torques in result.items():
+        T, B = moved.pose[number], moved.acceleration[number] - _free_fall(chain)
+        for i in chain.links[number - 1].carriers:
+            weight = (D[i] @ T).T @ B
+            for name, sigma in unit.items():
+                torques[name][i] = np.sum(weight * sigma)
     return result
 
 
@@ -52,8 +53,9 @@ def inertia_matrix(chain: Chain, matter: Matter, q: Array) -> Array:
     for j, sigma in matter.items():
         spread = pose[j] @ sigma @ pose[j].T
         for i in chain.links[j - 1].carriers:
+            swept = D[i] @ spread
             for k in chain.links[j - 1].carriers:
-                M[i, k] += np.sum((D[i] @ spread) * D[k])
+                M[i, k] += np.sum(swept * D[k])
     return M
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from functools import cached_property
 from itertools import product
 
 import numpy as np
@@ -49,10 +50,9 @@ class Rigid:
 
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Tau = M(q) qdd + H(q, qd) (n) (report eq. 2)."""
-        tau, beside = self._of_bodies(q, qd, qdd), self._beside(q, qd, qdd)
-        for effect in self.effects:
-            tau = tau + self._torque(effect.torques(q, qd, qdd, beside))
-        return tau
+        of_bodies = self._of_bodies(q, qd, qdd)
+        beside = self._under(self._loading(of_bodies, q, qd, qdd))
+        return of_bodies + self._of_effects(self.effects, q, qd, qdd, beside)
 
     def effect_rates(self, q: Array, qd: Array) -> Array:
         """Time derivatives of the effects' states."""
@@ -62,11 +62,7 @@ class Rigid:
 
     def load(self, q: Array, qd: Array, qdd: Array) -> Array:
         """What loads the drives (n): bodies, rotors, balancers, springs, ripple, offsets, the tool's wrench."""
-        load = self._of_bodies(q, qd, qdd) + self._rotors @ qdd
-        for effect in self.effects:
-            if effect.law.loads:
-                load = load + self._torque(effect.torques(q, qd, qdd))
-        return np.asarray(load)
+        return self._loading(self._of_bodies(q, qd, qdd), q, qd, qdd)
 
     def bias(self, q: Array, qd: Array) -> Array:
         """H(q, qd) (n): the torque without acceleration."""
@@ -95,7 +91,8 @@ class Rigid:
         """
         still = zeros(self.chain.dof)
         held, M = self.load(q, qd, still), self.inertia_matrix(q)
-        supplied = tau - (self.bias(q, qd) - held - self._rubbing(q, qd, held))
+        rest = [effect for effect in self.effects if not (effect.law.loads or effect.law.by_load)]
+        supplied = tau - self._of_effects(rest, q, qd, still, self._under(held))
         slopes = self._rubbing(q, qd, still + Decimal(1))
         rotors = self._unloaded
         for signs in product((Decimal(1), Decimal(-1)), repeat=self.chain.dof):
@@ -144,9 +141,8 @@ class Rigid:
 
     def columns(self, names: Sequence[str], q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
         """Torques (n) per unit of each named standard parameter; raises KeyError for one that there is not."""
-        known: dict[str, Array] = {}
-        for j in self.matter:
-            known |= {f"{stem}{j}": column for stem, column in self.body_columns(j, q, qd, qdd).items()}
+        of_bodies = lagrange.columns(self.chain, self.matter, q, qd, qdd)
+        known = {f"{stem}{j}": column for j, found in of_bodies.items() for stem, column in found.items()}
         beside = self._beside(q, qd, qdd)
         for effect in self.effects:
             known |= effect.torques(q, qd, qdd, beside)
@@ -154,14 +150,15 @@ class Rigid:
 
     def body_columns(self, number: int, q: Array, qd: Array, qdd: Array) -> dict[str, Array]:
         """Torques (n) per unit of the inertial parameters of a body in frame ``number``, by their stems."""
-        return lagrange.columns(self.chain, number, q, qd, qdd)
+        return lagrange.columns(self.chain, [number], q, qd, qdd)[number]
 
-    @property
+    @cached_property
     def _rotors(self) -> Array:
         """What the effects add to the inertia matrix (n x n)."""
         total: Array = zeros(self.chain.dof, self.chain.dof)
         for effect in self.effects:
-            total = total + self._weighted(effect.inertia()) * np.outer(effect.shares, effect.shares)
+            if inertia := effect.inertia():
+                total = total + self._weighted(inertia) * np.outer(effect.shares, effect.shares)
         return total
 
     @property
@@ -176,11 +173,22 @@ class Rigid:
     def _of_bodies(self, q: Array, qd: Array, qdd: Array) -> Array:
         return lagrange.torque(self.chain, self.matter, q, qd, qdd) + self.held
 
+    def _loading(self, of_bodies: Array, q: Array, qd: Array, qdd: Array) -> Array:
+        """The ``load`` (n), where the torque of the bodies is at hand."""
+        loading = [effect for effect in self.effects if effect.law.loads]
+        return np.asarray(of_bodies + self._rotors @ qdd + self._of_effects(loading, q, qd, qdd))
+
     def _rubbing(self, q: Array, qd: Array, load: Array) -> Array:
         """Friction (n) that goes with a load."""
-        beside, still = self._under(load), zeros(self.chain.dof)
-        by_load = (effect for effect in self.effects if effect.law.by_load)
-        return sum((self._torque(effect.torques(q, qd, still, beside)) for effect in by_load), still)
+        by_load = [effect for effect in self.effects if effect.law.by_load]
+        return self._of_effects(by_load, q, qd, zeros(self.chain.dof), self._under(load))
+
+    def _of_effects(
+        self, effects: Iterable[Acting], q: Array, qd: Array, qdd: Array, beside: Beside | None = None
+    ) -> Array:
+        """The torque (n) of some of the effects."""
+        torques = (self._torque(effect.torques(q, qd, qdd, beside)) for effect in effects)
+        return sum(torques, zeros(self.chain.dof))
 
     def _beside(self, q: Array, qd: Array, qdd: Array) -> Beside:
         return self._under(self.load(q, qd, qdd))

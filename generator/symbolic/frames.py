@@ -18,12 +18,14 @@ from generator.symbolic.vectors import Array, array, zeros
 class Frame:
     """Frame j of the chain.
 
-    ``rotation`` (3 x 3) holds the axes of frame j in frame a(j), ``position`` (3) the origin O_j in frame a(j) [m].
+    ``rotation`` (3 x 3) holds the axes of frame j in frame a(j), ``position`` (3) the origin O_j in frame a(j) [m];
+    ``entry`` (3 x 3) is the part of the rotation that comes before the joint's angle: Rot(z, gamma) Rot(x, alpha).
     ``coordinate`` is the index of the joint's variable in q, None for a fixed frame. ``parent`` is the antecedent's
     frame, None when that is frame 0.
     """
 
     joint: Joint
+    entry: Array
     rotation: Array
     position: Array
     coordinate: int | None
@@ -83,10 +85,10 @@ def build_chain(robot: Robot, program: Program, values: Mapping[sympy.Symbol, No
     frames: list[Frame] = []
     coordinate = 0
     for joint in robot.joints:
-        rotation, position = _transform(joint, program, values)
+        entry, rotation, position = _transform(joint, program, values)
         parent = frames[joint.antecedent - 1] if joint.antecedent else None
         moving = joint.sigma != FIXED
-        frames.append(Frame(joint, rotation, position, coordinate if moving else None, parent))
+        frames.append(Frame(joint, entry, rotation, position, coordinate if moving else None, parent))
         coordinate += moving
     base = array(program, [[lower(program, entry, values) for entry in row] for row in robot.base.tolist()])
     world_gravity = array(program, [lower(program, component, values) for component in robot.gravity])
@@ -95,18 +97,18 @@ def build_chain(robot: Robot, program: Program, values: Mapping[sympy.Symbol, No
     return Chain(robot, program, tuple(frames), base_rotation, base_position, gravity, values)
 
 
-def _transform(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> tuple[Array, Array]:
-    """Rotation and origin of frame j in frame a(j): Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) ..."""
+def _transform(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> tuple[Array, Array, Array]:
+    """Entry, rotation and origin of frame j in frame a(j): Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) ..."""
     ct, st = cosine_sine(joint.theta, program, values)
-    entry = entry_rotation(joint, program, values)
+    entry = _entry(joint, program, values)
     d, r, b = (lower(program, length, values) for length in (joint.d, joint.r, joint.b))
     spin = array(program, [[ct, -st, 0], [st, ct, 0], [0, 0, 1]])
     z = array(program, [0, 0, b])
-    return entry @ spin, z + d * entry[:, 0] + r * entry[:, 2]
+    return entry, entry @ spin, z + d * entry[:, 0] + r * entry[:, 2]
 
 
-def entry_rotation(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> Array:
-    """Rot(z, gamma) Rot(x, alpha) (3 x 3): the part of frame j's rotation that comes before the joint's angle."""
+def _entry(joint: Joint, program: Program, values: Mapping[sympy.Symbol, Node]) -> Array:
+    """Rot(z, gamma) Rot(x, alpha) (3 x 3)."""
     ca, sa = cosine_sine(joint.alpha, program, values)
     about_x = array(program, [[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
     if joint.gamma == 0:

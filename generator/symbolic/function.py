@@ -74,28 +74,31 @@ class Function:
     def uses_parameters(self) -> bool:
         return any(node.operation == "input" and node.source[0] == PARAMETERS for node in self.nodes)
 
-    @property
+    @cached_property
     def prepared(self) -> list[Node]:
-        """Parameter-only nodes (neither constants nor inputs) that a moving node or an output reads: computed once."""
-        read: dict[Node, None] = {}
+        """The nodes that a moving node or an output reads and that are computed of parameters alone: computed once."""
+        of_numbers: set[Node] = set()
+        read = set(self.roots)
         for node in self.nodes:
+            if node.operation != "input" and of_numbers.issuperset(node.arguments):
+                of_numbers.add(node)
             if not node.parameter_only:
-                read.update(dict.fromkeys(node.arguments))
-        read.update(dict.fromkeys(self.roots))
-        computed = [n for n in read if n.parameter_only and n.operation not in ("constant", "input", "neg")]
-        computed += [
-            n.arguments[0]
-            for n in read
-            if n.parameter_only and n.operation == "neg" and n.arguments[0].operation != "input"
-        ]
-        return sorted(dict.fromkeys(computed), key=lambda n: n.index)
+                read.update(node.arguments)
+        sizes = (node.arguments[0] if node.operation == "neg" else node for node in read if node.parameter_only)
+        computed = {node for node in sizes if node.operation != "input" and node not in of_numbers}
+        return sorted(computed, key=lambda node: node.index)
 
-    @property
+    @cached_property
+    def called(self) -> list[Node]:
+        """The nodes that a call reads or computes where the ``prepared`` ones are at hand, arguments before users."""
+        return self.program.reachable(self.roots, known=self.prepared)
+
+    @cached_property
     def moving(self) -> list[Node]:
         """The nodes computed at each call, in order."""
         return [node for node in self.nodes if not node.parameter_only]
 
-    @property
+    @cached_property
     def count(self) -> Count:
         """Operations per call, parameter-only work left out."""
         return self.program.count(self.moving)

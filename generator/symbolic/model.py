@@ -89,14 +89,12 @@ class Model:
 
     def _absorbed(self, exact: Grouping, others: Sequence[str], moved: sympy.Rational) -> Grouping:
         """The grouping at lengths that are numbers, symbolic ones changed by their places times ``moved``."""
-        names = [parameter.name for parameter in self.standard_parameters]
         lengths = tuple(
             replace(one, symbolic=False, value=one.value * (1 + (k + 1) * moved * int(one.symbolic)))
             for k, one in enumerate(self.robot.lengths)
         )
         numeric = Model(replace(self.robot, lengths=lengths))
-        w = numeric.sampled_columns(numeric.standard.regressor_columns(names), {})
-        return absorbed(exact, others, w)
+        return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}))
 
     @property
     def _places(self) -> dict[str, Place]:
@@ -276,6 +274,16 @@ class Model:
         """The dynamic model in standard parameters."""
         ways = TEXTBOOK if self.plain else PROJECTED
         return Dynamics(self.chain, self.effects, self.standard_nodes, self.qd, self.qdd, strategies=ways)
+
+    @cached_property
+    def base_columns(self) -> Columns:
+        """Regressor columns of the base parameters: those of the standard parameters that stay (report eq. 41)."""
+        return self.base.regressor_columns(self.kept)
+
+    @cached_property
+    def standard_columns(self) -> Columns:
+        """Regressor columns of the standard parameters (report eq. 3)."""
+        return self.standard.regressor_columns(parameter.name for parameter in self.standard_parameters)
 
     @cached_property
     def loaded(self) -> Dynamics:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import sympy
 
-from generator.symbolic.frames import Chain, Frame, cosine_sine, entry_rotation
+from generator.symbolic.frames import Chain, Frame, cosine_sine
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array
 
@@ -60,7 +60,6 @@ def segments(chain: Chain) -> dict[int, Spun]:
         before = angle[joint.antecedent] if continues else sympy.Integer(0)
         angle[frame.number] = before + joint.theta
         cosine, sine = cosine_sine(angle[frame.number], chain.program, chain.values)
-        entry = entry_rotation(joint, chain.program, chain.values)
-        quarter = all(node.number in (-1, 0, 1) for node in entry.ravel())
-        result[frame.number] = Spun(frame, continues, entry, quarter, cosine, sine)
+        quarter = all(node.number in (-1, 0, 1) for node in frame.entry.ravel())
+        result[frame.number] = Spun(frame, continues, frame.entry, quarter, cosine, sine)
     return result

@@ -90,7 +90,7 @@ def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction
     """One quantity; what depends on parameters alone is read from ``prepared``."""
     language = c_language(prefix)
     names = Identifiers(language.reserved | {"prepared", "i"})
-    nodes = prepared.moving[function.name]
+    nodes = function.called
     fields = {field.node: f"prepared->{field.name}" for field in prepared.fields}
     read = {signal_of(node) for node in nodes if node.operation == "input"}
     inputs = tuple(Argument(s, names.claim(s.name), s.name in read) for s in function.inputs)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 #: Columns of a line of generated code; a longer expression is cut into temporaries.
 LINE = 100
@@ -38,7 +39,7 @@ class Language:
         """The statement that defines a local variable."""
         return self.statement.format(name=name, value=value)
 
-    @property
+    @cached_property
     def width(self) -> int:
         """Columns that an expression may take in a statement."""
         return self.line - _MARGIN - len(self.statement.format(name="", value=""))

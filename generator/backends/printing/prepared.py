@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from generator.backends.printing.identifiers import Identifiers
@@ -37,39 +37,27 @@ class Field:
 
 @dataclass(frozen=True)
 class Prepared:
-    """The structure's ``fields``, the ``nodes`` that compute them, in order, and their operation ``count``.
-
-    ``moving`` holds, by function, the nodes that each call computes or reads, in order.
-    """
+    """The structure's ``fields``, the ``nodes`` that compute them, in order, and their operation ``count``."""
 
     fields: tuple[Field, ...]
     nodes: tuple[Node, ...]
     count: Count
-    moving: Mapping[str, Sequence[Node]]
 
     def block(self, parameters: Mapping[Node, str], language: Language, names: Identifiers) -> Block:
         """The code that computes the fields, in order, from the text of the parameters."""
         return straight_line(self.nodes, [field.node for field in self.fields], parameters, language, names)
 
 
-def prepare(functions: Iterable[Function], parameters: Sequence[Parameter], reserved: Iterable[str]) -> Prepared:
+def prepare(functions: Collection[Function], parameters: Sequence[Parameter], reserved: Iterable[str]) -> Prepared:
     """The union of what ``functions`` read: parameters as they are, then what is computed from parameters alone."""
-    origin: dict[Node, bool | None] = {}
-    computed: dict[Node, None] = {}
-    moving: dict[str, Sequence[Node]] = {}
-    for function in functions:
-        candidates = function.prepared
-        _trace(function, candidates, origin)
-        hoisted = [node for node in candidates if origin[node]]
-        computed.update(dict.fromkeys(hoisted))
-        moving[function.name] = function.program.reachable(function.roots, known=hoisted)
-    direct = {node for nodes in moving.values() for node in nodes if is_parameter(node)}
+    direct = {node for function in functions for node in function.called if is_parameter(node)}
+    computed = {node for function in functions for node in function.prepared}
     fields = _fields(sorted(direct, key=index), sorted(computed, key=lambda node: node.index), parameters, reserved)
     if not fields:
-        return Prepared((), (), Count(), moving)
+        return Prepared((), (), Count())
     program = fields[0].node.program
     nodes = tuple(program.reachable(field.node for field in fields))
-    return Prepared(tuple(fields), nodes, program.count(nodes), moving)
+    return Prepared(tuple(fields), nodes, program.count(nodes))
 
 
 def signal_of(node: Node) -> str:
@@ -84,16 +72,6 @@ def index(node: Node) -> int:
 
 def is_parameter(node: Node) -> bool:
     return node.operation == "input" and signal_of(node) == PARAMETERS
-
-
-def _trace(function: Function, roots: Sequence[Node], origin: dict[Node, bool | None]) -> None:
-    """Adds to ``origin`` whether each node depends on parameters and no other signal; None for constants."""
-    for node in function.program.reachable(roots, known=origin):
-        if node.operation == "input":
-            origin[node] = is_parameter(node)
-        else:
-            given = {origin[argument] for argument in node.arguments} - {None}
-            origin[node] = None if not given else given == {True}
 
 
 def _fields(

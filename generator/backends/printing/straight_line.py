@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import Language
@@ -41,8 +42,7 @@ class Step:
     write: Callable[[Sequence[str], Identifiers], tuple[Sequence[str], Sequence[str]]]
 
 
-@dataclass(frozen=True)
-class _Text:
+class _Text(NamedTuple):
     text: str
     binding: int
 

@@ -65,7 +65,7 @@ def skeleton(robot: Robot) -> Skeleton:
     values = {sympy.Symbol(length.name, real=True): length.value for length in robot.lengths}
 
     def number(expression: sympy.Expr, joint: Joint) -> float:
-        return float(expression.subs(values).subs(joint.variable, 0))
+        return float(expression.xreplace({**values, joint.variable: sympy.Integer(0)}))
 
     coordinates = {joint.number: index for index, joint in enumerate(robot.moving)}
     links = tuple(
