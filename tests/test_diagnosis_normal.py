@@ -126,7 +126,7 @@ def test_a_shifted_prior_lets_its_direction_go() -> None:
 
 def test_held_coefficients_stay(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
-    x, _ = normal(columns).solution([P + 1], np.array([0.25]))
+    x, _ = normal(columns).solution([P + 1], {P + 1: 0.25})
     assert x[-1] == 0.25
     assert x[:P] == pytest.approx(np.linalg.lstsq(W, y - 0.25 * candidates[:, 1], rcond=None)[0], rel=1e-8)
 

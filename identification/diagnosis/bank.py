@@ -7,7 +7,7 @@ All that selection asks for is in the Gram matrices of white rows, one a run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -54,6 +54,13 @@ class Variant:
         upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
         return lower, upper
 
+    @property
+    def told(self) -> dict[int, float]:
+        """Coefficients that another fit than that of the columns tells, by the column's number."""
+        known = {name: one.value for name, one in self.hypothesis.told.items()}
+        pairs = zip(self.columns, self.coefficients, strict=True)
+        return {number: value for number, one in pairs if (value := known.get(one.name)) is not None}
+
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""
         return Variant(
@@ -97,7 +104,10 @@ class Bank:
         for run, scene in zip(runs, scenes, strict=True):
             tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
-                [_Joint([*rows], [*rows.values()], tau[k], run.kept[k]) for k, rows in enumerate(base_rows(run, scene))]
+                [
+                    _Joint([*rows], [*rows.values()], tau[k], run.kept[k])
+                    for k, rows in enumerate(base_rows(run.decimated, scene))
+                ]
             )
 
     @property
@@ -219,23 +229,23 @@ def made(hypothesis: Hypothesis, scene: Scene, shape: Mapping[str, float]) -> Ar
     return columns if np.all(np.abs(columns) < _ENDLESS) else None
 
 
-def base_rows(run: Prepared, scene: Scene) -> list[dict[int, Array]]:
-    """Of each joint, the decimated rows (N) of the base columns that act on it, by number: the base parameters, then
-    the file's elastic drive trains.
+def base_rows(decimated: Callable[[Array], Array], scene: Scene) -> list[dict[int, Array]]:
+    """Of each joint, the rows (N) of the base columns that act on it, ``decimated``, by number: the base parameters,
+    then the file's elastic drive trains.
     """
     regressors = scene.regressors
     base, loaded = regressors.base(scene.motion), stated_load.columns(scene)
     place = {name: number for number, name in enumerate(regressors.names)}
     result = []
     for names, columns in zip(regressors.structure, base, strict=True):
-        rows = dict(zip(map(place.__getitem__, names), run.decimated(columns), strict=True))
-        rows |= {place[name]: run.decimated(loaded[name]) for name in loaded.keys() & set(names)}
+        rows = dict(zip(map(place.__getitem__, names), decimated(columns), strict=True))
+        rows |= {place[name]: decimated(loaded[name]) for name in loaded.keys() & set(names)}
         result.append(rows)
     if stated_elasticity.names(scene.robot):
         for number, column in enumerate(stated_elasticity.columns(scene), len(place)):
             for rows, row in zip(result, column, strict=True):
                 if row.any():
-                    rows[number] = run.decimated(row)
+                    rows[number] = decimated(row)
     return result
 
 

@@ -38,7 +38,7 @@ class Redrawn:
         self.torque = run.decimated(torque_of(error, scene))
         if weights := stated_elasticity.weights(scene):
             names = (*scene.regressors.names, *stated_elasticity.names(scene.robot))
-            old = base_rows(run, scene)
+            old = base_rows(run.decimated, scene)
             for k, by in product(range(len(old)), weights):
                 new, was = (some[k].get(names.index(by), np.zeros_like(run.t)) for some in (self._base, old))
                 self.torque[k] += weights[by] * (new - was)
@@ -68,7 +68,7 @@ class Redrawn:
 
     @cached_property
     def _base(self) -> list[dict[int, Array]]:
-        return base_rows(self._run, self._scene)
+        return base_rows(self._run.decimated, self._scene)
 
 
 def redrawn(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> dict[int, Redrawn]:

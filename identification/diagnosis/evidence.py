@@ -132,10 +132,11 @@ class Weighing:
     def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
         """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
         validate as well, without what noise of the positions takes of them, which moves no coefficient beyond its
-        bounds; and their covariance.
+        bounds; and their covariance. What hypotheses are told otherwise is held.
         """
         normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
-        solution, covariance = normal.solution(columns_of(variants))
+        told = {number: value for one in variants for number, value in one.told.items()}
+        solution, covariance = normal.solution(columns_of(variants), told)
         if pretence.nothing or not len(solution):
             return solution, covariance
         corrected = solution - covariance @ pretence.beside(variants)

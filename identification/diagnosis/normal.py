@@ -7,7 +7,7 @@ candidates is then a question about a few of its rows.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -133,18 +133,22 @@ class Normal:
             part = part - S[np.ix_(at, out)] @ inverse(S[np.ix_(out, out)]) @ S[np.ix_(out, at)]
         return np.asarray(part)
 
-    def solution(self, chosen: Sequence[int], values: Array | None = None) -> tuple[Array, Array]:
+    def solution(self, chosen: Sequence[int], held: Mapping[int, float] | None = None) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance.
 
-        Coefficients of chosen columns that are given in ``values`` are held.
+        ``held`` are coefficients of chosen columns, by number, that are known.
         """
-        p, G = self.base, self.whole
-        if values is not None:
-            base = self.inverse @ (G[:p, -1] - G[:p, list(chosen)] @ values)
-            return np.concatenate([base, values]), self.inverse
-        at = [*range(p), *chosen]
-        C = inverse(G[np.ix_(at, at)])
-        return np.asarray(C @ G[at, -1]), C
+        held = held or {}
+        at, G = [*range(self.base), *chosen], self.whole
+        free = np.array([number not in held for number in at])
+        open_, known = np.array(at)[free], np.array(at)[~free]
+        values = np.array([held[number] for number in known.tolist()])
+        C = np.zeros((len(at), len(at)))
+        C[np.ix_(free, free)] = inverse(G[np.ix_(open_, open_)])
+        solution = np.empty(len(at))
+        solution[free] = C[np.ix_(free, free)] @ (G[open_, -1] - G[np.ix_(open_, known)] @ values)
+        solution[~free] = values
+        return solution, C
 
     def misfit(self, chosen: Sequence[int], solution: Array) -> float:
         """Sum of the squared white residuals, without the prior's rows."""

@@ -108,10 +108,15 @@ def _unsettled(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
 
 def windowed(x: Array, factor: int) -> Array:
     """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
-    window = signal.windows.hann(2 * factor + 3)[1:-1]
     count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
-    result = signal.upfirdn(window / window.sum(), x, 1, factor, axis=-1)
+    result = signal.upfirdn(window(factor), x, 1, factor, axis=-1)
     return np.asarray(result[..., 2 : 2 + count])
+
+
+def window(factor: int) -> Array:
+    """Weights (2 factor + 1) of a row's samples."""
+    weights = signal.windows.hann(2 * factor + 3)[1:-1]
+    return np.asarray(weights / weights.sum())
 
 
 def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:

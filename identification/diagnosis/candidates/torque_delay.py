@@ -8,14 +8,14 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.robot.description import Joint
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.lateness import LONGEST, Lateness, latenesses, told, torques
 from identification.diagnosis.scene import Scene
 from identification.drive_train import supplied
+from identification.outcome import Value
 
 Array = NDArray[np.float64]
-
-#: Longest delay [s] either way that a drive's sampling explains.
-_LONGEST = 0.1
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -26,22 +26,26 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
-    own = [_hypothesis(one.number, (one.number,), k) for k, one in enumerate(moving) if not (stated and stated[k])]
+    late = latenesses(scenes)
+    own = [_hypothesis((one,), k, late, scenes[0]) for k, one in enumerate(moving) if not (stated and stated[k])]
     if any(stated):
         return own
-    together = _hypothesis(0, tuple(joint.number for joint in moving), None)
+    together = _hypothesis(moving, None, late, scenes[0])
     return [together, *own] if len(moving) > 1 else [together]
 
 
-def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesis:
+def _hypothesis(joints: Sequence[Joint], k: int | None, late: Sequence[Lateness | None], scene: Scene) -> Hypothesis:
+    joint = None if k is None else joints[0]
+    beyond = told(late if k is None else [late[k]], _before(joint, scene))
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
-        joint,
-        (Coefficient(_name(None if k is None else joint), "s", -_LONGEST, _LONGEST),),
-        partial(_columns, k),
+        0 if joint is None else joint.number,
+        (Coefficient(_name(joint), "s", -LONGEST, LONGEST),),
+        partial(_columns, k, late, beyond),
         kind=SIGNAL,
-        joints=joints,
+        told={} if beyond is None else {_name(joint): beyond},
+        joints=tuple(one.number for one in joints),
         variable="frequency",
         would_show="quick changes of torque: higher frequencies, steps of the acceleration",
         separating={
@@ -55,12 +59,30 @@ def _hypothesis(joint: int, joints: tuple[int, ...], k: int | None) -> Hypothesi
     )
 
 
-def _name(joint: int | None) -> str:
-    return "torque_delay" if joint is None else f"torque_delay{joint}"
+def _name(joint: Joint | None) -> str:
+    return "torque_delay" if joint is None else f"torque_delay{joint.number}"
 
 
-def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
-    s = scene.found(_name(None if k is None else scene.robot.moving[k].number))
-    tau, t = scene.torque if k is None else supplied(scene.robot, k, scene.torque), scene.t
-    late = np.stack([np.interp(t - s, t, row) - row for row in tau]) / s if s else -scene.rate(tau)
-    return late[None]
+def _columns(
+    k: int | None, late: Sequence[Lateness | None], beyond: Value | None, scene: Scene, shape: Mapping[str, float]
+) -> Array:
+    """Of a delay that is as long as ``late`` rows tell, ``beyond`` that of all joints, the difference that it makes per
+    second of it; as long as was found where they tell none.
+    """
+    joint = None if k is None else scene.robot.moving[k]
+    if beyond is None or beyond.value is None:
+        tau, start, delay = scene.torque, 0.0, scene.found(_name(joint))
+    else:
+        start, delay = _before(joint, scene), beyond.value
+        tau = scene.torque if scene.found(_name(joint)) else torques(scene, late, start + delay)
+    if k is not None:
+        tau = supplied(scene.robot, k, tau)
+    if not delay:
+        return -scene.rate(tau)[None]
+    t = scene.t
+    return np.stack([np.interp(t - start - delay, t, row) - np.interp(t - start, t, row) for row in tau])[None] / delay
+
+
+def _before(joint: Joint | None, scene: Scene) -> float:
+    """How late a joint's torque is known to be without its own delay [s]."""
+    return 0.0 if joint is None else scene.found(_name(None))

@@ -1,0 +1,161 @@
+"""How late torques are recorded: the rows of each motor fitted by themselves at every delay.
+
+What swings is another torque a quarter of its period later, and a model fitted without the delay has too little of it:
+neither tells the delay. Fitted at the right one a motor's rows leave least, whatever it swings by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from identification.diagnosis.bank import base_rows
+from identification.diagnosis.prepared import window, windowed
+from identification.diagnosis.scene import Scene
+from identification.drive_train import coupling
+from identification.outcome import Value
+
+Array = NDArray[np.float64]
+
+#: Longest delay [s] either way that a drive's sampling explains, and the part of the shortest run that it may be.
+LONGEST, _OF_RUN = 0.1, 0.05
+#: Delays that are tried are so far apart [s], and one is told to such a part of that.
+_STEP, _TOLD = 1e-3, 0.1
+#: What a delay must leave of the sum of squares to be told by it.
+_LESS = 0.8
+#: Least rows for each base parameter, and least singular value of scaled columns.
+_ROWS, _RANK = 5, 1e-6
+#: Part of a torque's square that is rounding.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Lateness:
+    """Of one motor's ``rows``: ``values`` (p x D) of the base parameters ``names``, and the sums of squares ``left``
+    (D), where its torque is late by ``delays`` [s] (D).
+    """
+
+    delays: Array
+    names: tuple[str, ...]
+    values: Array
+    left: Array
+    rows: int
+
+    @property
+    def cost(self) -> Array:
+        """Twice the negative logarithm of the likelihood (D), but for a constant: the noise's power is not known."""
+        return np.asarray(self.rows * np.log(self.left))
+
+    def at(self, delay: float) -> dict[str, float]:
+        """Base parameters by name, where the torque is late by ``delay`` [s]."""
+        pairs = zip(self.names, self.values, strict=True)
+        return {name: float(np.interp(delay, self.delays, row)) for name, row in pairs}
+
+
+def told(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
+    """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does."""
+    known = [one for one in among if one is not None]
+    if not known:
+        return None
+    delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
+    least = int(np.argmin(cost))
+    enough = sum(one.rows for one in known) * np.log(_LESS)
+    if not 0 < least < len(delays) - 1 or cost[least] - np.interp(start, delays, cost) > enough:
+        return None
+    # Squares bend as those of a sine do; their logarithm has a sharper tip.
+    squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
+    before, here, after = squares[least - 1 : least + 2]
+    bend, step = before - 2 * here + after, delays[1] - delays[0]
+    if not bend > 0:
+        return None
+    delay = delays[least] + step * (before - after) / (2 * bend)
+    return Value(float(delay - start), float(step * np.hypot(np.sqrt(2 / bend), _TOLD)), "s")
+
+
+def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
+    """Of each motor along the runs; None where rows are too few."""
+    last = int(min(LONGEST, _OF_RUN * min(scene.motion.samples * scene.period for scene in scenes)) / _STEP)
+    delays: Array = _STEP * np.arange(-last, last + 1, dtype=float)
+    runs = [_Run(scene, delays) for scene in scenes]
+    return [_fitted(delays, runs, k) for k in range(len(scenes[0].robot.moving))]
+
+
+def torques(scene: Scene, late: Sequence[Lateness | None], delay: float) -> Array:
+    """Torques along the motion (n x N) [N m, N], before a ``delay`` [s], by the fits of ``late`` rows at it."""
+    to_motors = np.linalg.inv(coupling(scene.robot).T)
+    motors = to_motors @ scene.torque
+    for k, one in enumerate(late):
+        if one is not None:
+            own = scene.torque_of({**scene.values, **one.at(delay)}, scene.motion)
+            motors[k] += to_motors[k] @ (own - scene.model_torque)
+    return np.asarray(coupling(scene.robot).T @ motors)
+
+
+def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:
+    names = runs[0].names(k)
+    if not names:
+        return None
+    W, Y = (np.concatenate(parts, axis=1) for parts in zip(*(run.rows(k) for run in runs), strict=True))
+    count = W.shape[1]
+    if count < _ROWS * len(W) or not Y.any():
+        return None
+    size = np.linalg.norm(W, axis=1)
+    size[size == 0] = 1.0
+    left, values, right = np.linalg.svd(W / size[:, None], full_matrices=False)
+    seen = values > _RANK * values.max()
+    parts = right[seen] @ Y.T
+    solution = (left[:, seen] / values[seen]) @ parts / size[:, None]
+    power = np.sum(Y**2, axis=1)
+    return Lateness(
+        delays, names, solution, np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max()), count
+    )
+
+
+class _Run:
+    """Rows of a run beside its torque taken earlier by every one of ``delays``."""
+
+    def __init__(self, scene: Scene, delays: Array) -> None:
+        self._scene, factor = scene, scene.sampled.filters.factor
+        self._base = base_rows(partial(windowed, factor=factor), scene)
+        shifts = delays / scene.period
+        out = windowed(scene.sampled.left_out.astype(float), factor) > 0
+        at = factor * np.arange(1, out.shape[1] + 1)
+        inside = (at + shifts[0] >= factor) & (at + shifts[-1] < scene.motion.samples - factor)
+        self._kept = ~out & inside
+        self._at = at, shifts
+        #: Of the joints' torques in each motor's (n x n).
+        self._share = np.linalg.inv(coupling(scene.robot).T)
+        # What acts beside the model is along the motion, which is not late.
+        self._beside = windowed(scene.carried(scene.motion) + scene.torque - scene.model_torque, factor)
+
+    def names(self, k: int) -> tuple[str, ...]:
+        """Of the base parameters of a motor's rows."""
+        return tuple(self._scene.regressors.names[number] for number in self._numbers(k))
+
+    def rows(self, k: int) -> tuple[Array, Array]:
+        """Kept rows of the base columns of motor k (p x N) and of its torque by each delay (D x N) [N m, N]."""
+        at, shifts = self._at
+        kept = self._kept[self._driven(k)].all(axis=0)
+        none = np.zeros(len(at))
+        W = np.array(
+            [
+                sum(self._share[k, j] * self._base[j].get(number, none) for j in self._driven(k))
+                for number in self._numbers(k)
+            ]
+        )
+        tau = np.convolve(self._share[k] @ self._scene.sampled.tau, window(self._scene.sampled.filters.factor), "same")
+        earlier = CubicSpline(np.arange(len(tau)), tau)(at[kept] + shifts[:, None])
+        return W[:, kept], earlier - (self._share[k] @ self._beside)[kept]
+
+    def _driven(self, k: int) -> list[int]:
+        return np.flatnonzero(self._share[k]).tolist()
+
+    def _numbers(self, k: int) -> list[int]:
+        """Of the base parameters that its torque depends on, without the file's drive trains."""
+        count = len(self._scene.regressors.names)
+        return sorted({number for j in self._driven(k) for number in self._base[j] if number < count})

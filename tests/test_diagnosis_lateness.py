@@ -1,0 +1,96 @@
+"""Delays as long as what the torque swings by: no small change of a torque, and no model is right without them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.robot.readers import read
+from identification.corrections import recorded_motor_torques
+from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
+from identification.diagnosis.lateness import Lateness, told
+from identification.drive_train import coupling
+from identification.observation import Motion, Regressors
+from tests.diagnosed_arm import diagnosis_of
+from tests.recorded import TRUTH, TWO_LINKS, Array, Recorded, fourier
+
+RATE = 250.0
+#: Frequency [Hz] of what both links swing by beside a slow motion.
+SWING = 14.0
+
+
+def swinging(t: Array, slow: Motion) -> Motion:
+    """A slow motion with a small quick one, whose torque is the larger."""
+    w = 2 * np.pi * SWING
+    phase = np.array([[0.3], [1.1]]) + w * t
+    size = np.array([[0.004], [0.006]])
+    return replace(
+        slow,
+        q=slow.q + size * np.sin(phase),
+        qd=slow.qd + size * w * np.cos(phase),
+        qdd=slow.qdd - size * w**2 * np.sin(phase),
+    )
+
+
+def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS) -> Diagnosis:
+    """Of two links whose motors are recorded late by so many milliseconds, of which the file does not know."""
+    (folder / "two_links.yaml").write_text(text)
+    (folder / "late.yaml").write_text(f"{text}signals: {{torque_delay: [{delays[0]} ms, {delays[1]} ms]}}\n")
+    robot, true, draw = read(folder / "two_links.yaml"), read(folder / "late.yaml"), np.random.default_rng(3)
+    regressors, sources = Regressors(robot), []
+    for number in range(3):
+        t, slow = fourier(robot, 30.0, RATE, number)
+        motion = swinging(t, slow)
+        motors = np.linalg.solve(coupling(robot).T, regressors.torques(TRUTH, motion))
+        motors = recorded_motor_torques(motors, true, 1 / RATE, None) + 0.01 * draw.normal(size=motors.shape)
+        q = coupling(robot) @ motion.q
+        columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
+        sources.append(str(Recorded(columns).save(folder / f"{number}.csv")))
+    return diagnosis_of(sources, regressors)
+
+
+@pytest.mark.parametrize("delay", [16, -20])
+def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Path) -> None:
+    found = late_by(tmp_path, (delay, delay))
+    assert found.verdict == NAMED
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", 0)
+    assert one.parameters["torque_delay"].value == pytest.approx(1e-3 * delay, abs=2e-4)
+
+
+@pytest.mark.parametrize("motor", [1, 2])
+def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) -> None:
+    """It drives a joint that another motor drives as well, of which nothing is late."""
+    delays = (18 * (motor == 1), 18 * (motor == 2))
+    found = late_by(tmp_path, delays, TWO_LINKS.replace("N21: 5", "N21: 60"))
+    assert found.verdict == NAMED
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", motor)
+    assert one.parameters[f"torque_delay{motor}"].value == pytest.approx(0.018, abs=3e-4)
+
+
+def test_nothing_is_late_where_nothing_is(tmp_path: Path) -> None:
+    assert late_by(tmp_path, (0, 0)).verdict == NOTHING
+
+
+def profile(delay: float, depth: float) -> Lateness:
+    """Of 1000 rows of noise and of a torque that swings by ``depth`` of its power, late by ``delay``."""
+    delays = 0.001 * np.arange(-30, 31)
+    left = 1000.0 * (1 + depth * (1 - np.cos(2 * np.pi * SWING * (delays - delay))))
+    return Lateness(delays, (), np.empty((0, len(delays))), left, 1000)
+
+
+def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
+    found, more = told([profile(0.0093, 3.0), None]), told([profile(0.0093, 3.0)], 0.02)
+    assert found is not None
+    assert more is not None
+    assert found.value == pytest.approx(0.0093, abs=1e-4)
+    assert more.value == pytest.approx(0.0093 - 0.02, abs=1e-4)
+
+
+@pytest.mark.parametrize("unlike", [[profile(0.009, 0.1)], [profile(0.0, 3.0)], [profile(0.035, 3.0)], [None], []])
+def test_no_delay_is_told_that_leaves_little_less_or_lies_at_the_end(unlike: list[Lateness | None]) -> None:
+    assert told(unlike) is None
