@@ -39,7 +39,7 @@ def main() -> int:
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))
         return 0
     store(folder.name, results)
-    record = {"cases": told.cases, "code": folder.name, **found}
+    record = {"code": folder.name, **found}
     JSON.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     write(results, found)
     return int(any("failed" in one for one in results))
