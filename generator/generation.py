@@ -61,8 +61,9 @@ def uncollected() -> Iterator[None]:
     finally:
         if before:
             # To the old at once: the next collection of the young would walk all that has been made.
-            gc.freeze()
-            gc.unfreeze()
+            if not gc.get_freeze_count():
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()
 
 

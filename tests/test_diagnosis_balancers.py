@@ -12,9 +12,10 @@ from generator.effects.library import effects_of
 from generator.effects.library import library as effects
 from generator.errors import InputError
 from generator.robot.readers import read
+from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.effect_columns import EffectColumns
-from identification.diagnosis.evidence import BALANCERS
+from identification.diagnosis.evidence import BALANCERS, likely
 from identification.observation import Regressors
 from tests.diagnosed import known, played
 from tests.plant.effect import Effect
@@ -75,3 +76,15 @@ def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> Non
     path.write_text(text.replace(f"l0: {first} m", f"l0: {first - 0.1} m"), encoding="utf-8")
     with pytest.raises(InputError, match="l0 is too small"):
         effects_of(read(path))
+
+
+def test_a_spring_without_stiffness_is_not_thought_of_first(tmp_path: Path) -> None:
+    scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("offset", 1, 0.0), WAY)
+    (spring,) = (
+        one for one in library.hypotheses([scene]) if (one.effect, one.joint, one.usual) == ("spring_balancer", 2, True)
+    )
+    assert [one.name for one in spring.coefficients] == ["Kr2", "K02"]
+    whole = Variant(spring, {}, (10, 11), (1,), (0, 1))
+    assert likely(whole, [])
+    assert not likely(whole.only([1]), [])
+    assert not likely(whole, [whole])

@@ -11,7 +11,7 @@ import pytest
 from generator.robot.readers import read
 from identification.corrections import recorded_motor_torques
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
-from identification.diagnosis.lateness import Lateness, told
+from identification.diagnosis.lateness import Lateness, delay_of
 from identification.drive_train import coupling
 from identification.observation import Motion, Regressors
 from tests.diagnosed_arm import diagnosis_of
@@ -84,7 +84,7 @@ def profile(delay: float, depth: float) -> Lateness:
 
 
 def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
-    found, more = told([profile(0.0093, 3.0), None]), told([profile(0.0093, 3.0)], 0.02)
+    found, more = delay_of([profile(0.0093, 3.0), None]), delay_of([profile(0.0093, 3.0)], 0.02)
     assert found is not None
     assert more is not None
     assert found.value == pytest.approx(0.0093, abs=1e-4)
@@ -93,4 +93,4 @@ def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
 
 @pytest.mark.parametrize("unlike", [[profile(0.009, 0.1)], [profile(0.0, 3.0)], [profile(0.035, 3.0)], [None], []])
 def test_no_delay_is_told_that_leaves_little_less_or_lies_at_the_end(unlike: list[Lateness | None]) -> None:
-    assert told(unlike) is None
+    assert delay_of(unlike) is None

@@ -55,9 +55,9 @@ class Variant:
         return lower, upper
 
     @property
-    def told(self) -> dict[int, float]:
+    def held(self) -> dict[int, float]:
         """Coefficients that another fit than that of the columns tells, by the column's number."""
-        known = {name: one.value for name, one in self.hypothesis.told.items()}
+        known = {name: one.value for name, one in self.hypothesis.held.items()}
         pairs = zip(self.columns, self.coefficients, strict=True)
         return {number: value for number, one in pairs if (value := known.get(one.name)) is not None}
 

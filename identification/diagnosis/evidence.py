@@ -132,11 +132,11 @@ class Weighing:
     def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
         """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
         validate as well, without what noise of the positions takes of them, which moves no coefficient beyond its
-        bounds; and their covariance. What hypotheses are told otherwise is held.
+        bounds; and their covariance. What another fit tells of them is held.
         """
         normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
-        told = {number: value for one in variants for number, value in one.told.items()}
-        solution, covariance = normal.solution(columns_of(variants), told)
+        held = {number: value for one in variants for number, value in one.held.items()}
+        solution, covariance = normal.solution(columns_of(variants), held)
         if pretence.nothing or not len(solution):
             return solution, covariance
         corrected = solution - covariance @ pretence.beside(variants)
@@ -347,8 +347,8 @@ def common(variant: Variant) -> bool:
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place, whole: a
-    spring without stiffness pushes as gas does.
+    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place. A
+    spring that has lost a coefficient is not: without stiffness it pushes as gas does.
     """
     effect = variant.hypothesis.effect
     if effect in BALANCERS:

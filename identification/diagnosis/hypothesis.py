@@ -107,7 +107,7 @@ class Hypothesis:
     of the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
-    there is nothing to search, and the columns are zero. ``told`` are those that the runs tell by another fit than that
+    there is nothing to search, and the columns are zero. ``held`` are those that the runs tell by another fit than that
     of the columns, which are right for that value alone. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
@@ -132,7 +132,7 @@ class Hypothesis:
     tries: int = 0
     starts: tuple[Mapping[str, float], ...] = ()
     measured: Mapping[str, Value] = field(default_factory=dict)
-    told: Mapping[str, Value] = field(default_factory=dict)
+    held: Mapping[str, Value] = field(default_factory=dict)
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None

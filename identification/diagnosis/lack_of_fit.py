@@ -90,7 +90,7 @@ def lack_of_fit(
 def _burst(
     runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]
 ) -> tuple[str, float] | None:
-    """Where the residual is far above the noise, above what may be ``late`` then, and above itself a period before and
+    """Where the residual is far above the noise, above what may be ``late`` then, and above itself a period before or
     after, for a short time, once in all runs; not where a joint is unsettled.
     """
     found: list[tuple[float, str, float]] = []
@@ -114,7 +114,7 @@ def _burst(
 
 
 def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
-    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before and after; zero without one."""
+    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before or after; zero without one."""
     if not period:
         return np.zeros_like(power)
     rows = np.zeros(place[-1] + 1 + 2 * period)

@@ -1,7 +1,8 @@
 """How late torques are recorded: the rows of each motor fitted by themselves at every delay.
 
 What swings is another torque a quarter of its period later, and a model fitted without the delay has too little of it:
-neither tells the delay. Fitted at the right one a motor's rows leave least, whatever it swings by.
+neither tells the delay. Fitted at the right one a motor's rows leave least, whatever it swings by. What is known of
+parameters beforehand is not asked.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from scipy.interpolate import CubicSpline
 from identification.diagnosis.bank import base_rows
 from identification.diagnosis.prepared import window, windowed
 from identification.diagnosis.scene import Scene
-from identification.drive_train import coupling
+from identification.drive_train import coupling, supplied
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
@@ -57,7 +58,7 @@ class Lateness:
         return {name: float(np.interp(delay, self.delays, row)) for name, row in pairs}
 
 
-def told(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
+def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
     """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does."""
     known = [one for one in among if one is not None]
     if not known:
@@ -86,14 +87,15 @@ def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
 
 
 def torques(scene: Scene, late: Sequence[Lateness | None], delay: float) -> Array:
-    """Torques along the motion (n x N) [N m, N], before a ``delay`` [s], by the fits of ``late`` rows at it."""
-    to_motors = np.linalg.inv(coupling(scene.robot).T)
-    motors = to_motors @ scene.torque
+    """Torques along the motion (n x N) [N m, N], before a ``delay`` [s]: of each motor by the fit of its ``late``
+    rows at it, of those without one by the model.
+    """
+    tau = scene.torque.copy()
     for k, one in enumerate(late):
         if one is not None:
             own = scene.torque_of({**scene.values, **one.at(delay)}, scene.motion)
-            motors[k] += to_motors[k] @ (own - scene.model_torque)
-    return np.asarray(coupling(scene.robot).T @ motors)
+            tau += supplied(scene.robot, k, own - scene.model_torque)
+    return tau
 
 
 def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:

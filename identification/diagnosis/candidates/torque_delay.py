@@ -1,8 +1,12 @@
-"""Torques that are recorded later than positions: tau_recorded(t) = tau(t - s), at first tau(t) - s dtau/dt."""
+"""Torques that are recorded later than positions: tau_recorded(t) = tau(t - s).
+
+At first that is tau(t) - s dtau/dt; a long delay is told by motors' rows (``lateness``), its column is a secant.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -10,12 +14,26 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.lateness import LONGEST, Lateness, latenesses, told, torques
+from identification.diagnosis.lateness import LONGEST, Lateness, delay_of, latenesses, torques
 from identification.diagnosis.scene import Scene
 from identification.drive_train import supplied
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Told:
+    """A delay ``beyond`` one of ``start`` [s] that ``late`` rows tell of the motors that have it."""
+
+    late: Sequence[Lateness | None]
+    start: float
+    beyond: Value
+
+    @property
+    def delay(self) -> float:
+        """Its value [s]."""
+        return self.beyond.value or 0.0
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -26,25 +44,32 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
-    late = latenesses(scenes)
-    own = [_hypothesis((one,), k, late, scenes[0]) for k, one in enumerate(moving) if not (stated and stated[k])]
+    if stated and all(stated):
+        return []
+    late, found = latenesses(scenes), scenes[0].found
+    own = [_hypothesis((one,), k, late, found) for k, one in enumerate(moving) if not (stated and stated[k])]
     if any(stated):
         return own
-    together = _hypothesis(moving, None, late, scenes[0])
+    together = _hypothesis(moving, None, late, found)
     return [together, *own] if len(moving) > 1 else [together]
 
 
-def _hypothesis(joints: Sequence[Joint], k: int | None, late: Sequence[Lateness | None], scene: Scene) -> Hypothesis:
+def _hypothesis(
+    joints: Sequence[Joint], k: int | None, late: Sequence[Lateness | None], found: Callable[[str], float]
+) -> Hypothesis:
     joint = None if k is None else joints[0]
-    beyond = told(late if k is None else [late[k]], _before(joint, scene))
+    acting = [one if k in (None, motor) else None for motor, one in enumerate(late)]
+    start = 0.0 if joint is None else found(_name(None))
+    beyond = delay_of(acting, start)
+    told = None if beyond is None else _Told(acting, start, beyond)
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
         0 if joint is None else joint.number,
         (Coefficient(_name(joint), "s", -LONGEST, LONGEST),),
-        partial(_columns, k, late, beyond),
+        partial(_columns, k, joint, told),
         kind=SIGNAL,
-        told={} if beyond is None else {_name(joint): beyond},
+        held={} if told is None else {_name(joint): told.beyond},
         joints=tuple(one.number for one in joints),
         variable="frequency",
         would_show="quick changes of torque: higher frequencies, steps of the acceleration",
@@ -63,26 +88,14 @@ def _name(joint: Joint | None) -> str:
     return "torque_delay" if joint is None else f"torque_delay{joint.number}"
 
 
-def _columns(
-    k: int | None, late: Sequence[Lateness | None], beyond: Value | None, scene: Scene, shape: Mapping[str, float]
-) -> Array:
-    """Of a delay that is as long as ``late`` rows tell, ``beyond`` that of all joints, the difference that it makes per
-    second of it; as long as was found where they tell none.
-    """
-    joint = None if k is None else scene.robot.moving[k]
-    if beyond is None or beyond.value is None:
-        tau, start, delay = scene.torque, 0.0, scene.found(_name(joint))
-    else:
-        start, delay = _before(joint, scene), beyond.value
-        tau = scene.torque if scene.found(_name(joint)) else torques(scene, late, start + delay)
+def _columns(k: int | None, joint: Joint | None, told: _Told | None, scene: Scene, shape: Mapping[str, float]) -> Array:
+    """What a delay changes per second of it: as long as was ``told``, else as was found, else as none."""
+    found = scene.found(_name(joint))
+    start, delay = (told.start, told.delay) if told else (0.0, found)
+    tau = torques(scene, told.late, start + delay) if told and not found else scene.torque
     if k is not None:
         tau = supplied(scene.robot, k, tau)
     if not delay:
         return -scene.rate(tau)[None]
     t = scene.t
     return np.stack([np.interp(t - start - delay, t, row) - np.interp(t - start, t, row) for row in tau])[None] / delay
-
-
-def _before(joint: Joint | None, scene: Scene) -> float:
-    """How late a joint's torque is known to be without its own delay [s]."""
-    return 0.0 if joint is None else scene.found(_name(None))
