@@ -91,7 +91,7 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
             if part:
                 motor[k] *= 1 + float(part) * warmth[k]
     if signals.torque_delay:
-        motor = _earlier(motor, signals.torque_delay, period)
+        motor = earlier(motor, signals.torque_delay, period)
     return np.asarray(N.T @ motor, dtype=float)
 
 
@@ -100,7 +100,7 @@ def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Ar
     signals, drives = robot.signals, robot.drives
     result = motor.copy()
     if signals.torque_delay:
-        result = _earlier(motor, [-delay for delay in signals.torque_delay], period)
+        result = earlier(motor, [-delay for delay in signals.torque_delay], period)
     if warmth is not None:
         for k, part in enumerate(drives.torque_drift if drives is not None else ()):
             if part:
@@ -111,7 +111,7 @@ def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Ar
 def recorded_links(q: Array, robot: Robot, period: float) -> Array:
     """What ``true_links`` makes link-side positions (n x N) [rad, m] of."""
     delays = robot.signals.link_delay
-    return _earlier(q, [-delay for delay in delays], period) if delays else q
+    return earlier(q, [-delay for delay in delays], period) if delays else q
 
 
 def saturated(tau: Array, robot: Robot) -> NDArray[np.bool_] | None:
@@ -147,7 +147,7 @@ def true_links(columns: Mapping[str, Array], robot: Robot, period: float) -> dic
     result = dict(columns)
     for joint, delay in zip(robot.moving, robot.signals.link_delay, strict=False):
         if (name := f"qs{joint.number}") in result:
-            result[name] = _earlier(result[name][None], (delay,), period)[0]
+            result[name] = earlier(result[name][None], (delay,), period)[0]
     return result
 
 
@@ -158,7 +158,7 @@ def whole(samples: int, robot: Robot, period: float) -> slice:
     return slice(first, samples - last)
 
 
-def _earlier(x: Array, delays: Sequence[sympy.Expr], period: float) -> Array:
+def earlier(x: Array, delays: Sequence[sympy.Expr | float], period: float) -> Array:
     """Signals (n x N) that were recorded ``delays`` [s] late, at their own time, by a cubic spline; ends are held."""
     t = period * np.arange(x.shape[-1])
     rows = [

@@ -15,7 +15,7 @@ from generator.robot.readers import read
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.candidates import library
 from identification.diagnosis.effect_columns import EffectColumns
-from identification.diagnosis.evidence import BALANCERS, likely
+from identification.diagnosis.likely import BALANCERS, likely
 from identification.observation import Regressors
 from tests.diagnosed import known, played
 from tests.plant.effect import Effect

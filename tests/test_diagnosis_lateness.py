@@ -72,6 +72,18 @@ def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) 
     assert one.parameters[f"torque_delay{motor}"].value == pytest.approx(0.018, abs=3e-4)
 
 
+@pytest.mark.parametrize(("delays", "joints"), [((12, -8), (1, 2)), ((16, -16), (1, 2)), ((16, 22), (0, 1))])
+def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[int, int], tmp_path: Path) -> None:
+    """Each by its own, or one beyond a delay of all: neither is what the other one's law lacks."""
+    found = late_by(tmp_path, delays, TWO_LINKS.replace("N21: 5", "N21: 60"))
+    assert found.verdict == NAMED
+    assert tuple(sorted(one.hypothesis.joint for one in found.findings)) == joints
+    told = {name: value.value or 0.0 for one in found.findings for name, value in one.parameters.items()}
+    for motor, delay in enumerate(delays, 1):
+        whole = told.get("torque_delay", 0.0) + told.get(f"torque_delay{motor}", 0.0)
+        assert whole == pytest.approx(1e-3 * delay, abs=3e-4)
+
+
 def test_nothing_is_late_where_nothing_is(tmp_path: Path) -> None:
     assert late_by(tmp_path, (0, 0)).verdict == NOTHING
 
@@ -94,3 +106,12 @@ def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
 @pytest.mark.parametrize("unlike", [[profile(0.009, 0.1)], [profile(0.0, 3.0)], [profile(0.035, 3.0)], [None], []])
 def test_no_delay_is_told_that_leaves_little_less_or_lies_at_the_end(unlike: list[Lateness | None]) -> None:
     assert delay_of(unlike) is None
+
+
+def test_a_delay_of_several_motors_is_told_by_more_than_one() -> None:
+    alike, none, other = profile(0.0093, 3.0), profile(0.0, 3.0), profile(-0.0093, 3.0)
+    found = delay_of([alike, alike, none])
+    assert found is not None
+    assert found.value == pytest.approx(0.0062, abs=4e-3)
+    assert delay_of([alike, none]) is None
+    assert delay_of([alike, other]) is None

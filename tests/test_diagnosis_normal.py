@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -126,9 +128,26 @@ def test_a_shifted_prior_lets_its_direction_go() -> None:
 
 def test_held_coefficients_stay(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
-    x, _ = normal(columns).solution([P + 1], {P + 1: 0.25})
+    left = y - 0.25 * candidates[:, 1]
+    one = replace(normal(columns), held={P + 1: 0.25})
+    x, covariance = one.solution([P + 1])
     assert x[-1] == 0.25
-    assert x[:P] == pytest.approx(np.linalg.lstsq(W, y - 0.25 * candidates[:, 1], rcond=None)[0], rel=1e-8)
+    assert x[:P] == pytest.approx(np.linalg.lstsq(W, left, rcond=None)[0], rel=1e-8)
+    assert not covariance[-1].any()
+    assert one.misfit([P + 1], x) == pytest.approx(squares(W, left), rel=1e-8)
+
+
+def test_others_are_weighed_beside_what_is_held(columns: tuple[Array, Array, Array]) -> None:
+    W, candidates, y = columns
+    left, beside = y - 0.25 * candidates[:, 1], np.column_stack([W, candidates[:, 0]])
+    one = replace(normal(columns), held={P + 1: 0.25})
+    chosen = [P, P + 1]
+    S, whole = one.part([P + 3], chosen), one.beside(chosen)
+    drop = squares(beside, left) - squares(np.column_stack([beside, candidates[:, 3]]), left)
+    assert S[0, 1] ** 2 / S[0, 0] == pytest.approx(drop, rel=1e-8)
+    assert S[-1, -1] == pytest.approx(squares(beside, left), rel=1e-8)
+    assert whole[np.ix_([3, -1], [3, -1])] == pytest.approx(S, rel=1e-8)
+    assert not whole[:2].any()
 
 
 def test_a_direction_that_nothing_shows_is_left_at_zero() -> None:

@@ -54,13 +54,6 @@ class Variant:
         upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
         return lower, upper
 
-    @property
-    def held(self) -> dict[int, float]:
-        """Coefficients that another fit than that of the columns tells, by the column's number."""
-        known = {name: one.value for name, one in self.hypothesis.held.items()}
-        pairs = zip(self.columns, self.coefficients, strict=True)
-        return {number: value for number, one in pairs if (value := known.get(one.name)) is not None}
-
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""
         return Variant(
@@ -86,7 +79,8 @@ class _Joint:
 class Bank:
     """Columns of several runs; ``scenes`` and ``runs`` in the same order.
 
-    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs.
+    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs, and ``held`` coefficients that
+    another fit than that of the columns tells, by the column's number.
     """
 
     def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
@@ -97,6 +91,7 @@ class Bank:
         self._made: dict[tuple[object, ...], Variant | None] = {}
         self._offered: set[tuple[object, ...]] = set()
         self.nowhere: dict[tuple[str, int], Hypothesis] = {}
+        self.held: dict[int, float] = {}
         self.count = len(self.base)
         self._joints: list[list[_Joint]] = []
         self._colours: list[list[Colour]] = []
@@ -160,6 +155,9 @@ class Bank:
         ]
         numbers = tuple(range(self.count, self.count + len(hypothesis.coefficients)))
         self.count += len(numbers)
+        for number, one in zip(numbers, hypothesis.coefficients, strict=True):
+            if (value := hypothesis.known(one.name)) is not None:
+                self.held[number] = value
         for r, (run, columns) in enumerate(zip(self.runs, per_run, strict=True)):
             if self._colours:
                 self.grams[r] = _grown(self.grams[r], len(numbers))

@@ -19,6 +19,8 @@ from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.lacking import lacking
+from identification.diagnosis.likely import common, likely
 from identification.diagnosis.normal import Normal, Prior, bounded, inverse
 
 Array = NDArray[np.float64]
@@ -33,24 +35,6 @@ _ALPHA = 1e-3
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
 _FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
-#: What nearly every robot has; what many wrists have; what holds an arm up.
-_COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
-_WRIST = ("coupled_rotor",)
-BALANCERS = ("gas_balancer", "spring_balancer")
-#: What pulls a link to where it rests.
-SPRINGS = (*BALANCERS, "cable_spring", "joint_spring")
-#: What lets the link come after the motor, or the log after both.
-_BEHIND = ("joint_elasticity", "backlash", "torque_delay")
-#: What a joint has one of: a robot file says no more, and the second tells what the first one leaves.
-_ONE_OF = (BALANCERS, ("joint_elasticity", "backlash"))
-#: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
-#: nearly the same, and where they are alike: friction of the speed, or behind the motor.
-_ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
-#: The same part of a balancer for a second one.
-_SECOND = 0.5
-_OF_SPEED = ("qd", "time since reversal")
-#: Variables over which an effect of one of them shows as well.
-_SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
@@ -132,11 +116,10 @@ class Weighing:
     def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
         """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
         validate as well, without what noise of the positions takes of them, which moves no coefficient beyond its
-        bounds; and their covariance. What another fit tells of them is held.
+        bounds; and their covariance.
         """
         normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
-        held = {number: value for one in variants for number, value in one.held.items()}
-        solution, covariance = normal.solution(columns_of(variants), held)
+        solution, covariance = normal.solution(columns_of(variants))
         if pretence.nothing or not len(solution):
             return solution, covariance
         corrected = solution - covariance @ pretence.beside(variants)
@@ -162,7 +145,7 @@ class Weighing:
         for r in runs[1:]:
             total += self.bank.grams[r]
         rows = sum(int(self.bank.rows(r).sum()) for r in runs)
-        return Normal(total, len(self.bank.base), rows, self._prior)
+        return Normal(total, len(self.bank.base), rows, self._prior, self.bank.held)
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
@@ -248,7 +231,7 @@ class Weighing:
             return replace(one, why_not="smaller than what is named")
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
-        if drop < self._imperfect(variant, others):
+        if drop < lacking(variant, others, self._drops(others)):
             return replace(one, why_not="may be what another effect's law lacks")
         if _at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
@@ -294,22 +277,6 @@ class Weighing:
         explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)
         return np.asarray(self._pretence.of(variant) - G[np.ix_(variant.columns, beside)] @ explained)
 
-    def _imperfect(self, variant: Variant, others: Sequence[Variant]) -> float:
-        """What the laws of others that act on the same joints may leave although they are the right ones."""
-        least = 0.0
-        if common(variant):
-            return least
-        for other, drop in zip(others, self._drops(others), strict=True):
-            effects = {variant.hypothesis.effect, other.hypothesis.effect}
-            here = variant.hypothesis.joint == other.hypothesis.joint
-            if here and any(effects <= set(one) for one in _ONE_OF):
-                least = np.inf
-            elif effects <= set(BALANCERS):
-                least = max(least, _SECOND * drop)
-            elif set(other.joints) & set(variant.joints) and not common(other):
-                least = max(least, _lacking(variant.hypothesis, other.hypothesis) * drop)
-        return least
-
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
         """What each of the chosen explains beside the rest of them."""
         key = tuple(one.columns for one in chosen)
@@ -341,37 +308,12 @@ class Weighing:
         return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
 
 
-def common(variant: Variant) -> bool:
-    """Whether nearly every robot has the effect."""
-    return variant.hypothesis.effect in _COMMON
-
-
-def likely(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place. A
-    spring that has lost a coefficient is not: without stiffness it pushes as gas does.
-    """
-    effect = variant.hypothesis.effect
-    if effect in BALANCERS:
-        whole = len(variant.used) == len(variant.hypothesis.coefficients)
-        return whole and variant.hypothesis.usual and not any(one.hypothesis.effect in BALANCERS for one in others)
-    return common(variant) or effect in _WRIST
-
-
 def key_of(variant: Variant) -> Key:
     return variant.hypothesis.effect, variant.hypothesis.joint
 
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
     return [number for one in chosen for number in one.columns]
-
-
-def _lacking(one: Hypothesis, other: Hypothesis) -> float:
-    """Part of what ``other`` explains that its law may lack and ``one`` would explain."""
-    # What a delay of the whole robot explains is not of one joint.
-    behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
-    if behind or {one.variable, other.variable} <= set(_OF_SPEED):
-        return _ALIKE
-    return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE
 
 
 def _chance(drop: float, variant: Variant) -> float:

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from generator.review.decimals import scientific
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import BALANCERS, SPRINGS, Evidence, Key, columns_of, key_of
+from identification.diagnosis.evidence import Evidence, Key, columns_of, key_of
 from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
+from identification.diagnosis.likely import BALANCERS, SPRINGS
 from identification.diagnosis.loop import Search
 from identification.diagnosis.may_act import maps_taken
 from identification.diagnosis.selection import Choice

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.normal import Prior, bounded, inverse
+from identification.diagnosis.normal import Prior, bounded, inverse, told_apart, without
 
 Array = NDArray[np.float64]
 
@@ -46,11 +46,12 @@ class HeldOut:
         """What is left beside ``chosen`` of the products of the variant's columns and the torque over some runs, fitted
         by themselves; squares of the whole columns.
         """
-        beside = [*range(len(self._bank.base)), *chosen]
-        at = [*variant.columns, self._bank.count]
-        across = self._products(runs, beside, at)
-        own = self._products(runs, at, at)
-        return own - across.T @ self._inverse(runs, beside) @ across, np.diag(own)[:-1]
+        beside, known, values = told_apart([*range(len(self._bank.base)), *chosen], self._bank.held)
+        at = [*known.tolist(), *variant.columns, self._bank.count]
+        across, own = self._products(runs, beside.tolist(), at), self._products(runs, at, at)
+        part = own - across.T @ self._inverse(runs, beside.tolist()) @ across
+        left = without(part, np.arange(len(known)), values)[len(known) :, len(known) :]
+        return left, np.diag(own)[len(known) : -1]
 
     def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
         key = (runs, tuple(columns))

@@ -27,8 +27,9 @@ Array = NDArray[np.float64]
 LONGEST, _OF_RUN = 0.1, 0.05
 #: Delays that are tried are so far apart [s], and one is told to such a part of that.
 _STEP, _TOLD = 1e-3, 0.1
-#: What a delay must leave of the sum of squares to be told by it.
-_LESS = 0.8
+#: What a delay must leave of the sum of squares to be told by it; of several motors, how many must tell it by
+#: themselves, and its part of what delays of their own would explain.
+_LESS, _SEVERAL, _SHARED = 0.8, 2, 0.5
 #: Least rows for each base parameter, and least singular value of scaled columns.
 _ROWS, _RANK = 5, 1e-6
 #: Part of a torque's square that is rounding.
@@ -59,14 +60,19 @@ class Lateness:
 
 
 def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
-    """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does."""
+    """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does, or it is not
+    one of several motors.
+    """
     known = [one for one in among if one is not None]
     if not known:
         return None
     delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
     least = int(np.argmin(cost))
-    enough = sum(one.rows for one in known) * np.log(_LESS)
-    if not 0 < least < len(delays) - 1 or cost[least] - np.interp(start, delays, cost) > enough:
+    gains = [np.interp(start, delays, one.cost) - one.cost[least] for one in known]
+    most = sum(np.interp(start, delays, one.cost) - one.cost.min() for one in known)
+    enough = [one.rows * -np.log(_LESS) for one in known]
+    shared = sum(gain > own for gain, own in zip(gains, enough, strict=True)) >= min(len(known), _SEVERAL)
+    if not 0 < least < len(delays) - 1 or not shared or sum(gains) < max(sum(enough), _SHARED * most):
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
     squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
@@ -86,12 +92,12 @@ def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
     return [_fitted(delays, runs, k) for k in range(len(scenes[0].robot.moving))]
 
 
-def torques(scene: Scene, late: Sequence[Lateness | None], delay: float) -> Array:
-    """Torques along the motion (n x N) [N m, N], before a ``delay`` [s]: of each motor by the fit of its ``late``
+def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float]) -> Array:
+    """Torques along the motion (n x N) [N m, N], before each motor's of ``delays`` [s] (n): by the fit of its ``late``
     rows at it, of those without one by the model.
     """
     tau = scene.torque.copy()
-    for k, one in enumerate(late):
+    for k, (one, delay) in enumerate(zip(late, delays, strict=True)):
         if one is not None:
             own = scene.torque_of({**scene.values, **one.at(delay)}, scene.motion)
             tau += supplied(scene.robot, k, own - scene.model_torque)

@@ -8,13 +8,14 @@ candidates is then a question about a few of its rows.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Places = NDArray[np.int64]
 
 #: Eigenvalues of W's scaled products below this part of the largest: directions that no row shows.
 _RANK = 1e-10
@@ -78,12 +79,16 @@ class Prior:
 
 @dataclass(frozen=True)
 class Normal:
-    """Products ``gram`` (c + 1 square) of ``base`` columns, candidates and torque, over ``rows`` rows."""
+    """Products ``gram`` (c + 1 square) of ``base`` columns, candidates and torque, over ``rows`` rows.
+
+    ``held`` are coefficients of candidates, by the column's number, that are known: a solution has them as they are.
+    """
 
     gram: Array
     base: int
     rows: int
     prior: Prior | None = None
+    held: Mapping[int, float] = field(default_factory=dict)
 
     @cached_property
     def whole(self) -> Array:
@@ -116,37 +121,31 @@ class Normal:
     def beside(self, chosen: Sequence[int]) -> Array:
         """The Schur complement after the columns ``chosen`` too; their own rows are zero."""
         at = np.array(chosen, dtype=int) - self.base
-        S = self.schur
         if not at.size:
-            return S
-        result = S - S[:, at] @ inverse(S[np.ix_(at, at)]) @ S[at]
+            return self.schur
+        fitted, known, values = told_apart(chosen, self.held)
+        S, out = without(self.schur, known - self.base, values), fitted - self.base
+        result = S - S[:, out] @ inverse(S[np.ix_(out, out)]) @ S[out]
         result[at], result[:, at] = 0.0, 0.0
         return np.asarray(result)
 
     def part(self, columns: Sequence[int], chosen: Sequence[int]) -> Array:
         """The rows of ``columns`` and of the torque of the Schur complement after the columns ``chosen`` too."""
-        S = self.schur
-        at = np.array([*(number - self.base for number in columns), len(S) - 1])
-        out = np.array(chosen, dtype=int) - self.base
-        part = S[np.ix_(at, at)]
-        if out.size:
-            part = part - S[np.ix_(at, out)] @ inverse(S[np.ix_(out, out)]) @ S[np.ix_(out, at)]
-        return np.asarray(part)
+        fitted, known, values = told_apart(chosen, self.held)
+        at = np.array([*known, *fitted, *columns, len(self.gram) - 1]) - self.base
+        S = without(self.schur[np.ix_(at, at)], np.arange(len(known)), values)[len(known) :, len(known) :]
+        return after(S, len(fitted))
 
-    def solution(self, chosen: Sequence[int], held: Mapping[int, float] | None = None) -> tuple[Array, Array]:
-        """Base parameters and the chosen columns' coefficients (p + k); and their covariance.
-
-        ``held`` are coefficients of chosen columns, by number, that are known.
-        """
-        held = held or {}
-        at, G = [*range(self.base), *chosen], self.whole
-        free = np.array([number not in held for number in at])
-        open_, known = np.array(at)[free], np.array(at)[~free]
-        values = np.array([held[number] for number in known.tolist()])
+    def solution(self, chosen: Sequence[int]) -> tuple[Array, Array]:
+        """Base parameters and the chosen columns' coefficients (p + k); and their covariance."""
+        at = [*range(self.base), *chosen]
+        free = np.array([number not in self.held for number in at])
+        fitted, known, values = told_apart(at, self.held)
+        G = without(self.whole, known, values)
         C = np.zeros((len(at), len(at)))
-        C[np.ix_(free, free)] = inverse(G[np.ix_(open_, open_)])
+        C[np.ix_(free, free)] = inverse(G[np.ix_(fitted, fitted)])
         solution = np.empty(len(at))
-        solution[free] = C[np.ix_(free, free)] @ (G[open_, -1] - G[np.ix_(open_, known)] @ values)
+        solution[free] = C[np.ix_(free, free)] @ G[fitted, -1]
         solution[~free] = values
         return solution, C
 
@@ -155,6 +154,31 @@ class Normal:
         at = [*range(self.base), *chosen, len(self.gram) - 1]
         v = np.append(-solution, 1.0)
         return float(v @ self.gram[np.ix_(at, at)] @ v)
+
+
+def told_apart(columns: Sequence[int], held: Mapping[int, float]) -> tuple[Places, Places, Array]:
+    """Columns by number that are fitted, those of which a coefficient is ``held``, and the values that are."""
+    known = [number for number in columns if number in held]
+    fitted = [number for number in columns if number not in held]
+    return np.array(fitted, dtype=int), np.array(known, dtype=int), np.array([held[number] for number in known])
+
+
+def without(G: Array, known: Places, values: Array) -> Array:
+    """Products of columns and, the last, the torque, as they are of a torque without columns of known ``values``."""
+    if not known.size:
+        return G
+    result = G.copy()
+    result[:, -1] -= result[:, known] @ values
+    result[-1] -= values @ result[known]
+    return result
+
+
+def after(G: Array, first: int) -> Array:
+    """What the ``first`` of some columns cannot explain of the products of the others."""
+    if not first:
+        return G
+    across = G[:first, first:]
+    return np.asarray(G[first:, first:] - across.T @ inverse(G[:first, :first]) @ across)
 
 
 def inverse(A: Array, rank: float = _RANK) -> Array:

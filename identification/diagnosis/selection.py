@@ -12,16 +12,13 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import (
-    BALANCERS,
-    SPRINGS,
     Evidence,
     Key,
     Weighing,
     columns_of,
-    common,
     key_of,
-    likely,
 )
+from identification.diagnosis.likely import BALANCERS, SPRINGS, common, likely
 from identification.diagnosis.normal import bounded
 from identification.diagnosis.refinement import refined
 from identification.diagnosis.scaling import scales_all

@@ -12,8 +12,8 @@ from generator.effects.effect import Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
-from identification.diagnosis.evidence import BALANCERS
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.likely import BALANCERS
 from identification.diagnosis.link_side import link_side, rotor_inertia
 from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene

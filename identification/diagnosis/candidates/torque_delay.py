@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Joint
+from identification.corrections import earlier
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.lateness import LONGEST, Lateness, delay_of, latenesses, torques
 from identification.diagnosis.scene import Scene
@@ -24,16 +25,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Told:
-    """A delay ``beyond`` one of ``start`` [s] that ``late`` rows tell of the motors that have it."""
+    """A delay ``beyond`` one of ``start`` [s]; motors' ``late`` rows tell it, and of each what it is late by, ``whole``
+    [s] (n).
+    """
 
-    late: Sequence[Lateness | None]
     start: float
-    beyond: Value
-
-    @property
-    def delay(self) -> float:
-        """Its value [s]."""
-        return self.beyond.value or 0.0
+    beyond: float
+    late: Sequence[Lateness | None]
+    whole: Sequence[float]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -46,30 +45,37 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
     if stated and all(stated):
         return []
-    late, found = latenesses(scenes), scenes[0].found
-    own = [_hypothesis((one,), k, late, found) for k, one in enumerate(moving) if not (stated and stated[k])]
+    late = latenesses(scenes)
+    shared = None if any(stated) else delay_of(late)
+    start = scenes[0].found(_name(None)) if shared is None else _value(shared)
+    each = [delay_of([one], start) for one in late]
+    whole = [start + _value(beyond) for beyond in each]
+    own = [
+        _hypothesis((joint,), k, start, beyond, partial(_Told, late=late, whole=whole))
+        for k, (joint, beyond) in enumerate(zip(moving, each, strict=True))
+        if not (stated and stated[k])
+    ]
     if any(stated):
         return own
-    together = _hypothesis(moving, None, late, found)
+    together = _hypothesis(moving, None, 0.0, shared, partial(_Told, late=late, whole=whole))
     return [together, *own] if len(moving) > 1 else [together]
 
 
 def _hypothesis(
-    joints: Sequence[Joint], k: int | None, late: Sequence[Lateness | None], found: Callable[[str], float]
+    joints: Sequence[Joint], k: int | None, start: float, beyond: Value | None, of: Callable[[float, float], _Told]
 ) -> Hypothesis:
+    """Of a delay ``beyond`` one of all motors that is ``start`` [s]."""
     joint = None if k is None else joints[0]
-    acting = [one if k in (None, motor) else None for motor, one in enumerate(late)]
-    start = 0.0 if joint is None else found(_name(None))
-    beyond = delay_of(acting, start)
-    told = None if beyond is None else _Told(acting, start, beyond)
+    told = None if beyond is None else of(start, _value(beyond))
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
         0 if joint is None else joint.number,
-        (Coefficient(_name(joint), "s", -LONGEST, LONGEST),),
+        (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
         partial(_columns, k, joint, told),
         kind=SIGNAL,
-        held={} if told is None else {_name(joint): told.beyond},
+        held={} if beyond is None else {_name(joint): beyond},
+        presumed={} if beyond is None or joint is None else {_name(None): start},
         joints=tuple(one.number for one in joints),
         variable="frequency",
         would_show="quick changes of torque: higher frequencies, steps of the acceleration",
@@ -88,14 +94,19 @@ def _name(joint: Joint | None) -> str:
     return "torque_delay" if joint is None else f"torque_delay{joint.number}"
 
 
+def _value(told: Value | None) -> float:
+    """Of what is told, 0 of nothing."""
+    return (told.value if told else None) or 0.0
+
+
 def _columns(k: int | None, joint: Joint | None, told: _Told | None, scene: Scene, shape: Mapping[str, float]) -> Array:
     """What a delay changes per second of it: as long as was ``told``, else as was found, else as none."""
     found = scene.found(_name(joint))
-    start, delay = (told.start, told.delay) if told else (0.0, found)
-    tau = torques(scene, told.late, start + delay) if told and not found else scene.torque
+    start, more = (told.start, told.beyond) if told else (0.0, found)
+    tau = torques(scene, told.late, told.whole) if told and not found else scene.torque
     if k is not None:
         tau = supplied(scene.robot, k, tau)
-    if not delay:
+    if not more:
         return -scene.rate(tau)[None]
-    t = scene.t
-    return np.stack([np.interp(t - start - delay, t, row) - np.interp(t - start, t, row) for row in tau])[None] / delay
+    before, after = (earlier(tau, [-delay] * len(tau), scene.period) for delay in (start, start + more))
+    return (after - before)[None] / more
