@@ -27,9 +27,11 @@ Array = NDArray[np.float64]
 LONGEST, _OF_RUN = 0.1, 0.05
 #: Delays that are tried are so far apart [s], and one is told to such a part of that.
 _STEP, _TOLD = 1e-3, 0.1
-#: What a delay must leave of the sum of squares to be told by it; of several motors, how many must tell it by
-#: themselves, and its part of what delays of their own would explain.
-_LESS, _SEVERAL, _SHARED = 0.8, 2, 0.5
+#: What a delay must leave of the sum of squares to be told by it.
+_LESS = 0.8
+#: Of a delay of several motors: how many must tell it, what it leaves of the squares of each that does, and its least
+#: part of what delays of their own would explain.
+_SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
 #: Least rows for each base parameter, and least singular value of scaled columns.
 _ROWS, _RANK = 5, 1e-6
 #: Part of a torque's square that is rounding.
@@ -70,9 +72,9 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     least = int(np.argmin(cost))
     gains = [np.interp(start, delays, one.cost) - one.cost[least] for one in known]
     most = sum(np.interp(start, delays, one.cost) - one.cost.min() for one in known)
-    enough = [one.rows * -np.log(_LESS) for one in known]
-    shared = sum(gain > own for gain, own in zip(gains, enough, strict=True)) >= min(len(known), _SEVERAL)
-    if not 0 < least < len(delays) - 1 or not shared or sum(gains) < max(sum(enough), _SHARED * most):
+    telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
+    enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most)
+    if not 0 < least < len(delays) - 1 or telling < min(len(known), _SEVERAL) or sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
     squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
