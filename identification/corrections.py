@@ -8,6 +8,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
+from scipy.signal import lfilter
 
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
@@ -15,7 +16,7 @@ from generator.robot.description import Robot
 from identification.drive_train import constants, coupling, driven
 from identification.recording import Array
 
-#: What a file states for joints that no motion limits or warms [A, K].
+#: What a file states for joints that no motion limits or warms [A, K, N m].
 NEVER = 1e6
 #: Part of a limit by which rounding, to torques and back, may take a current that is at it below.
 _REACHED = 1e-9
@@ -33,21 +34,25 @@ def recorded_positions(q: Array, robot: Robot) -> Array:
     return q - _column(offset) if offset else q
 
 
-def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> Array | None:
+def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place: Place) -> Array | None:
     """How warm each joint's drive is (n x N), ``t`` (N) [s] after the recording began; None if nothing says it.
 
     By the rise [K] of its temperature ``temp1`` ... (N) since then, one of ``rises``, over its ``warm_rise``; without
-    the one or the other 1 - exp(-t/warm_up_time). A drive of which neither tells, and on whose warmth nothing depends,
+    the one or the other ``heated`` by the recorded torques ``tau`` (n x N) [N m, N] of its motor beside its
+    ``warm_torque``, or 1 - exp(-t/warm_up_time). A drive of which nothing tells, and on whose warmth nothing depends,
     has rows that are no numbers.
 
     Raises InputError where an effect or a torque constant depends on it and nothing says it.
     """
     signals, needed = robot.signals, _warm_joints(robot)
-    found = []
+    motor, found = np.linalg.solve(coupling(robot).T, tau), []
     for k, joint in enumerate(robot.moving):
         rise, whole = rises.get(f"temp{joint.number}"), float(signals.warm_rise[k]) if signals.warm_rise else NEVER
+        usual = float(signals.warm_torque[k]) if signals.warm_torque else NEVER
         if rise is not None and whole < NEVER:
             found.append(rise / whole)
+        elif signals.warm_up_time and usual < NEVER:
+            found.append(heated(motor[k] / usual, t, float(signals.warm_up_time[k])))
         elif signals.warm_up_time:
             found.append(warming_up(t, float(signals.warm_up_time[k])))
         elif joint.number in needed:
@@ -63,6 +68,17 @@ def warmth(rises: Mapping[str, Array], t: Array, robot: Robot, place: Place) -> 
 def warming_up(t: Array, warm_up_time: Array | float) -> Array:
     """The warmth of a drive ``t`` [s] after a cold start, by its time constant [s]."""
     return np.asarray(1 - np.exp(-t / warm_up_time))
+
+
+def heated(load: Array, t: Array, warm_up_time: float) -> Array:
+    """The warmth of a drive (N) that the square of its ``load`` (N) heats, ``t`` (N) [s] after a cold start, with its
+    time constant [s]: dw/dt = (load^2 - w)/T. Before the first sample it was loaded as it is in the mean.
+    """
+    heat = load**2
+    start = float(heat.mean() * warming_up(t[0], warm_up_time))
+    kept = float(np.exp(-(t[-1] - t[0]) / max(len(t) - 1, 1) / warm_up_time))
+    following, _ = lfilter([1 - kept], [1, -kept], heat[:-1], zi=[kept * start])
+    return np.concatenate([[start], following])
 
 
 def _warm_joints(robot: Robot) -> set[int]:

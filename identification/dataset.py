@@ -248,7 +248,7 @@ def _run(
 
 def _corrected(run: Run, robot: Robot) -> Run:
     """The run with its torques and further columns as they truly were, and with the warmth of the drives."""
-    warmth = corrections.warmth(run.rises, run.elapsed, robot, run.place)
+    warmth = corrections.warmth(run.rises, run.elapsed, run.tau, robot, run.place)
     marks = [one for one in (run.unusable, corrections.saturated(run.tau, robot)) if one is not None]
     unusable = None
     if marks:

@@ -168,13 +168,45 @@ def test_each_drive_goes_by_its_temperature_or_by_time(tmp_path: Path) -> None:
     of = robot(tmp_path, "warm_up_time: [1 s, 2 s, 4 s], warm_rise: [1000000 K, 20 K, 1000000 K]")
     rise = 3 * T
     for rises, second in (({"temp1": rise, "temp2": rise}, rise / 20), ({"temp1": rise}, 1 - np.exp(-T / 2))):
-        found = corrections.warmth(rises, T, of, Place("run"))
+        found = corrections.warmth(rises, T, N.T @ currents(T), of, Place("run"))
         np.testing.assert_allclose(found, [1 - np.exp(-T), second, 1 - np.exp(-T / 4)], atol=1e-12)
+
+
+def heat(motor: Array, period: float, time: float, before: float = 0.0) -> Array:
+    """Of a motor's torque in parts of the usual one, by many small steps."""
+    w, found = before, []
+    for part in motor:
+        found.append(w)
+        for _ in range(20):
+            w += period / 20 / time * (part**2 - w)
+    return np.array(found)
+
+
+def test_a_drive_is_heated_by_what_its_motor_is_recorded_to_do(tmp_path: Path) -> None:
+    of = robot(tmp_path, "warm_up_time: 2 s, warm_torque: [2 N m, 1000000 N m, 3 N m]")
+    found = Recorded(tmp_path).run(of, positions(T), currents(T)).warmth
+    motor = KT * currents(T)
+    assert found is not None
+    assert found[0] == pytest.approx(heat(motor[0] / 2, 2e-3, 2.0), abs=2e-4)
+    assert found[1] == pytest.approx(1 - np.exp(-T / 2), abs=1e-12)
+    assert found[2] == pytest.approx(heat(motor[2] / 3, 2e-3, 2.0), abs=2e-3)
+    part = Recorded(tmp_path).run(of, positions(T), currents(T), "@2:").warmth
+    assert part is not None
+    before = (1 - np.exp(-1)) * np.mean((motor[0, 1000:] / 2) ** 2)
+    assert part[0] == pytest.approx(heat(motor[0, 1000:] / 2, 2e-3, 2.0, before), abs=2e-3)
+
+
+def test_a_temperature_tells_more_than_the_heat(tmp_path: Path) -> None:
+    of = robot(tmp_path, "warm_up_time: 2 s, warm_torque: 2 N m, warm_rise: 20 K")
+    found = corrections.warmth({"temp1": 5 * T}, T, N.T @ (KT * currents(T)), of, Place("run"))
+    assert found is not None
+    np.testing.assert_allclose(found[0], T / 4, atol=1e-12)
+    assert found[1] == pytest.approx(heat(currents(T)[1] / 2, 2e-3, 2.0), abs=2e-3)
 
 
 def test_only_drives_that_drift_need_a_temperature(tmp_path: Path) -> None:
     of = robot(tmp_path, "warm_rise: [20 K, 20 K, 1000000 K]", "  torque_drift: [0, -1/10, 0]\n")
-    found = corrections.warmth({"temp2": 5 * T}, T, of, Place("run"))
+    found = corrections.warmth({"temp2": 5 * T}, T, N.T @ currents(T), of, Place("run"))
     assert found is not None
     np.testing.assert_allclose(found[1], T / 4, atol=1e-12)
     assert np.isnan(found[[0, 2]]).all()
@@ -192,7 +224,10 @@ def test_a_limit_of_currents_needs_torque_constants(tmp_path: Path) -> None:
         Recorded(tmp_path, "taum").run(read(path), positions(T), currents(T))
 
 
-@pytest.mark.parametrize("entry", ["warm_up_time: 0 s", "warm_rise: -1 K", "warm_up_time: [1 s, 2 s]"])
+@pytest.mark.parametrize(
+    "entry",
+    ["warm_up_time: 0 s", "warm_rise: -1 K", "warm_torque: 0 N m", "warm_up_time: [1 s, 2 s]"],
+)
 def test_bad_warmth_is_refused(entry: str, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="warm_"):
         robot(tmp_path, entry)

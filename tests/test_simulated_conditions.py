@@ -14,7 +14,7 @@ from identification.inverse_model import Options, identify
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sidecar import Payload
-from identification.simulation.machine import Machine
+from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
@@ -78,6 +78,25 @@ def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine
         made = simulate(machine, replace(settings, constant_drift=drift))
         runs.append(save(made, "two_links", machine.robot.digest, tmp_path / f"{name}.csv")[0])
     assert load(str(runs[1]), read(drifting)).tau == pytest.approx(load(str(runs[0]), machine.robot).tau, abs=1e-7)
+
+
+def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(
+    file: Path, machine: Machine, tmp_path: Path
+) -> None:
+    text = file.read_text().replace(
+        "use: warm, warm: [0.5, 0.4]}", "use: warm, warm: [0.5, 0.4]}\n  torque_drift: [-1/5, -1/5]"
+    )
+    drifting = tmp_path / "drifting.yaml"
+    drifting.write_text(text + "signals: {warm_up_time: 1.5 s, warm_torque: [1.5 N m, 0.4 N m]}\n")
+    taus = []
+    for name, source in (("cold", file), ("warm", drifting)):
+        with compiled(read(source)) as of:
+            path, _ = save(simulate(of, SHORT), "two_links", of.robot.digest, tmp_path / f"{name}.csv")
+            run = load(str(path), of.robot)
+        taus.append(run.tau)
+    assert run.warmth is not None
+    assert run.warmth.max() > 0.1
+    assert taus[1] == pytest.approx(taus[0], abs=1e-7)
 
 
 REFUSED = {

@@ -126,8 +126,9 @@ class Signals:
     True position = recorded + ``position_offset`` [rad, m]; true motor torque = recorded times ``torque_gain``. What is
     recorded as motor torque or current was true ``torque_delay`` [s] before (it will be, where that is negative), as
     link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. The warmth of a
-    drive is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K]. Nothing of it is in the
-    generated functions.
+    drive is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K], or follows the square
+    of the recorded motor torque over ``warm_torque`` [N m] with that time constant. Nothing of it is in the generated
+    functions.
     """
 
     position_offset: tuple[sympy.Expr, ...] = ()
@@ -137,6 +138,7 @@ class Signals:
     current_limit: tuple[sympy.Expr, ...] = ()
     warm_up_time: tuple[sympy.Expr, ...] = ()
     warm_rise: tuple[sympy.Expr, ...] = ()
+    warm_torque: tuple[sympy.Expr, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -152,7 +152,8 @@ def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant |
         if same and dict(variant.shape) == dict(old.shape):
             return variant
     for one in offered:
-        if (one.effect, one.joint) == (old.hypothesis.effect, old.hypothesis.joint):
+        same = (one.effect, one.joint) == (old.hypothesis.effect, old.hypothesis.joint)
+        if same and one.variants[0].keys() == old.shape.keys():
             return bank.add(one, {**old.shape, **one.given})
     return None
 

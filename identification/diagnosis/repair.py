@@ -30,10 +30,18 @@ _NEUTRAL = {
     "current_limit": NEVER,
     "warm_up_time": _WARM_UP,
     "warm_rise": NEVER,
+    "warm_torque": NEVER,
 }
-_UNITS = {"torque_delay": "s", "link_delay": "s", "current_limit": "A", "warm_up_time": "s", "warm_rise": "K"}
+_UNITS = {
+    "torque_delay": "s",
+    "link_delay": "s",
+    "current_limit": "A",
+    "warm_up_time": "s",
+    "warm_rise": "K",
+    "warm_torque": "N m",
+}
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
-_REPLACING = ("current_limit", "warm_up_time", "warm_rise")
+_REPLACING = ("current_limit", "warm_up_time", "warm_rise", "warm_torque")
 
 _ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
 _PRODUCT = re.compile(r"-?[\w./*]+\Z", re.ASCII)

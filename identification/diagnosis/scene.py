@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from generator.effects.effect import Column
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
-from identification.corrections import warming_up
+from identification.corrections import heated, warming_up
+from identification.drive_train import coupling
 from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
@@ -77,6 +78,16 @@ class Scene:
             return np.full(self.motion.samples, np.nan)
         told: Array = self.motion.warmth[k]
         return told
+
+    def motor_torque(self, k: int) -> Array:
+        """Torque that was recorded of the motor of coordinate ``k`` since the run's start [N m] (M)."""
+        run, gain = self.sampled.run, self.robot.signals.torque_gain
+        motor: Array = np.linalg.solve(coupling(self.robot).T, run.tau)[k]
+        return motor / float(gain[k]) if gain else motor
+
+    def heat(self, k: int, warm_torque: float, warm_up_time: float) -> Array:
+        """How warm the drive of coordinate ``k`` is (N) by its motor's torque, as ``corrections.heated``."""
+        return self._inside(heated(self.motor_torque(k) / warm_torque, self.sampled.run.elapsed, warm_up_time))
 
     def told(self, k: int) -> bool:
         """Whether the robot's file says how warm the drive of coordinate ``k`` is."""

@@ -188,17 +188,14 @@ class Selection:
         return nearest(self.weighing, each[0], others)
 
     def _of_other_forms(self, one: Variant, others: Sequence[Variant]) -> list[Variant]:
-        """The best variant of each other form: with other values of the shapes that are tried alone, where others are
-        searched. Before those are, another form may seem the better one.
+        """The best variant of each other form: with other shapes, or other values of those that are tried alone, where
+        others are searched. Before those are, another form may seem the better one.
         """
-        alone = [shape.name for shape in one.hypothesis.shapes if not shape.free]
-        if not alone or len(alone) == len(one.hypothesis.shapes):
-            return []
-        forms: dict[tuple[float, ...], list[Variant]] = {}
+        forms: dict[tuple[tuple[str, float | None], ...], list[Variant]] = {}
         for other in self.weighing.bank.variants:
-            if key_of(other) == key_of(one):
-                forms.setdefault(tuple(other.shape[name] for name in alone), []).append(other)
-        forms.pop(tuple(one.shape[name] for name in alone), None)
+            if key_of(other) == key_of(one) and other.hypothesis.free:
+                forms.setdefault(_form(other), []).append(other)
+        forms.pop(_form(one), None)
         return [self.weighing.best_shape(same, others).variant for same in forms.values()]
 
     def _rivals(self, mine: Evidence, others: Sequence[Variant]) -> list[Evidence]:
@@ -281,6 +278,11 @@ class Selection:
         unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
         drops = [self.weighing.beside(each.only(one.used), others)[1] for each in unlike]
         return all(drop < mine.drop - _BETTER for drop in drops)
+
+
+def _form(one: Variant) -> tuple[tuple[str, float | None], ...]:
+    """Names of its shapes, and the values of those that are tried alone."""
+    return tuple((shape.name, None if shape.free else one.shape[shape.name]) for shape in one.hypothesis.shapes)
 
 
 def _agrees(one: Evidence) -> bool:

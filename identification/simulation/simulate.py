@@ -22,6 +22,8 @@ from identification.trajectory import Array, Reference, Task, Value
 
 #: Stems of the columns of efforts.
 _EFFORTS = ("tau", "taum", "i")
+#: Times that recorded torques are made from the warmth that they tell.
+_ROUNDS = 30
 
 
 @dataclass(frozen=True)
@@ -97,8 +99,11 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     warmth = settings.warmth(t)
     drift = 1 + settings.constant_drift * warmth
     rises = {f"temp{number}": settings.rise * warmth for number in numbers} if "temp" in settings.further else {}
-    own = corrections.warmth(rises, t, robot, robot.place)
-    motor = corrections.recorded_motor_torques(np.linalg.inv(N).T @ log.tau.T, robot, settings.period, own)
+    true = motor = np.linalg.inv(N).T @ log.tau.T
+    # What is recorded may tell the warmth by which it is recorded; the one follows the other slowly.
+    for _ in range(_ROUNDS if robot.signals.warm_torque else 1):
+        own = corrections.warmth(rises, t, N.T @ motor, robot, robot.place)
+        motor = corrections.recorded_motor_torques(true, robot, settings.period, own)
     effort = motor.T / constants / drift[:, None]
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
     parts = {

@@ -22,6 +22,7 @@ _COLUMNS = {
     "current_limit": ("current saturates at", "A"),
     "warm_up_time": ("drive warms up with time constant", "s"),
     "warm_rise": ("drive is warm after a rise of", "K"),
+    "warm_torque": ("drive is warm under an rms motor torque of", "N m"),
 }
 
 

@@ -23,7 +23,7 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
     """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
 
     Raises InputError for another number of values, another unit, a delay over 0.1 s, one of link-side positions that is
-    negative, a gain that is not between 0.3 and 3, a limit, time or rise that is not positive.
+    negative, a gain that is not between 0.3 and 3, a limit, time, rise or torque that is not positive.
     """
     if entry is None:
         return Signals()
@@ -37,6 +37,7 @@ def signals(entry: Entry | None, joints: Sequence[Joint]) -> Signals:
         "current_limit": (["A"] * len(moving), _positive("A", "current")),
         "warm_up_time": (["s"] * len(moving), _positive("s", "time")),
         "warm_rise": (["K"] * len(moving), _positive("K", "rise of temperature")),
+        "warm_torque": (["N m"] * len(moving), _positive("N m", "torque")),
     }
     keys = fields.table(entry.value, "signals", (), tuple(kinds))
     found = {key: _values(one.value, key, moving, *kinds[key]) for key, one in keys.items()}

@@ -1,8 +1,8 @@
 """Torque constants that change while a motor gets warm: true torque = (1 + start)(1 + drift w) recorded.
 
 The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from the recording's beginning,
-or a temperature's rise since then where the runs have one. ``drift`` is ``torque_drift`` of the robot's drives; with
-``start`` the constant differs already where w is 0.
+or what the square of the motor's torque has heated since then, or a temperature's rise where the runs have one.
+``drift`` is ``torque_drift`` of the robot's drives; with ``start`` the constant differs already where w is 0.
 
 The true torque is linear in both, what is recorded is not: columns are of the torque that is recorded, not of the true
 one, as soon as an earlier search has found a drift, and a large one is exact.
@@ -34,8 +34,8 @@ _TIMES = 60
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """By the warmth of the file, else by time and, where every run has the joint's temperature, by that too; none for a
-    drift that the file states.
+    """By the warmth of the file, else by time, by the heat of the motor and, where every run has the joint's
+    temperature, by that too; none for a drift that the file states.
     """
     if not scenes or scenes[0].robot.drives is None:
         return []
@@ -50,6 +50,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             found.append(_hypothesis(k, joint, "drive's warmth"))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
+        usual = max(float(np.sqrt(np.mean(scene.motor_torque(k) ** 2))) for scene in scenes)
+        if usual > 0:
+            found.append(_hypothesis(k, joint, "motor's heat", (_exactly("warm_torque", "N m", usual), time)))
         if temperature := _temperature(k, scenes, time):
             found.append(_hypothesis(k, joint, "drive's temperature", temperature))
     return found
@@ -69,8 +72,12 @@ def _temperature(k: int, scenes: Sequence[Scene], time: ShapeRange) -> tuple[Sha
         return float(sum(np.sum((scene.warmth(k, T) - rise / whole) ** 2) for scene, rise in pairs))
 
     nearest = min(np.geomspace(time.low, time.high, _TIMES).tolist(), key=off)
-    values = (("warm_rise", "K", whole), ("warm_up_time", "s", nearest))
-    return tuple(ShapeRange(name, unit, value, value, points=(value,)) for name, unit, value in values)
+    return _exactly("warm_rise", "K", whole), _exactly("warm_up_time", "s", nearest)
+
+
+def _exactly(name: str, unit: str, value: float) -> ShapeRange:
+    """A shape of which nothing else is tried."""
+    return ShapeRange(name, unit, value, value, points=(value,))
 
 
 def _hypothesis(k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
@@ -123,6 +130,8 @@ def _part(k: int, scene: Scene, w: Array) -> Array:
 
 
 def _warmth(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    if "warm_torque" in shape:
+        return scene.heat(k, shape["warm_torque"], shape["warm_up_time"])
     if "warm_rise" not in shape:
         return scene.warmth(k, shape.get("warm_up_time"))
     rise = scene.rise(k)
