@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis import stated_elasticity, stated_load
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.normal import bounded, lowered
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
@@ -53,6 +54,20 @@ class Variant:
         lower = np.array([-np.inf if c.lower is None else c.lower for c in self.coefficients])
         upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
         return lower, upper
+
+    @property
+    def held(self) -> Array | None:
+        """Its coefficients (k) where another fit than that of the columns tells them all; None where not."""
+        known = [value for one in self.coefficients if (value := self.hypothesis.known(one.name)) is not None]
+        return np.array(known) if known and len(known) == len(self.columns) else None
+
+    def best(self, A: Array, b: Array, size: Array) -> tuple[Array, float]:
+        """Its coefficients by products A of its columns and b with the torque, ``bounded`` or held, and by how much
+        they lower the sum of squares; ``size`` are the squares of the whole columns.
+        """
+        if self.held is None:
+            return bounded(A, b, *self.bounds, size)
+        return self.held, max(lowered(A, b, self.held), 0.0)
 
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""

@@ -44,8 +44,12 @@ class Redrawn:
                 self.torque[k] += weights[by] * (new - was)
 
     def base(self, bank: Bank, r: int, k: int) -> tuple[list[int], Array]:
-        """Numbers of the base columns that act on joint k in the bank's run r, and what their rows change by."""
-        numbers = [number for number in bank.raw(r, k)[0] if number < len(bank.base)]
+        """Numbers of the base columns that act on joint k in the bank's run r, and what their rows change by, without
+        those of which a small error makes no small change.
+        """
+        out = stated_elasticity.bouncing(self._scene.robot)
+        every = [number for number in bank.raw(r, k)[0] if number < len(bank.base)]
+        numbers = [number for number in every if bank.base[number] not in out]
         old = bank.columns(r, k, numbers)
         new = [self._base[k].get(number, row) for number, row in zip(numbers, old, strict=True)]
         return numbers, np.reshape(new, old.shape) - old

@@ -21,7 +21,7 @@ from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.lacking import lacking
 from identification.diagnosis.likely import common, likely
-from identification.diagnosis.normal import Normal, Prior, bounded, inverse
+from identification.diagnosis.normal import Normal, Prior, inverse, told_apart
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -184,7 +184,7 @@ class Weighing:
         """Coefficients of a variant beside others, within their bounds, and the drop of the sum of squares."""
         part = self.normal.part(variant.columns, columns_of(others))
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        return bounded(part[:-1, :-1], part[:-1, -1], *variant.bounds, size)
+        return variant.best(part[:-1, :-1], part[:-1, -1], size)
 
     def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
         """Drop of the sum of squares of what was not fitted."""
@@ -202,7 +202,7 @@ class Weighing:
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        return bounded(S[np.ix_(at, at)], S[at, -1], *variant.bounds, size)
+        return variant.best(S[np.ix_(at, at)], S[at, -1], size)
 
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = self._asked_for(found, others)
@@ -265,7 +265,7 @@ class Weighing:
         part = self.normal.part(variant.columns, columns_of(others))
         products = part[:-1, -1] - self.pretended(variant, others)
         size = np.diag(self.normal.gram)[list(variant.columns)]
-        return bounded(part[:-1, :-1], products, *variant.bounds, size)[1]
+        return variant.best(part[:-1, :-1], products, size)[1]
 
     def pretended(self, variant: Variant, others: Sequence[Variant]) -> Array:
         """Of the products of a variant's columns beside others with the torque, what noise of the positions makes
@@ -273,9 +273,10 @@ class Weighing:
         """
         if self._pretence.nothing:
             return np.zeros(len(variant.columns))
-        beside, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
-        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)
-        return np.asarray(self._pretence.of(variant) - G[np.ix_(variant.columns, beside)] @ explained)
+        every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
+        beside, _, _ = told_apart(every, self.normal.held)
+        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)[np.isin(every, beside)]
+        return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
         """What each of the chosen explains beside the rest of them."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.normal import Prior, bounded, inverse, told_apart, without
+from identification.diagnosis.normal import Prior, inverse, lowered, told_apart, without
 
 Array = NDArray[np.float64]
 
@@ -37,8 +37,8 @@ class HeldOut:
         for fewer, more in self._turns:
             whole, size = self._part(more, variant, chosen)
             part, _ = self._part(fewer, variant, chosen)
-            x, drop = bounded(whole[:-1, :-1], whole[:-1, -1], *variant.bounds, size)
-            gained += drop - _drop(part, np.flatnonzero(x))
+            x, drop = variant.best(whole[:-1, :-1], whole[:-1, -1], size)
+            gained += drop - _drop(part, x, variant.held is not None)
             promised += float(coefficients @ (whole - part)[:-1, :-1] @ coefficients)
         return gained, promised
 
@@ -68,7 +68,12 @@ class HeldOut:
         return np.asarray(result)
 
 
-def _drop(part: Array, used: NDArray[np.intp]) -> float:
-    """What the columns ``used`` in all runs together lower the sum of squares by: others would be another model."""
+def _drop(part: Array, x: Array, held: bool) -> float:
+    """What the columns lower the sum of squares by that coefficients x of all runs together use: others would be
+    another model. Those that are ``held`` are x here too.
+    """
+    if held:
+        return lowered(part[:-1, :-1], part[:-1, -1], x)
+    used = np.flatnonzero(x)
     b = part[used, -1]
     return float(b @ inverse(part[np.ix_(used, used)]) @ b)

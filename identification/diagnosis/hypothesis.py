@@ -15,8 +15,6 @@ from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
-#: Part of a value by which it may differ from what another hypothesis takes it for.
-_NEAR = 0.1
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
 
@@ -110,8 +108,8 @@ class Hypothesis:
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
     there is nothing to search, and the columns are zero. ``held`` are those that the runs tell by another fit than that
-    of the columns, which are right for that value alone, and where other hypotheses' coefficients are as ``presumed``
-    by name. ``of_model`` are the columns, of an effect that scales all of
+    of the columns, which are right for that value alone, and ``beyond`` the names of other hypotheses' coefficients
+    without which it is nothing. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
     coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
@@ -136,7 +134,7 @@ class Hypothesis:
     starts: tuple[Mapping[str, float], ...] = ()
     measured: Mapping[str, Value] = field(default_factory=dict)
     held: Mapping[str, Value] = field(default_factory=dict)
-    presumed: Mapping[str, float] = field(default_factory=dict)
+    beyond: tuple[str, ...] = ()
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
@@ -157,14 +155,6 @@ class Hypothesis:
     def known(self, name: str) -> float | None:
         """The value of a coefficient that is held; None of another."""
         return self.held[name].value if name in self.held else None
-
-    def denies(self, others: Iterable[Hypothesis]) -> bool:
-        """Whether what it holds is wrong beside what others hold; what none of them has is zero."""
-        found = {one.name: hypothesis.known(one.name) for hypothesis in others for one in hypothesis.coefficients}
-        pairs = [(mine, found.get(name, 0.0)) for name, mine in self.presumed.items()]
-        return any(
-            theirs is not None and abs(theirs - mine) > _NEAR * max(abs(theirs), abs(mine)) for mine, theirs in pairs
-        )
 
     @property
     def variants(self) -> list[dict[str, float]]:

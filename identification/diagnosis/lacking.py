@@ -30,7 +30,8 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
     least, mine = 0.0, variant.hypothesis
     if common(variant):
         return least
-    if mine.denies(one.hypothesis for one in others):
+    there = {each.name for one in others for each in one.coefficients}
+    if not there.issuperset(mine.beyond):
         return inf
     for one, drop in zip(others, drops, strict=True):
         theirs = one.hypothesis
@@ -44,10 +45,8 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
 
 
 def _exclude(one: Hypothesis, other: Hypothesis) -> bool:
-    """Whether a joint has one of them alone, or what the other one holds takes the first for something else."""
-    effects = {one.effect, other.effect}
-    here = one.joint == other.joint and any(effects <= set(group) for group in _ONE_OF)
-    return here or (not one.held.keys().isdisjoint(other.presumed) and other.denies([one]))
+    """Whether a joint has one of them alone."""
+    return one.joint == other.joint and any({one.effect, other.effect} <= set(group) for group in _ONE_OF)
 
 
 def _part(one: Hypothesis, other: Hypothesis) -> float:

@@ -32,6 +32,8 @@ _LESS = 0.8
 #: Of a delay of several motors: how many must tell it, what it leaves of the squares of each that does, and its least
 #: part of what delays of their own would explain.
 _SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
+#: Difference of cost that is chance, in parts of the square root of the rows.
+_CHANCE = 4.0
 #: Least rows for each base parameter, and least singular value of scaled columns.
 _ROWS, _RANK = 5, 1e-6
 #: Part of a torque's square that is rounding.
@@ -69,12 +71,12 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     if not known:
         return None
     delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
-    least = int(np.argmin(cost))
+    least = _nearest(delays - start, cost, sum(one.rows for one in known))
     gains = [np.interp(start, delays, one.cost) - one.cost[least] for one in known]
     most = sum(np.interp(start, delays, one.cost) - one.cost.min() for one in known)
     telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
     enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most)
-    if not 0 < least < len(delays) - 1 or telling < min(len(known), _SEVERAL) or sum(gains) < enough:
+    if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
     squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
@@ -84,6 +86,16 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
         return None
     delay = delays[least] + step * (before - after) / (2 * bend)
     return Value(float(delay - start), float(step * np.hypot(np.sqrt(2 / bend), _TOLD)), "s")
+
+
+def _nearest(beyond: Array, cost: Array, rows: int) -> int:
+    """Of the delays that leave least nearby, and whose ``cost`` is the least but for chance, the place of the shortest.
+
+    Those that are a period of a swing apart see other noise: what they cost differs by it.
+    """
+    inner = np.flatnonzero((cost[1:-1] <= cost[:-2]) & (cost[1:-1] <= cost[2:])) + 1
+    among = [k for k in inner.tolist() if cost[k] - cost.min() < _CHANCE * np.sqrt(rows)]
+    return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
 
 
 def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:

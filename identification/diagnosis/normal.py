@@ -197,6 +197,11 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
     return np.asarray((V / values[seen]) @ V.T / np.outer(scale, scale))
 
 
+def lowered(A: Array, b: Array, x: Array) -> float:
+    """By how much coefficients x lower the sum of squares, 2 b x - x A x: less than nothing where they raise it."""
+    return float(2 * b @ x - x @ A @ x)
+
+
 def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tuple[Array, float]:
     """Coefficients that lower the sum of squares most, and by how much: max 2 b x - x A x.
 
@@ -215,4 +220,4 @@ def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tupl
         if not out.size:
             break
         free[out] = False
-    return x, max(float(2 * b @ x - x @ A @ x), 0.0)
+    return x, max(lowered(A, b, x), 0.0)

@@ -74,6 +74,11 @@ def names(robot: Robot) -> tuple[str, ...]:
     )
 
 
+def bouncing(robot: Robot) -> tuple[str, ...]:
+    """Those of ``names`` whose torque the smallest error of the motion changes: how a link bounces in its gap."""
+    return tuple(name for one in _plain_and_loose(robot)[1] for name in names_of_backlash(one.number))
+
+
 def names_of_backlash(number: int) -> tuple[str, ...]:
     """Those of ``names`` that are of a drive train with a gap."""
     return tuple(f"{what}{number}" for what in ("backlash", "stiffness", "damping", "gap"))
@@ -96,8 +101,11 @@ def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float
 
 
 def weights(scene: Scene) -> dict[str, float]:
-    """Of the torques of the drive trains by the scene's values, those of ``names`` that are such torques."""
-    whole = [name for name in names(scene.robot) if name.rstrip("0123456789") not in _ABOUT]
+    """Of the torques of the drive trains by the scene's values, those of ``names`` that are such torques, but for those
+    that are ``bouncing``.
+    """
+    every = (name for name in names(scene.robot) if name.rstrip("0123456789") not in _ABOUT)
+    whole = [name for name in every if name not in bouncing(scene.robot)]
     return {name: scene.values.get(name, 0.0) for name in whole}
 
 

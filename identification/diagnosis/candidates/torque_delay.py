@@ -25,11 +25,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Told:
-    """A delay ``beyond`` one of ``start`` [s]; motors' ``late`` rows tell it, and of each what it is late by, ``whole``
-    [s] (n).
+    """A delay ``beyond`` another [s]; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s]
+    (n).
     """
 
-    start: float
     beyond: float
     late: Sequence[Lateness | None]
     whole: Sequence[float]
@@ -51,7 +50,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     each = [delay_of([one], start) for one in late]
     whole = [start + _value(beyond) for beyond in each]
     own = [
-        _hypothesis((joint,), k, start, beyond, partial(_Told, late=late, whole=whole))
+        _hypothesis((joint,), k, start, beyond, partial(_Told, late=_of_motor(late, k), whole=whole))
         for k, (joint, beyond) in enumerate(zip(moving, each, strict=True))
         if not (stated and stated[k])
     ]
@@ -62,20 +61,20 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _hypothesis(
-    joints: Sequence[Joint], k: int | None, start: float, beyond: Value | None, of: Callable[[float, float], _Told]
+    joints: Sequence[Joint], k: int | None, start: float, beyond: Value | None, of: Callable[[float], _Told]
 ) -> Hypothesis:
     """Of a delay ``beyond`` one of all motors that is ``start`` [s]."""
     joint = None if k is None else joints[0]
-    told = None if beyond is None else of(start, _value(beyond))
+    told = None if beyond is None else of(_value(beyond))
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
         0 if joint is None else joint.number,
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
-        partial(_columns, k, joint, told),
+        partial(_columns, k, joint, start, told),
         kind=SIGNAL,
         held={} if beyond is None else {_name(joint): beyond},
-        presumed={} if beyond is None or joint is None else {_name(None): start},
+        beyond=(_name(None),) if start else (),
         joints=tuple(one.number for one in joints),
         variable="frequency",
         would_show="quick changes of torque: higher frequencies, steps of the acceleration",
@@ -99,14 +98,23 @@ def _value(told: Value | None) -> float:
     return (told.value if told else None) or 0.0
 
 
-def _columns(k: int | None, joint: Joint | None, told: _Told | None, scene: Scene, shape: Mapping[str, float]) -> Array:
-    """What a delay changes per second of it: as long as was ``told``, else as was found, else as none."""
+def _of_motor(late: Sequence[Lateness | None], k: int) -> list[Lateness | None]:
+    """Of motor k alone."""
+    return [one if motor == k else None for motor, one in enumerate(late)]
+
+
+def _columns(
+    k: int | None, joint: Joint | None, start: float, told: _Told | None, scene: Scene, shape: Mapping[str, float]
+) -> Array:
+    """What a delay beyond one of ``start`` [s] changes per second of it: as long as was ``told``, else as was found,
+    else as none.
+    """
     found = scene.found(_name(joint))
-    start, more = (told.start, told.beyond) if told else (0.0, found)
+    more = told.beyond if told else found
     tau = torques(scene, told.late, told.whole) if told and not found else scene.torque
     if k is not None:
         tau = supplied(scene.robot, k, tau)
     if not more:
-        return -scene.rate(tau)[None]
+        return earlier(-scene.rate(tau), [-start] * len(tau), scene.period)[None]
     before, after = (earlier(tau, [-delay] * len(tau), scene.period) for delay in (start, start + more))
     return (after - before)[None] / more
