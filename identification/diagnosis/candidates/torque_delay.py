@@ -50,7 +50,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     each = [delay_of([one], start) for one in late]
     whole = [start + _value(beyond) for beyond in each]
     own = [
-        _hypothesis((joint,), k, start, beyond, partial(_Told, late=_of_motor(late, k), whole=whole))
+        _hypothesis((joint,), k, start if beyond else 0.0, beyond, partial(_Told, late=_of_motor(late, k), whole=whole))
         for k, (joint, beyond) in enumerate(zip(moving, each, strict=True))
         if not (stated and stated[k])
     ]
@@ -115,6 +115,6 @@ def _columns(
     if k is not None:
         tau = supplied(scene.robot, k, tau)
     if not more:
-        return earlier(-scene.rate(tau), [-start] * len(tau), scene.period)[None]
+        return -scene.rate(tau)[None]
     before, after = (earlier(tau, [-delay] * len(tau), scene.period) for delay in (start, start + more))
     return (after - before)[None] / more

@@ -52,7 +52,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
         usual = max(float(np.sqrt(np.mean(scene.motor_torque(k) ** 2))) for scene in scenes)
         if usual > 0:
-            found.append(_hypothesis(k, joint, "motor's heat", (_exactly("warm_torque", "N m", usual), time)))
+            found.append(_hypothesis(k, joint, "motor's heat", (_exactly("warm_torque", "N m", usual), time), True))
         if temperature := _temperature(k, scenes, time):
             found.append(_hypothesis(k, joint, "drive's temperature", temperature))
     return found
@@ -80,7 +80,9 @@ def _exactly(name: str, unit: str, value: float) -> ShapeRange:
     return ShapeRange(name, unit, value, value, points=(value,))
 
 
-def _hypothesis(k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = ()) -> Hypothesis:
+def _hypothesis(
+    k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = (), recorded: bool = False
+) -> Hypothesis:
     return Hypothesis(
         "torque_drift",
         f"drift of the torque constant with the {along}",
@@ -101,6 +103,7 @@ def _hypothesis(k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...]
             "torque_gain": "one long run: a gain does not change with time",
         },
         of_model=partial(_of_model, k),
+        recorded=recorded,
     )
 
 
