@@ -10,10 +10,13 @@ import pytest
 
 from generator.robot.readers import read
 from identification.corrections import recorded_motor_torques
+from identification.diagnosis.bank import Variant
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.lateness import Lateness, delay_of
 from identification.drive_train import coupling
 from identification.observation import Motion, Regressors
+from identification.outcome import Value
 from tests.diagnosed_arm import diagnosis_of
 from tests.recorded import TRUTH, TWO_LINKS, Array, Recorded, fourier
 
@@ -115,3 +118,31 @@ def test_a_delay_of_several_motors_is_told_by_more_than_one() -> None:
     assert found.value == pytest.approx(0.0062, abs=4e-3)
     assert delay_of([alike, none]) is None
     assert delay_of([alike, other]) is None
+
+
+def test_of_delays_a_period_apart_that_leave_the_same_it_is_the_shortest() -> None:
+    delays = 0.001 * np.arange(-100, 101)
+    swing = 1 + 3.0 * (1 - np.cos(2 * np.pi * SWING * (delays - 0.016)))
+    far = np.exp(-0.05 * (delays < -0.02))
+    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far, 1000)])
+    assert found is not None
+    assert found.value == pytest.approx(0.016, abs=1e-3)
+    clear = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far**10, 1000)])
+    assert clear is not None
+    assert clear.value == pytest.approx(0.016 - 1 / SWING, abs=1e-3)
+
+
+@pytest.mark.parametrize(("held", "drop"), [(0.5, 3.0), (1.0, 4.0), (-0.5, 0.0)])
+def test_what_is_held_is_weighed_as_it_is(held: float, drop: float) -> None:
+    """2 b x - A x^2 with A = b = 4, which is most at 1; a value that raises the sum of squares explains nothing."""
+    one = Hypothesis(
+        "torque_delay",
+        "",
+        1,
+        (Coefficient("torque_delay1", "s", -0.1, 0.1),),
+        lambda *_: np.zeros((1, 1, 1)),
+        held={"torque_delay1": Value(held, 1e-3, "s")},
+    )
+    x, found = Variant(one, {}, (5,), (0,), (0,)).best(np.array([[4.0]]), np.array([4.0]), np.array([4.0]))
+    assert x.tolist() == [held]
+    assert found == pytest.approx(drop)

@@ -21,6 +21,7 @@ from identification.diagnosis.confirmation import confirmed
 from identification.diagnosis.diagnosis import diagnose
 from identification.diagnosis.hypothesis import DRIVE, EFFECT, Hypothesis
 from identification.diagnosis.loop import search
+from identification.diagnosis.may_act import without_record
 from identification.diagnosis.played import Player, play
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.refit import refit
@@ -192,3 +193,19 @@ def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
     ((drift_found, *_),) = [one.evidence.coefficients for one in kept.choices]
     assert "warm_rise" in kept.choices[0].evidence.variant.shape
     assert drift_found == pytest.approx(drift.drift, rel=0.01)
+
+
+def test_heat_that_is_of_the_record_tells_nothing_of_its_noise(tmp_path: Path) -> None:
+    of = two_links(tmp_path)
+    run = ready(logged(tmp_path, 1, Drift(-0.1), (), 12.0), of)
+    scenes = [scene(run, of)]
+    bank = Bank([run], scenes)
+    heat, time = (by(kind, scenes, 2) for kind in ("motor's heat", "time since the start"))
+    columns = []
+    for one in (heat, time):
+        made = bank.add(one, one.variants[0])
+        assert made is not None
+        columns.append(set(made.columns))
+    numbers = set(without_record(bank, 0, 1).numbers)
+    assert not numbers & columns[0]
+    assert numbers >= columns[1]
