@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
-from identification.drive_train import constants, coupling, driven
+from identification.drive_train import constants, coupling, driven, motor_torques
 from identification.recording import Array
 
 #: What a file states for joints that no motion limits or warms [A, K, N m].
@@ -45,7 +45,7 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
     Raises InputError where an effect or a torque constant depends on it and nothing says it.
     """
     signals, needed = robot.signals, _warm_joints(robot)
-    motor, found = np.linalg.solve(coupling(robot).T, tau), []
+    motor, found = motor_torques(robot, tau), []
     for k, joint in enumerate(robot.moving):
         rise, whole = rises.get(f"temp{joint.number}"), float(signals.warm_rise[k]) if signals.warm_rise else NEVER
         usual = float(signals.warm_torque[k]) if signals.warm_torque else NEVER
@@ -98,8 +98,7 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     drift = drives.torque_drift if drives is not None else ()
     if not (signals.torque_gain or signals.torque_delay or drift):
         return tau
-    N = coupling(robot)
-    motor = np.asarray(np.linalg.solve(N.T, tau), dtype=float)
+    motor = motor_torques(robot, tau)
     if signals.torque_gain:
         motor = _column(signals.torque_gain) * motor
     if warmth is not None:
@@ -108,7 +107,7 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
                 motor[k] *= 1 + float(part) * warmth[k]
     if signals.torque_delay:
         motor = earlier(motor, signals.torque_delay, period)
-    return np.asarray(N.T @ motor, dtype=float)
+    return np.asarray(coupling(robot).T @ motor, dtype=float)
 
 
 def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
@@ -140,7 +139,7 @@ def saturated(tau: Array, robot: Robot) -> NDArray[np.bool_] | None:
         return None
     if drives is None or not drives.torque_constants:
         raise InputError(robot.place, "current_limit without torque constants", "torque_constants in drives")
-    current = np.linalg.solve(coupling(robot).T, tau) / constants(robot)[:, None]
+    current = motor_torques(robot, tau) / constants(robot)[:, None]
     return driven(robot, np.abs(current) >= _column(limit) * (1 - _REACHED))
 
 

@@ -43,13 +43,17 @@ def with_unit_constants(robot: Robot) -> Robot:
     return with_constants(robot, np.ones(len(robot.moving)).tolist())
 
 
+def motor_torques(robot: Robot, tau: Array) -> Array:
+    """Torques of the motors [N m] (n x N) from those of the joints (n x N): N^-T tau."""
+    return np.asarray(np.linalg.solve(coupling(robot).T, tau), dtype=float)
+
+
 def supplied(robot: Robot, motor: int, tau: Array) -> Array:
     """The part of joint torques (n x N) that motor number ``motor``, from 0, supplies: N^T E N^-T tau.
 
     E picks the motor.
     """
-    N = coupling(robot)
-    return np.outer(N[motor], np.linalg.solve(N.T, tau)[motor])
+    return np.outer(coupling(robot)[motor], motor_torques(robot, tau)[motor])
 
 
 def driven(robot: Robot, marked: NDArray[np.bool_]) -> NDArray[np.bool_]:

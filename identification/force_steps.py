@@ -20,7 +20,7 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.colour import scatter
 from identification.dataset import Run, load
-from identification.drive_train import constants, coupling, with_unit_constants
+from identification.drive_train import constants, coupling, motor_torques, with_unit_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
@@ -151,7 +151,7 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     force = smoothed(wrench, filters.order, filters.cutoff, run.rate)
     signals = [q, force, Ia[:, None] * qdd]
     if with_current:
-        current = np.asarray(np.linalg.solve(coupling(robot).T, run.tau), dtype=float)
+        current = motor_torques(robot, run.tau)
         signals.append(smoothed(current, filters.order, filters.cutoff, run.rate))
     inner = slice(filters.first, run.samples - filters.last)
     signals = [decimated(one[:, inner], filters.factor) for one in signals]

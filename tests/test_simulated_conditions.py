@@ -80,9 +80,7 @@ def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine
     assert load(str(runs[1]), read(drifting)).tau == pytest.approx(load(str(runs[0]), machine.robot).tau, abs=1e-7)
 
 
-def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(
-    file: Path, machine: Machine, tmp_path: Path
-) -> None:
+def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(file: Path, tmp_path: Path) -> None:
     text = file.read_text().replace(
         "use: warm, warm: [0.5, 0.4]}", "use: warm, warm: [0.5, 0.4]}\n  torque_drift: [-1/5, -1/5]"
     )

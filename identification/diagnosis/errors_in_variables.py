@@ -27,7 +27,8 @@ Array = NDArray[np.float64]
 class Redrawn:
     """A run with ``noise`` (n) [rad, m] of its positions once more, by draw ``number``: what that changes in its rows.
 
-    ``torque`` (n x rows) [N m, N] is what the model's torque changes by, with that of the file's drive trains.
+    ``torque`` (n x rows) [N m, N] is what the model's torque changes by, with that of the file's drive
+    trains without a gap.
     """
 
     def __init__(self, run: Prepared, scene: Scene, noise: Array, number: int) -> None:

@@ -72,11 +72,12 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
         return None
     delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
     least = _nearest(delays - start, cost, sum(one.rows for one in known))
-    gains = [np.interp(start, delays, one.cost) - one.cost[least] for one in known]
-    most = sum(np.interp(start, delays, one.cost) - one.cost.min() for one in known)
+    now = np.array([np.interp(start, delays, one.cost) for one in known])
+    gains = now - [one.cost[least] for one in known]
+    most = np.sum(now - [one.cost.min() for one in known])
     telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
     enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most)
-    if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or sum(gains) < enough:
+    if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
     squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
@@ -106,14 +107,14 @@ def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
     return [_fitted(delays, runs, k) for k in range(len(scenes[0].robot.moving))]
 
 
-def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float]) -> Array:
-    """Torques along the motion (n x N) [N m, N], before each motor's of ``delays`` [s] (n): by the fit of its ``late``
-    rows at it, of those without one by the model.
+def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float], motors: Sequence[int]) -> Array:
+    """Torques along the motion (n x N) [N m, N], before each motor's of ``delays`` [s] (n): of some ``motors`` by the
+    fit of their ``late`` rows at it, of the others and of those without such rows by the model.
     """
     tau = scene.torque.copy()
-    for k, (one, delay) in enumerate(zip(late, delays, strict=True)):
-        if one is not None:
-            own = scene.torque_of({**scene.values, **one.at(delay)}, scene.motion)
+    for k in motors:
+        if (one := late[k]) is not None:
+            own = scene.torque_of({**scene.values, **one.at(delays[k])}, scene.motion)
             tau += supplied(scene.robot, k, own - scene.model_torque)
     return tau
 

@@ -14,7 +14,7 @@ from generator.effects.effect import Column
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from identification.corrections import heated, warming_up
-from identification.drive_train import coupling
+from identification.drive_train import motor_torques
 from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
@@ -82,7 +82,7 @@ class Scene:
     def motor_torque(self, k: int) -> Array:
         """Torque that was recorded of the motor of coordinate ``k`` since the run's start [N m] (M)."""
         run, gain = self.sampled.run, self.robot.signals.torque_gain
-        motor: Array = np.linalg.solve(coupling(self.robot).T, run.tau)[k]
+        motor: Array = motor_torques(self.robot, run.tau)[k]
         return motor / float(gain[k]) if gain else motor
 
     def heat(self, k: int, warm_torque: float, warm_up_time: float) -> Array:

@@ -11,13 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import (
-    Evidence,
-    Key,
-    Weighing,
-    columns_of,
-    key_of,
-)
+from identification.diagnosis.evidence import Evidence, Key, Weighing, columns_of, key_of
 from identification.diagnosis.likely import BALANCERS, SPRINGS, common, likely
 from identification.diagnosis.normal import bounded
 from identification.diagnosis.refinement import refined

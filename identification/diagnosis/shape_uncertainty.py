@@ -12,7 +12,6 @@ from math import hypot, log
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.bank import Variant
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import inverse
@@ -62,9 +61,10 @@ def deviations(
     T *= units
     A = T.T @ normal.whole @ T
     # What is held is told by another fit, as well as that tells it.
-    for i, one in enumerate(one for variant in found.variants for one in _held(variant)):
-        if one is not None:
-            A[base + i, base + i] += (units[base + i] / one) ** 2
+    held = [one.hypothesis.held.get(each.name) for one in found.variants for each in one.coefficients]
+    for i, told in enumerate(held, base):
+        if told is not None:
+            A[i, i] += (units[i] / told.std) ** 2
     C = inverse(A)
     # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
     seen = np.diag(C @ A) > _SEEN
@@ -73,12 +73,6 @@ def deviations(
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
     return std[: len(chosen)], shapes
-
-
-def _held(variant: Variant) -> list[float | None]:
-    """Standard deviations of the coefficients of its columns that are held; None of others."""
-    known = variant.hypothesis.held
-    return [known[one.name].std if one.name in known else None for one in variant.coefficients]
 
 
 def apart(

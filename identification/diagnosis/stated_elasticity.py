@@ -101,12 +101,11 @@ def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float
 
 
 def weights(scene: Scene) -> dict[str, float]:
-    """Of the torques of the drive trains by the scene's values, those of ``names`` that are such torques, but for those
-    that are ``bouncing``.
+    """Of the torques of the drive trains without a gap by the scene's values: how links bounce in gaps no small error
+    changes by little.
     """
-    every = (name for name in names(scene.robot) if name.rstrip("0123456789") not in _ABOUT)
-    whole = [name for name in every if name not in bouncing(scene.robot)]
-    return {name: scene.values.get(name, 0.0) for name in whole}
+    plain, _ = _plain_and_loose(scene.robot)
+    return {TOGETHER: scene.values.get(TOGETHER, 0.0)} if plain else {}
 
 
 def precision(name: str) -> float:

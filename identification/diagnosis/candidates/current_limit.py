@@ -18,7 +18,7 @@ from scipy.ndimage import binary_opening
 from identification.corrections import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
-from identification.drive_train import constants, coupling
+from identification.drive_train import constants, coupling, motor_torques
 
 Array = NDArray[np.float64]
 
@@ -90,7 +90,7 @@ def _lasting(excess: Array, period: float) -> Array:
 
 def _current(scene: Scene, k: int, torque: Array) -> Array:
     """The recorded current of a motor [A] (N) for true torques of the joints (n x N)."""
-    return np.asarray(np.linalg.solve(coupling(scene.robot).T, torque)[k] / _torque_per_recorded(scene, k))
+    return np.asarray(motor_torques(scene.robot, torque)[k] / _torque_per_recorded(scene, k))
 
 
 def _torque_per_recorded(scene: Scene, k: int) -> float:

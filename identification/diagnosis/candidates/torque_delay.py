@@ -5,7 +5,7 @@ At first that is tau(t) - s dtau/dt; a long delay is told by motors' rows (``lat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -25,11 +25,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Told:
-    """A delay ``beyond`` another [s]; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s]
-    (n).
-    """
+    """A delay ``beyond`` another; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s] (n)."""
 
-    beyond: float
+    beyond: Value
     late: Sequence[Lateness | None]
     whole: Sequence[float]
 
@@ -49,23 +47,20 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
     each = [delay_of([one], start) for one in late]
     whole = [start + _value(beyond) for beyond in each]
+    together, *told = [None if one is None else _Told(one, late, whole) for one in (shared, *each)]
     own = [
-        _hypothesis((joint,), k, start if beyond else 0.0, beyond, partial(_Told, late=_of_motor(late, k), whole=whole))
-        for k, (joint, beyond) in enumerate(zip(moving, each, strict=True))
+        _hypothesis((joint,), k, start if told[k] else 0.0, told[k])
+        for k, joint in enumerate(moving)
         if not (stated and stated[k])
     ]
     if any(stated):
         return own
-    together = _hypothesis(moving, None, 0.0, shared, partial(_Told, late=late, whole=whole))
-    return [together, *own] if len(moving) > 1 else [together]
+    return [_hypothesis(moving, None, 0.0, together), *(own if len(moving) > 1 else ())]
 
 
-def _hypothesis(
-    joints: Sequence[Joint], k: int | None, start: float, beyond: Value | None, of: Callable[[float], _Told]
-) -> Hypothesis:
-    """Of a delay ``beyond`` one of all motors that is ``start`` [s]."""
+def _hypothesis(joints: Sequence[Joint], k: int | None, start: float, told: _Told | None) -> Hypothesis:
+    """Of a delay beyond one of all motors that is ``start`` [s]."""
     joint = None if k is None else joints[0]
-    told = None if beyond is None else of(_value(beyond))
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
@@ -73,7 +68,7 @@ def _hypothesis(
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
         partial(_columns, k, joint, start, told),
         kind=SIGNAL,
-        held={} if beyond is None else {_name(joint): beyond},
+        held={} if told is None else {_name(joint): told.beyond},
         beyond=(_name(None),) if start else (),
         joints=tuple(one.number for one in joints),
         variable="frequency",
@@ -98,11 +93,6 @@ def _value(told: Value | None) -> float:
     return (told.value if told else None) or 0.0
 
 
-def _of_motor(late: Sequence[Lateness | None], k: int) -> list[Lateness | None]:
-    """Of motor k alone."""
-    return [one if motor == k else None for motor, one in enumerate(late)]
-
-
 def _columns(
     k: int | None, joint: Joint | None, start: float, told: _Told | None, scene: Scene, shape: Mapping[str, float]
 ) -> Array:
@@ -110,8 +100,9 @@ def _columns(
     else as none.
     """
     found = scene.found(_name(joint))
-    more = told.beyond if told else found
-    tau = torques(scene, told.late, told.whole) if told and not found else scene.torque
+    more = _value(told.beyond) if told else found
+    motors = range(len(scene.robot.moving)) if k is None else (k,)
+    tau = torques(scene, told.late, told.whole, motors) if told and not found else scene.torque
     if k is not None:
         tau = supplied(scene.robot, k, tau)
     if not more:
