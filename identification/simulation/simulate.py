@@ -102,7 +102,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     true = motor = np.linalg.inv(N).T @ log.tau.T
     # What is recorded may tell the warmth by which it is recorded; the one follows the other slowly.
     for _ in range(_ROUNDS if robot.signals.warm_torque else 1):
-        own = corrections.warmth(rises, t, N.T @ motor, robot, robot.place)
+        own = corrections.warmth(rises, t, N.T @ (motor / drift), robot, robot.place)
         motor = corrections.recorded_motor_torques(true, robot, settings.period, own)
     effort = motor.T / constants / drift[:, None]
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
