@@ -16,7 +16,7 @@ from generator.robot.description import Robot
 from identification.drive_train import constants, coupling, driven, motor_torques
 from identification.recording import Array
 
-#: What a file states for joints that no motion limits or warms [A, K, N m].
+#: What a file states for joints that no motion limits or warms [A, s, K, N m].
 NEVER = 1e6
 #: Part of a limit by which rounding, to torques and back, may take a current that is at it below.
 _REACHED = 1e-9
@@ -42,18 +42,18 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
     ``warm_torque``, or 1 - exp(-t/warm_up_time). A drive of which nothing tells, and on whose warmth nothing depends,
     has rows that are no numbers.
 
-    Raises InputError where an effect or a torque constant depends on it and nothing says it.
+    Raises InputError where an effect or a torque constant depends on it and nothing says it, and TooWarm where a
+    drive is so warm that its motor's torque constant would be none.
     """
     signals, needed = robot.signals, _warm_joints(robot)
     motor, found = motor_torques(robot, tau), []
     for k, joint in enumerate(robot.moving):
         rise, whole = rises.get(f"temp{joint.number}"), float(signals.warm_rise[k]) if signals.warm_rise else NEVER
-        usual = float(signals.warm_torque[k]) if signals.warm_torque else NEVER
         if rise is not None and whole < NEVER:
             found.append(rise / whole)
-        elif signals.warm_up_time and usual < NEVER:
-            found.append(heated(motor[k] / usual, t, float(signals.warm_up_time[k])))
-        elif signals.warm_up_time:
+        elif by_heat(robot, k):
+            found.append(heated(motor[k] / float(signals.warm_torque[k]), t, float(signals.warm_up_time[k])))
+        elif by_time(robot, k):
             found.append(warming_up(t, float(signals.warm_up_time[k])))
         elif joint.number in needed:
             problem = f"nothing says how warm the drive of joint {joint.number} is, on which torques depend"
@@ -62,7 +62,39 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
             raise InputError(place, problem, expected)
         else:
             found.append(np.full(len(t), np.nan))
+    for k, part in _drifting(robot):
+        _strong(part, found[k], robot.moving[k].number, place)
     return np.stack(found) if np.any(np.isfinite(found)) else None
+
+
+def by_time(robot: Robot, k: int) -> bool:
+    """Whether a time constant says how warm the drive of coordinate ``k`` is, where no temperature does."""
+    time = robot.signals.warm_up_time
+    return bool(time and time[k] < NEVER)
+
+
+def by_heat(robot: Robot, k: int) -> bool:
+    """Whether that is a time constant by which the recorded torque of its motor heats it."""
+    torque = robot.signals.warm_torque
+    return bool(by_time(robot, k) and torque and torque[k] < NEVER)
+
+
+class TooWarm(InputError):
+    """The drive of ``joint`` (number) is so warm that what the robot's file says of its torque constant cannot be."""
+
+    def __init__(self, joint: int, place: Place, problem: str) -> None:
+        super().__init__(place, problem, "a torque_drift by which it stays positive, or a warmth that is less")
+        self.joint = joint
+
+
+def _strong(drift: float, warmth: Array, number: int, place: Place) -> None:
+    least = float(np.min(1 + drift * warmth))
+    if least <= 0:
+        problem = (
+            f"the drive of joint {number} comes to a warmth of {np.abs(warmth).max():.3g} by section signals of the "
+            f"robot file, where its motor's torque constant would be {least:.3g} times the cold one"
+        )
+        raise TooWarm(number, place, problem)
 
 
 def warming_up(t: Array, warm_up_time: Array | float) -> Array:
@@ -83,9 +115,14 @@ def heated(load: Array, t: Array, warm_up_time: float) -> Array:
 
 def _warm_joints(robot: Robot) -> set[int]:
     """Numbers of the joints on whose drives' warmth torques depend."""
-    drift = robot.drives.torque_drift if robot.drives is not None else ()
-    drifting = {joint.number for joint, part in zip(robot.moving, drift, strict=False) if part}
+    drifting = {robot.moving[k].number for k, _ in _drifting(robot)}
     return drifting | {one.site.joint.number for one in effects_of(robot) if "warmth" in one.effect.needs}
+
+
+def _drifting(robot: Robot) -> list[tuple[int, float]]:
+    """Coordinates with motors whose torque constants drift, and by what part of them."""
+    drift = robot.drives.torque_drift if robot.drives is not None else ()
+    return [(k, float(part)) for k, part in enumerate(drift) if part]
 
 
 def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
@@ -94,17 +131,15 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     A recorded torque counts as a current times the torque constant: it drifts as the constant does. Torques beyond an
     end of the recording are those of the end.
     """
-    signals, drives = robot.signals, robot.drives
-    drift = drives.torque_drift if drives is not None else ()
-    if not (signals.torque_gain or signals.torque_delay or drift):
+    signals, drifting = robot.signals, _drifting(robot)
+    if not (signals.torque_gain or signals.torque_delay or drifting):
         return tau
     motor = motor_torques(robot, tau)
     if signals.torque_gain:
         motor = _column(signals.torque_gain) * motor
     if warmth is not None:
-        for k, part in enumerate(drift):
-            if part:
-                motor[k] *= 1 + float(part) * warmth[k]
+        for k, part in drifting:
+            motor[k] *= 1 + part * warmth[k]
     if signals.torque_delay:
         motor = earlier(motor, signals.torque_delay, period)
     return np.asarray(coupling(robot).T @ motor, dtype=float)
@@ -112,14 +147,13 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
 
 def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
     """What ``true_torques`` makes torques of the motors (n x N) [N m, N] of."""
-    signals, drives = robot.signals, robot.drives
+    signals = robot.signals
     result = motor.copy()
     if signals.torque_delay:
         result = earlier(motor, [-delay for delay in signals.torque_delay], period)
     if warmth is not None:
-        for k, part in enumerate(drives.torque_drift if drives is not None else ()):
-            if part:
-                result[k] /= 1 + float(part) * warmth[k]
+        for k, part in _drifting(robot):
+            result[k] /= 1 + part * warmth[k]
     return result / _column(signals.torque_gain) if signals.torque_gain else result
 
 

@@ -132,6 +132,15 @@ def test_of_delays_a_period_apart_that_leave_the_same_it_is_the_shortest() -> No
     assert clear.value == pytest.approx(0.016 - 1 / SWING, abs=1e-3)
 
 
+def test_of_few_rows_a_ripple_near_none_hides_no_delay() -> None:
+    """The square root of 150 rows, four times, is more than a delay must leave."""
+    delays = 0.001 * np.arange(-30, 31)
+    valley = 1 - 0.27 * np.exp(-(((delays - 0.012) / 0.004) ** 2)) - 0.01 * np.exp(-((delays / 0.001) ** 2))
+    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), valley, 150)])
+    assert found is not None
+    assert found.value == pytest.approx(0.012, abs=5e-4)
+
+
 @pytest.mark.parametrize(("held", "drop"), [(0.5, 3.0), (1.0, 4.0), (-0.5, 0.0)])
 def test_what_is_held_is_weighed_as_it_is(held: float, drop: float) -> None:
     """2 b x - A x^2 with A = b = 4, which is most at 1; a value that raises the sum of squares explains nothing."""

@@ -11,8 +11,10 @@ import scipy.linalg
 
 from generator.derivation import derive
 from generator.effects.library import effects_of
+from generator.errors import InputError
 from generator.resources import find_robot
 from generator.robot.description import Robot
+from identification.corrections import NEVER
 from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL
 from identification.diagnosis.repair import Repaired, repaired
@@ -162,7 +164,7 @@ def test_the_torque_constant_drifts_from_where_it_starts() -> None:
     assert found.robot.drives is not None
     assert [float(part) for part in found.robot.drives.torque_drift] == [0, -0.06, 0, 0, 0, 0]
     assert [float(one) for one in found.robot.signals.torque_gain] == [1, 1.02, 1, 1, 1, 1]
-    assert [float(one) for one in found.robot.signals.warm_up_time] == [60, 30, 60, 60, 60, 60]
+    assert [float(one) for one in found.robot.signals.warm_up_time] == [NEVER, 30, NEVER, NEVER, NEVER, NEVER]
     refused = repair("emps", Addition(DRIVE, "torque_drift", (1,), {"torque_drift": -0.06}))
     assert refused.text == text_of("emps")
     assert "cannot be written: emps has no drives" in refused.notes[0]
@@ -235,6 +237,32 @@ def test_warm_friction_comes_with_a_word_on_the_warmth() -> None:
     told = repaired(text_of("emps") + "\nsignals: {warm_up_time: [900 s]}\n", "x", [warm])
     assert [float(one) for one in told.robot.signals.warm_up_time] == [900.0]
     assert ("warm_friction", 1) in uses(told.robot)
+
+
+def test_each_drive_keeps_the_warmth_that_was_found_for_it() -> None:
+    rubbing = [Addition(EFFECT, "warm_friction", (joint,), {"warm_up_time": 10.0 * joint}) for joint in (2, 3)]
+    heat = {"torque_drift": -0.06, "torque_gain": 1.02, "warm_up_time": 20.0, "warm_torque": 5.0}
+    drift = Addition(DRIVE, "torque_drift", (2,), heat)
+    apart = repair("kr500", *rubbing)
+    assert [float(one) for one in apart.robot.signals.warm_up_time] == [NEVER, 20, 30, NEVER, NEVER, NEVER]
+    assert not apart.notes
+    for additions in ([*rubbing, drift], [drift, *rubbing]):
+        both = repair("kr500", *additions)
+        assert [float(one) for one in both.robot.signals.warm_up_time] == [NEVER, 20, 30, NEVER, NEVER, NEVER]
+        assert [float(one) for one in both.robot.signals.warm_torque] == [NEVER, 5, NEVER, NEVER, NEVER, NEVER]
+        (said,) = [note for note in both.notes if "another warmth" in note]
+        assert said.startswith("warm_friction of joint 2 was found by another warmth")
+
+
+@pytest.mark.parametrize(("name", "unit"), [("emps", "N"), ("tilted_two_link", "N m")])
+def test_a_warm_torque_is_of_what_the_motor_gives(name: str, unit: str) -> None:
+    text = text_of(name) + f"\nsignals: {{warm_up_time: 60 s, warm_torque: 3 {unit}}}\n"
+    assert {float(one) for one in robot_of(text, "x").signals.warm_torque} == {3.0}
+    other = "N" if unit == "N m" else "N m"
+    with pytest.raises(InputError, match=rf"'{other}' is the wrong unit, expected {unit}$"):
+        robot_of(text.replace(f"3 {unit}", f"3 {other}"), "x")
+    with pytest.raises(InputError, match=rf"warm_torque of joint 1 is 0 {unit}, expected a positive torque"):
+        robot_of(text.replace(f"3 {unit}", f"0 {unit}"), "x")
 
 
 def test_a_payload_leaves_the_text() -> None:

@@ -1,4 +1,4 @@
-"""Values that runs tell twice, by the size of a torque and by its form: no surer than they agree."""
+"""Values that runs tell twice, by the size of a torque and by its form, or that another fit tells beside the torque."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.shape_uncertainty import apart
+from identification.diagnosis.shape_uncertainty import apart, variances
 from identification.outcome import Value
 
 
@@ -50,3 +50,22 @@ def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[st
     values, shape = told(value, twice)
     assert values["compliance1"].std == pytest.approx(1e-3 * value)
     assert shape == {"k": 1.0, "damping": 0.01}
+
+
+def test_what_another_fit_tells_is_as_sure_as_that_and_its_error_is_in_the_others() -> None:
+    """By many draws of the noise and of what is held."""
+    draw = np.random.default_rng(2)
+    W = draw.normal(size=(40, 3))
+    W[:, 2] = 0.8 * W[:, 1] + 0.6 * W[:, 2]
+    noise, errors = draw.normal(size=(40, 20000)), 0.3 * draw.normal(size=20000)
+    spread = np.var(np.linalg.pinv(W[:, :2]) @ (noise - W[:, 2:] * errors), axis=1)
+    told = variances(W.T @ W, {2: 0.09})
+    assert told[:2] == pytest.approx(spread, rel=0.04)
+    assert told[2] == 0.09
+    assert told[1] > 2 * variances((W.T @ W)[:2, :2], {})[1]
+
+
+def test_what_no_row_shows_has_no_variance() -> None:
+    W = np.array([[1.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 2.0], [2.0, 0.0, 3.0, 0.0]])
+    W = np.column_stack([W, W[:, 0] + W[:, 2]])
+    assert np.isinf(variances(W.T @ W, {3: 1.0})).tolist() == [True, True, True, False, True]

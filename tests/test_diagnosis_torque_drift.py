@@ -22,6 +22,7 @@ from identification.diagnosis.diagnosis import diagnose
 from identification.diagnosis.hypothesis import DRIVE, EFFECT, Hypothesis
 from identification.diagnosis.loop import search
 from identification.diagnosis.may_act import without_record
+from identification.diagnosis.mending import possible
 from identification.diagnosis.played import Player, play
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.refit import refit
@@ -193,6 +194,35 @@ def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
     ((drift_found, *_),) = [one.evidence.coefficients for one in kept.choices]
     assert "warm_rise" in kept.choices[0].evidence.variant.shape
     assert drift_found == pytest.approx(drift.drift, rel=0.01)
+
+
+def test_heat_that_the_file_tells_is_of_the_record(tmp_path: Path) -> None:
+    """That of joint 2: the file has the other by time alone."""
+    path = tmp_path / "told.yaml"
+    path.write_text(f"{TWO_LINKS}signals: {{warm_up_time: 20 s, warm_torque: [1000000 N m, 0.5 N m]}}\n")
+    of = Regressors(read(path))
+    scenes = [scene(ready(logged(tmp_path, 1, Drift(-0.1), (), 30.0), of), of)]
+    for joint, of_record in ((1, False), (2, True)):
+        assert by("drive's warmth", scenes, joint).recorded == of_record
+        both = [one for one in library.hypotheses(scenes) if one.joint == joint]
+        assert {one.effect: one.recorded for one in both}["warm_friction"] == of_record
+        assert not {one.effect: one.recorded for one in both}["power_friction"]
+
+
+def test_a_drift_by_which_a_run_has_no_torque_constant_is_told_and_not_written(tmp_path: Path) -> None:
+    sources = [logged(tmp_path, seed, Drift(-0.1), (), 20.0) for seed in (1, 2)]
+    roles = Roles(tuple(sources[:1]), (), tuple(sources[1:]), tuple(sources[:1]))
+    values = {"torque_drift": -0.5, "torque_gain": 1.0, "warm_up_time": 5.0}
+    first, second = (
+        Addition(DRIVE, "torque_drift", (joint,), {**values, "warm_torque": usual})
+        for joint, usual in ((1, 1e3), (2, 0.1))
+    )
+    kept, said = possible(TWO_LINKS, roles, [first, second], "x")
+    assert kept == [first]
+    (note,) = said
+    assert "torque constant of joint 2 is not written" in note
+    assert "warmth of " in note
+    assert possible(TWO_LINKS, roles, [first], "x") == ([first], [])
 
 
 def test_heat_that_is_of_the_record_tells_nothing_of_its_noise(tmp_path: Path) -> None:

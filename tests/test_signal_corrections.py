@@ -158,7 +158,7 @@ def test_a_part_of_a_run_is_as_warm_as_the_whole_run_there(tmp_path: Path) -> No
 
 
 def test_without_a_word_on_the_warmth_it_is_asked_for(tmp_path: Path) -> None:
-    of = robot(tmp_path, "", "  torque_drift: [-1/10, 0, 1/20]\n")
+    of = robot(tmp_path, "warm_up_time: [1000000 s, 2 s, 2 s]", "  torque_drift: [-1/10, 0, 1/20]\n")
     with pytest.raises(InputError, match=r"how warm the drive of joint 1 is.*expected warm_up_time.*column temp1"):
         Recorded(tmp_path).run(of, positions(T), currents(T))
 
@@ -184,6 +184,7 @@ def heat(motor: Array, period: float, time: float, before: float = 0.0) -> Array
 
 def test_a_drive_is_heated_by_what_its_motor_is_recorded_to_do(tmp_path: Path) -> None:
     of = robot(tmp_path, "warm_up_time: 2 s, warm_torque: [2 N m, 1000000 N m, 3 N m]")
+    assert [corrections.by_heat(of, k) for k in range(3)] == [True, False, True]
     found = Recorded(tmp_path).run(of, positions(T), currents(T)).warmth
     motor = KT * currents(T)
     assert found is not None
@@ -194,6 +195,21 @@ def test_a_drive_is_heated_by_what_its_motor_is_recorded_to_do(tmp_path: Path) -
     assert part is not None
     before = (1 - np.exp(-1)) * np.mean((motor[0, 1000:] / 2) ** 2)
     assert part[0] == pytest.approx(heat(motor[0, 1000:] / 2, 2e-3, 2.0, before), abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("entry", "rise"), [("warm_up_time: 2 s, warm_torque: 0.2 N m", 0.0), ("warm_rise: 20 K", 15.0)]
+)
+def test_a_drive_too_warm_for_its_drift_is_refused(entry: str, rise: float, tmp_path: Path) -> None:
+    """A torque constant of another sign would turn torques round."""
+    of, cold = (robot(tmp_path, entry, f"  torque_drift: [0, {drift}, 0]\n") for drift in ("-1/2", "1/2"))
+    temperature = 25 + rise * T[None] + np.zeros((3, 1))
+    with pytest.raises(
+        corrections.TooWarm, match=r"^.*run\.csv:1:1: the drive of joint 2 comes to a warmth of [\d.]+ by"
+    ) as told:
+        Recorded(tmp_path).run(of, positions(T), currents(T), temp=temperature)
+    assert told.value.joint == 2
+    Recorded(tmp_path).run(cold, positions(T), currents(T), temp=temperature)
 
 
 def test_a_temperature_tells_more_than_the_heat(tmp_path: Path) -> None:

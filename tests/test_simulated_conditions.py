@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
+from identification.corrections import TooWarm
 from identification.dataset import load
 from identification.inverse_model import Options, identify
 from identification.observation import Regressors
@@ -80,14 +81,23 @@ def test_the_warmth_that_drove_a_run_is_the_one_that_is_read(file: Path, machine
     assert load(str(runs[1]), read(drifting)).tau == pytest.approx(load(str(runs[0]), machine.robot).tau, abs=1e-7)
 
 
-@pytest.mark.parametrize("beside", [0.0, -0.2])
-def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(beside: float, file: Path, tmp_path: Path) -> None:
-    """Another drift ``beside`` it, of which the file knows nothing, stays in the torques."""
+def drifting_by_heat(file: Path, folder: Path, usual: float) -> Path:
+    """The robot whose torque constants are a fifth lower after the motors' ``usual`` torque, in parts of a high one."""
     text = file.read_text().replace(
         "use: warm, warm: [0.5, 0.4]}", "use: warm, warm: [0.5, 0.4]}\n  torque_drift: [-1/5, -1/5]"
     )
-    drifting = tmp_path / "drifting.yaml"
-    drifting.write_text(text + "signals: {warm_up_time: 1.5 s, warm_torque: [1.5 N m, 0.4 N m]}\n")
+    drifting = folder / "drifting.yaml"
+    warm = f"warm_torque: [{1.5 * usual} N m, {0.4 * usual} N m]"
+    drifting.write_text(f"{text}signals: {{warm_up_time: 1.5 s, {warm}}}\n")
+    return drifting
+
+
+@pytest.mark.parametrize(("beside", "usual", "warmest"), [(0.0, 1.0, 1.0), (-0.2, 1.0, 1.0), (0.0, 0.87, 2.2)])
+def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(
+    beside: float, usual: float, warmest: float, file: Path, tmp_path: Path
+) -> None:
+    """Another drift ``beside`` it, of which the file knows nothing, stays in the torques."""
+    drifting = drifting_by_heat(file, tmp_path, usual)
     settings = replace(SHORT, warm_up=1.5)
     taus = []
     for source, constant in ((file, 0.0), (drifting, beside)):
@@ -97,9 +107,18 @@ def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(beside: floa
             run = load(str(path), of.robot)
         taus.append(run.tau)
     assert run.warmth is not None
-    assert run.warmth.max() > 0.1
+    assert run.warmth.max() > warmest
     known = 1 + beside * (1 - np.exp(-run.elapsed / 1.5))
     assert taus[1] * known == pytest.approx(taus[0], abs=1e-7)
+
+
+def test_motors_that_heat_until_they_have_no_torque_constant_are_refused(file: Path, tmp_path: Path) -> None:
+    drifting = drifting_by_heat(file, tmp_path, 0.3)
+    with (
+        compiled(read(drifting)) as of,
+        pytest.raises(TooWarm, match=r"drifting\.yaml:1:1: the drive of joint 1 comes"),
+    ):
+        simulate(of, replace(SHORT, warm_up=1.5))
 
 
 REFUSED = {

@@ -39,7 +39,7 @@ def robot_from(node: Node) -> Robot:
         parameter_sets=parameter_sets(keys.get("parameters")),
         place=node.place,
         digest=digest(node),
-        signals=signals(keys.get("signals"), all_joints),
+        signals=signals(keys.get("signals"), all_joints, "drives" in keys),
     )
 
 

@@ -75,8 +75,12 @@ class Joint:
 
     @property
     def torque_unit(self) -> str:
-        """Of what its motor gives."""
+        """Of what acts along it."""
         return "N" if self.sigma == PRISMATIC else "N m"
+
+    def motor_unit(self, driven: bool) -> str:
+        """Of what its motor gives: a torque, where gears are between the two, that is, the robot is ``driven``."""
+        return "N m" if driven else self.torque_unit
 
     @property
     def stiffness_unit(self) -> str:
@@ -127,8 +131,8 @@ class Signals:
     recorded as motor torque or current was true ``torque_delay`` [s] before (it will be, where that is negative), as
     link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. The warmth of a
     drive is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K], or follows the square
-    of the recorded motor torque over ``warm_torque`` [N m] with that time constant. Nothing of it is in the generated
-    functions.
+    of the recorded motor torque over ``warm_torque`` [N m, N] with that time constant; from 1e6 on these four say
+    nothing. Nothing of it is in the generated functions.
     """
 
     position_offset: tuple[sympy.Expr, ...] = ()

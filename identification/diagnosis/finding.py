@@ -187,8 +187,7 @@ def findings(
         alternatives = _alternatives(hypothesis, one)
         values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
         for c, i in zip(variant.coefficients, at, strict=True):
-            least = hypothesis.held[c.name].std if c.name in hypothesis.held else 0.0
-            values[c.name] = Value(float(solution[i]), max(float(std[i]), least), c.unit)
+            values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
         result.append(
             Finding(

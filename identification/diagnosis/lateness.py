@@ -92,10 +92,12 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
 def _nearest(beyond: Array, cost: Array, rows: int) -> int:
     """Of the delays that leave least nearby, and whose ``cost`` is the least but for chance, the place of the shortest.
 
-    Those that are a period of a swing apart see other noise: what they cost differs by it.
+    Those that are a period of a swing apart see other noise: what they cost differs by it. Of few rows all would be
+    chance; half of the least that a delay must leave is none.
     """
+    chance = min(_CHANCE * np.sqrt(rows), -np.log(_LESS) / 2 * rows)
     inner = np.flatnonzero((cost[1:-1] <= cost[:-2]) & (cost[1:-1] <= cost[2:])) + 1
-    among = [k for k in inner.tolist() if cost[k] - cost.min() < _CHANCE * np.sqrt(rows)]
+    among = [k for k in inner.tolist() if cost[k] - cost.min() < chance]
     return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
 
 

@@ -14,21 +14,19 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
-from identification.corrections import NEVER
+from identification.corrections import NEVER, by_time
 from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-#: Time constant [s] of joints whose warmth nothing reads.
-_WARM_UP = 60.0
-#: What a correction is where the file says nothing, and its unit where it is not that of a position.
+#: What a correction is where the file says nothing, and its unit where that is the same on all joints.
 _NEUTRAL = {
     "position_offset": 0.0,
     "torque_gain": 1.0,
     "torque_delay": 0.0,
     "link_delay": 0.0,
     "current_limit": NEVER,
-    "warm_up_time": _WARM_UP,
+    "warm_up_time": NEVER,
     "warm_rise": NEVER,
     "warm_torque": NEVER,
 }
@@ -38,7 +36,6 @@ _UNITS = {
     "current_limit": "A",
     "warm_up_time": "s",
     "warm_rise": "K",
-    "warm_torque": "N m",
 }
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
 _REPLACING = ("current_limit", "warm_up_time", "warm_rise", "warm_torque")
@@ -67,7 +64,8 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
     for one in _grouped(additions, robot_of(text, file)):
         text, said = _ADDING[one.kind](text, robot_of(text, file), one)
         notes += said
-    return Repaired(text, robot_of(text, file), tuple(notes))
+    robot = robot_of(text, file)
+    return Repaired(text, robot, (*notes, *_of_one_warmth(additions, robot)))
 
 
 def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
@@ -91,6 +89,27 @@ def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
     return result
 
 
+def _of_one_warmth(additions: Sequence[Addition], robot: Robot) -> list[str]:
+    """Of what was found by another warmth of a drive than the one that is written."""
+    notes = []
+    for one in additions:
+        for k, joint in enumerate(robot.moving):
+            if joint.number in one.joints and "warm_up_time" in one.values and not _as_written(one, robot, k):
+                notes.append(
+                    f"{one.effect} of joint {joint.number} was found by another warmth than section signals now tells: "
+                    "a drive has one, and something else of this joint goes by that"
+                )
+    return notes
+
+
+def _as_written(one: Addition, robot: Robot, k: int) -> bool:
+    for key in ("warm_up_time", "warm_rise", "warm_torque"):
+        told: Sequence[sympy.Expr] = getattr(robot.signals, key)
+        if _number(one.values.get(key, NEVER)) != _number(float(told[k]) if told else NEVER):
+            return False
+    return True
+
+
 def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     effect = library()[one.effect]
     there = [j for j in one.joints if any(u.effect == one.effect and j in u.joints for u in robot.effects)]
@@ -98,8 +117,9 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     notes = [f"joint {j} has the effect {one.effect} already; the file's stays" for j in there]
     if not new:
         return text, notes
-    if "warm_up_time" in one.values and not robot.signals.warm_up_time:
-        text = _with_signal(text, robot, "warm_up_time", one.values["warm_up_time"], new)
+    if "warm_up_time" in one.values:
+        cold = [j.number for k, j in enumerate(robot.moving) if j.number in new and not by_time(robot, k)]
+        text = _with_signal(text, robot, "warm_up_time", one.values["warm_up_time"], cold)
     where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
@@ -135,14 +155,16 @@ def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequen
     for k, joint in enumerate(robot.moving):
         if joint.number in joints:
             now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
-    units = [_signal_unit(key, joint) for joint in robot.moving]
+    units = [_signal_unit(key, joint, robot.drives is not None) for joint in robot.moving]
     written = [f"{_number(x)}{f' {unit}' if unit else ''}" for x, unit in zip(now, units, strict=True)]
     return with_value(text, ("signals", key), f"[{', '.join(written)}]")
 
 
-def _signal_unit(key: str, joint: Joint) -> str:
+def _signal_unit(key: str, joint: Joint, driven: bool) -> str:
     if key == "position_offset":
         return joint.position_unit
+    if key == "warm_torque":
+        return joint.motor_unit(driven)
     return _UNITS.get(key, "")
 
 

@@ -60,19 +60,34 @@ def deviations(
             T[number, len(chosen) + k] += weight
     T *= units
     A = T.T @ normal.whole @ T
-    # What is held is told by another fit, as well as that tells it.
-    held = [one.hypothesis.held.get(each.name) for one in found.variants for each in one.coefficients]
-    for i, told in enumerate(held, base):
-        if told is not None:
-            A[i, i] += (units[i] / told.std) ** 2
-    C = inverse(A)
-    # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
-    seen = np.diag(C @ A) > _SEEN
-    std = np.where(seen, np.sqrt(np.maximum(np.diag(C), 0.0)) * units, np.inf)
+    told = [one.hypothesis.held.get(each.name) for one in found.variants for each in one.coefficients]
+    std = (
+        variances(A, {i: (one.std / units[i]) ** 2 for i, one in enumerate(told, base) if one is not None}) ** 0.5
+        * units
+    )
     shapes: dict[int, dict[str, float]] = {}
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
     return std[: len(chosen)], shapes
+
+
+def variances(A: Array, held: Mapping[int, float]) -> Array:
+    """Of coefficients with products ``A`` of their columns, over the noise's power; infinite where no row shows one.
+
+    Those that are ``held`` have these variances of their own, by another fit: their errors are in the others', beside
+    the noise.
+    """
+    known = np.array(sorted(held), dtype=int)
+    fitted = np.setdiff1d(np.arange(len(A)), known)
+    own = A[np.ix_(fitted, fitted)]
+    C, error = inverse(own), np.array([held[i] for i in known.tolist()])
+    moved = C @ A[np.ix_(fitted, known)]
+    result = np.empty(len(A))
+    result[known] = error
+    result[fitted] = np.maximum(np.diag(C), 0.0) + moved**2 @ error
+    # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
+    result[fitted[np.diag(C @ own) <= _SEEN]] = np.inf
+    return result
 
 
 def apart(

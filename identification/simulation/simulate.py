@@ -10,6 +10,7 @@ import numpy as np
 
 from generator.cli.place import command_line
 from generator.errors import InputError
+from generator.robot.description import Robot
 from identification import corrections
 from identification.drive_train import coupling
 from identification.signals import WRENCH
@@ -22,8 +23,8 @@ from identification.trajectory import Array, Reference, Task, Value
 
 #: Stems of the columns of efforts.
 _EFFORTS = ("tau", "taum", "i")
-#: Times that recorded torques are made from the warmth that they tell.
-_ROUNDS = 30
+#: Part of a torque that is rounding.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -99,11 +100,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     warmth = settings.warmth(t)
     drift = 1 + settings.constant_drift * warmth
     rises = {f"temp{number}": settings.rise * warmth for number in numbers} if "temp" in settings.further else {}
-    true = motor = np.linalg.inv(N).T @ log.tau.T
-    # What is recorded may tell the warmth by which it is recorded; the one follows the other slowly.
-    for _ in range(_ROUNDS if robot.signals.warm_torque else 1):
-        own = corrections.warmth(rises, t, N.T @ (motor / drift), robot, robot.place)
-        motor = corrections.recorded_motor_torques(true, robot, settings.period, own)
+    motor = _recorded(np.linalg.inv(N).T @ log.tau.T, drift, rises, t, settings.period, robot)
     effort = motor.T / constants / drift[:, None]
     late = np.maximum(np.arange(rows) - settings.late(settings.link_delay), 0)
     parts = {
@@ -120,6 +117,25 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     if log.wrench is not None:
         columns |= {name: log.wrench[kept, k] for k, name in enumerate(WRENCH)}
     return columns
+
+
+def _recorded(true: Array, drift: Array, rises: Mapping[str, Array], t: Array, period: float, robot: Robot) -> Array:
+    """Torques of the motors (n x N) as they would be recorded but for a ``drift`` (N) of which the file knows nothing.
+
+    Raises InputError where they heat a motor until its torque constant is none.
+    """
+    N = coupling(robot)
+    motor = corrections.recorded_motor_torques(true, robot, period, None)
+    # What is recorded may tell the warmth by which it is recorded. That of a sample depends on those before it alone:
+    # each round makes one more right at least. A constant that falls is less so in each but the last: none is too warm
+    # before that is.
+    for _ in range(len(t)):
+        before = motor
+        warmth = corrections.warmth(rises, t, N.T @ (before / drift), robot, robot.place)
+        motor = corrections.recorded_motor_torques(true, robot, period, warmth)
+        if np.allclose(motor, before, rtol=_ROUNDING, atol=0.0):
+            break
+    return motor
 
 
 def _effort(machine: Machine) -> str:

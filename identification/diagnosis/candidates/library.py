@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from generator.effects.effect import Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
+from identification.corrections import by_heat
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.likely import BALANCERS
@@ -141,6 +142,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             variable=_variable(effect),
             would_show=_would_show(effect),
             tries=tries,
+            recorded="warmth" in effect.needs and by_heat(scenes[0].robot, k),
             usual=usual,
         )
     ]

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Joint
+from identification.corrections import by_heat
 from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.warming import warm_up_times
@@ -47,7 +48,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         if stated and stated[k]:
             continue
         if any(scene.told(k) for scene in scenes):
-            found.append(_hypothesis(k, joint, "drive's warmth"))
+            found.append(_hypothesis(k, joint, "drive's warmth", recorded=by_heat(robot, k)))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
         usual = max(float(np.sqrt(np.mean(scene.motor_torque(k) ** 2))) for scene in scenes)
