@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
@@ -80,3 +82,26 @@ def test_a_coupled_wrist_is_named(tmp_path: Path) -> None:
     before, after = left(new)
     assert before > 12
     assert after < 8
+
+
+def late(source: Path, folder: Path, seconds: float) -> Path:
+    """The recording with the torques of its motors later by so much."""
+    names = source.open(encoding="utf-8").readline().strip().split(",")
+    columns = np.loadtxt(source, delimiter=",", skiprows=1).T
+    for k in (k for k, name in enumerate(names) if name.startswith(("i", "taum"))):
+        columns[k] = np.interp(columns[0] - seconds, columns[0], columns[k])
+    path = folder / source.name
+    np.savetxt(path, columns.T, "%.10g", delimiter=",", header=",".join(names), comments="")
+    return path
+
+
+def test_late_torques_of_short_runs_are_late_and_nothing_else(tmp_path: Path) -> None:
+    """Rows are too few to fit each motor at every delay, and noise is told from few of them."""
+    run = late(DATA / "tx40" / "run.csv", tmp_path, 0.02)
+    path = tmp_path / "tx40.yaml"
+    path.write_bytes(find_robot("tx40").read_bytes())
+    train, test = (run.with_name(Path(name).name) for name in (TRAIN, TEST))
+    found, _ = diagnosis(path, Request([str(train)], test=[str(test)]))
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", 0)
+    assert one.parameters["torque_delay"].value == pytest.approx(0.02, abs=0.004)
