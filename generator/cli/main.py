@@ -56,8 +56,9 @@ class _Parser(argparse.ArgumentParser):
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command that ``argv`` names (the process's own arguments, if None); returns the exit status."""
     os.environ.setdefault(_THREADS, "1")
-    # What a command leaves goes with the process; Python's last collection would walk all of it first.
-    atexit.register(gc.freeze)
+    if argv is None:
+        # What a command leaves goes with its process; Python's last collection would walk all of it first.
+        atexit.register(gc.freeze)
     try:
         arguments = _parser(commands()).parse_args(argv)
         arguments.command.run(arguments)
