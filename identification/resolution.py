@@ -57,18 +57,21 @@ def steps(x: Array) -> Array:
 
 
 def _step(x: Array) -> float:
-    apart = np.sort(np.abs(np.diff(x)))
-    apart = apart[apart > ARITHMETIC * np.abs(x).max()]
+    least = ARITHMETIC * np.abs(x).max()
+    # Samples that follow each other may all be many steps apart, where the signal is fast; some others are few.
+    apart, gaps = (np.sort(one[one > least]) for one in (np.abs(np.diff(x)), np.diff(np.unique(x))))
     if len(apart) < _COUNT:
         return 0.0
     moves = np.diff(x) != 0
     among = moves[:-3] | moves[1:-2] | moves[2:-1] | moves[3:]
     off = np.abs(off_cubics(x))[among]
     # The smallest differences may be of samples that were interpolated; each may be of several steps.
-    for least, several in product((apart[int(_INTERPOLATED * len(apart))], apart[0]), range(1, _SEVERAL + 1)):
+    smallest = [one[k] for one in (apart, gaps) for k in (int(_INTERPOLATED * len(one)), 0)]
+    for least, several in product(smallest, range(1, _SEVERAL + 1)):
         step = _refined(least / several, apart[apart >= least])
-        if np.quantile(np.abs(apart / step - np.round(apart / step)), _MOST) < _WHOLE:
-            return step if np.mean(off) > _ROUGH * step else 0.0
+        whole = np.quantile(np.abs(apart / step - np.round(apart / step)), _MOST) < _WHOLE
+        if whole and np.mean(off) > _ROUGH * step:
+            return step
     return 0.0
 
 

@@ -43,6 +43,15 @@ def test_steps_are_found_where_there_are_any() -> None:
     assert steps(q) == pytest.approx([0.0, STEP, ratio, 0.0], rel=1e-6)
 
 
+def test_steps_are_found_where_all_samples_that_follow_each_other_are_many_apart() -> None:
+    """Of a motor that turns back at once."""
+    step, t = 2 * np.pi / 32768, np.arange(0, 30, 0.004)
+    q = 40 * np.abs(t % 2 - 1) + 0.5 * np.sin(1.7 * t)
+    rounded = step * np.round(q / step)
+    assert np.abs(np.diff(rounded)).min() > 100 * step
+    assert steps(np.stack([q, rounded, np.round(q, 3)])) == pytest.approx([0.0, step, 1e-3], rel=1e-6)
+
+
 @pytest.mark.parametrize("name", ["kr500", "tx40"])
 def test_motors_take_the_steps_that_coupled_joints_do_not(name: str) -> None:
     """A wrist's joint is a sum of rounded positions, each with steps of its own."""

@@ -210,6 +210,14 @@ class Bank:
         one = self._joints[run][joint]
         return one.numbers, one.white
 
+    def rms(self, variant: Variant, x: Array, joint: int, runs: Sequence[int]) -> float:
+        """Of what coefficients (k) of a variant make on a joint in some runs, white."""
+        parts = []
+        for r in runs:
+            numbers, white = self.white(r, joint)
+            parts.append(x @ white[[numbers.index(number) for number in variant.columns]])
+        return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
+
     def whiten(self, colours: Sequence[Sequence[Colour]]) -> None:
         """Make all rows white, by the colour of each run's joints."""
         self._colours = [list(one) for one in colours]
