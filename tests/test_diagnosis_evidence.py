@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from identification.dataset import load
+from identification.diagnosis.bank import Bank
 from identification.diagnosis.evidence import Weighing
-from identification.diagnosis.hypothesis import ShapeRange
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.prepared import prepared
+from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Selection
-from tests.matrices import hypothesis
+from identification.recipe import Recipe
+from tests.matrices import WHITE, hypothesis
+from tests.recorded import TRUTH, recorded, two_links
 from tests.test_diagnosis_selection import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 
 
@@ -68,3 +77,28 @@ def test_two_common_effects_stand_in_the_place_of_a_rare_one(more: float, found:
     weighing = Weighing(one, TRAIN, VALIDATE, None)
     chosen = Selection(weighing).search([one.variants[2]])
     assert names(chosen) == found
+
+
+def test_an_effect_is_as_large_as_on_the_joints_on_which_it_acts(tmp_path: Path) -> None:
+    """What it makes of another joint, as a wrong ratio does by the positions, leaves its size as it is."""
+    of = two_links(tmp_path)
+    source = recorded(of, TRUTH, 20.0, 200.0, 1).save(tmp_path / "run.csv")
+    run = prepared(load(str(source), of.model.robot, resting=True), Recipe(), of)
+    scene = Scene(run.sampled, of, TRUTH)
+    kink = np.abs(scene.motion.q[1] - scene.motion.q[1].mean())
+
+    def size(part: float) -> float:
+        torque = np.stack([part * kink, kink])
+        mine = replace(run, tau=run.tau + 3.0 * run.decimated(torque))
+        bank = Bank([mine, mine], [scene, replace(scene)])
+        variant = bank.add(
+            Hypothesis("kink", "kink", 2, (Coefficient("kink2", "N m", None, None),), lambda *_: torque[None]), {}
+        )
+        assert variant is not None
+        bank.whiten([[WHITE] * 2] * 2)
+        return Weighing(bank, [0], [1], None).of(variant, []).size
+
+    alone = size(0.0)
+    assert alone > 0.3
+    for part in (0.03, 0.3):
+        assert size(part) == pytest.approx(alone, rel=0.15)

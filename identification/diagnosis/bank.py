@@ -210,13 +210,14 @@ class Bank:
         one = self._joints[run][joint]
         return one.numbers, one.white
 
-    def rms(self, variant: Variant, x: Array, joint: int, runs: Sequence[int]) -> float:
-        """Of what coefficients (k) of a variant make on a joint in some runs, white."""
-        parts = []
+    def power(self, variant: Variant, x: Array, joint: int, runs: Sequence[int]) -> float:
+        """Sum of squares of what coefficients (k) of a variant make on a joint in some runs, white."""
+        result = 0.0
         for r in runs:
             numbers, white = self.white(r, joint)
-            parts.append(x @ white[[numbers.index(number) for number in variant.columns]])
-        return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
+            torque = x @ white[[numbers.index(number) for number in variant.columns]]
+            result += float(torque @ torque)
+        return result
 
     def whiten(self, colours: Sequence[Sequence[Colour]]) -> None:
         """Make all rows white, by the colour of each run's joints."""

@@ -35,8 +35,8 @@ _ALPHA = 1e-3
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
 _FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
-#: Part of an effect's torque on one joint, beside the noise, that it makes on others on which it acts.
-_ACTS = 0.1
+#: A power that is none.
+_TINY = 1e-300
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
@@ -212,7 +212,7 @@ class Weighing:
         p = _chance(drop, variant)
         free = len(x) + variant.hypothesis.free
         bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
-        size = float(np.sqrt(drop / max(self._rows_of(variant, x), 1)))
+        size = self._size(variant, x, drop)
         one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
@@ -238,13 +238,15 @@ class Weighing:
             return replace(one, why_not="its shape is at the end of what was tried")
         return replace(one, passes=True)
 
-    def _rows_of(self, variant: Variant, x: Array) -> int:
-        """Rows of the joints on which coefficients of a variant make a torque beside that which they make on one."""
-        joints = list(variant.joints)
-        if len(joints) > 1:
-            torque = np.array([self.bank.rms(variant, x, j, self.train) for j in joints])
-            joints = [j for j, one in zip(joints, torque, strict=True) if one >= _ACTS * torque.max()]
-        return int(self._rows[joints].sum())
+    def _size(self, variant: Variant, x: Array, drop: float) -> float:
+        """Rms beside the noise's of what lowers the sum of squares, on the joint on which it is the largest: it is
+        shared by the joints as the torque of coefficients x is.
+        """
+        rows = np.maximum(self._rows[list(variant.joints)], 1)
+        if len(rows) == 1:
+            return float(np.sqrt(drop / rows[0]))
+        power = np.array([self.bank.power(variant, x, j, self.train) for j in variant.joints])
+        return float(np.sqrt(np.max(drop * power / max(power.sum(), _TINY) / rows)))
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
         """Without coefficients that only refine, where they explain chance, or more than what they refine.
