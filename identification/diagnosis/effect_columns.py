@@ -46,7 +46,13 @@ class EffectColumns:
         self._step: Any = None
         self._by_count: dict[int, Any] = {}
 
-    def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
+    def from_the_start(self, scene: Scene, shape: Mapping[str, float]) -> Array:
+        """Columns (2 p x n x N), and once more those of drives that are warm all along: what a file's values, which are
+        of another warmth than that at the start, lack everywhere.
+        """
+        return np.concatenate([self(scene, shape), self(scene, shape, warm=True)])
+
+    def __call__(self, scene: Scene, shape: Mapping[str, float], warm: bool = False) -> Array:
         """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
         limits in the robot's file.
         """
@@ -55,7 +61,7 @@ class EffectColumns:
         assert self._function is not None
         values = [shape[name] for name in self._names]
         states = [] if self._step is None else self._states(scene, values)
-        signals = self._signals(scene, shape.get("warm_up_time"))
+        signals = self._signals(scene, shape.get("warm_up_time"), warm)
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
         if self._positive is not None and np.min(self._positive(*values, self._anywhere(motion.q[self._k]))) < _ROOM:
@@ -93,9 +99,10 @@ class EffectColumns:
             return q
         return np.append(q, np.linspace(float(lower), float(upper), _STEPS_OVER))
 
-    def _signals(self, scene: Scene, warm_up_time: float | None) -> list[Array]:
+    def _signals(self, scene: Scene, warm_up_time: float | None, warm: bool) -> list[Array]:
         motion = scene.motion
-        warmth = scene.warmth(self._k, warm_up_time) if "warmth" in self._effect.needs else np.zeros(1)
+        known = "warmth" in self._effect.needs and not warm
+        warmth = scene.warmth(self._k, warm_up_time) if known else np.ones(1)
         load = scene.load[self._k] if "load" in self._effect.needs else np.zeros(1)
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 

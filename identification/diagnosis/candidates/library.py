@@ -33,6 +33,8 @@ _FELT = 0.01
 _WARMING = 0.2
 #: A usual time constant of the warmth [s], by which the runs are judged where the robot's file says nothing of it.
 _WARM_UP = 60.0
+#: Friction whose values of a file may be of a warm drive.
+_RUBBING = frozenset({"viscous_friction", "coulomb_friction"})
 #: Part of the inertia that a joint feels that is its rotor's where the model has no rotors.
 _SHARE = 0.5
 #: What an effect shows in, by what its columns are made of; the first that fits.
@@ -124,6 +126,14 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
         for one in effect.parameters
     )
+    late = (
+        "warmth" in effect.needs
+        and {use.effect for use in scenes[0].robot.effects if joint.number in use.joints} >= _RUBBING
+    )
+    if late:
+        coefficients += tuple(
+            Coefficient(f"{one.stem}_start{joint.number}", one.unit(joint), refines=True) for one in effect.parameters
+        )
     sought = {one.name for one in shapes}
     given = {
         one.name: float(one.default) for one in effect.shapes if one.name not in sought and one.default is not None
@@ -134,7 +144,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             effect.title,
             joint.number,
             coefficients,
-            columns,
+            columns.from_the_start if late else columns,
             shapes=tuple(shapes),
             given=given,
             units={one.name: one.unit_on(joint) for one in effect.shapes},
