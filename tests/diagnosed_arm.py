@@ -17,6 +17,7 @@ from identification.dataset import load
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending import Mended, mended
 from identification.diagnosis.prepared import Prepared, prepared
+from identification.diagnosis.priors import prior_of
 from identification.diagnosis.roles import Roles
 from identification.observation import Regressors
 from identification.report.diagnose.report import report
@@ -90,10 +91,11 @@ def ready(source: str, regressors: Regressors) -> Prepared:
     return prepared(load(source, robot, recipe.columns), recipe, regressors)
 
 
-def diagnosis_of(sources: Sequence[str], regressors: Regressors) -> Diagnosis:
-    """Of runs of which the last one validates and none tests."""
+def diagnosis_of(sources: Sequence[str], regressors: Regressors, known: str | None = None) -> Diagnosis:
+    """Of runs of which the last one validates and none tests; ``known`` is a set of the robot's, or all is fitted."""
     runs = [ready(source, regressors) for source in sources]
-    return diagnose(regressors, runs, Roles(tuple(sources[:-1]), (sources[-1],), (), tuple(sources)))
+    prior = None if known is None else prior_of(regressors.model, known)
+    return diagnose(regressors, runs, Roles(tuple(sources[:-1]), (sources[-1],), (), tuple(sources)), prior)
 
 
 def torque(hidden: str) -> Hidden:
