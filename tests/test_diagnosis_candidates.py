@@ -217,8 +217,9 @@ def test_a_drive_is_as_warm_as_its_recording_has_made_it(known_robots: Callable[
     assert 20 < t[0] < t[-1] < 33
     (friction,) = offered([first, later], "warm_friction", 1)
     shape = friction.variants[0]
-    viscous, _ = friction.columns(later, shape)
+    viscous, _, all_along, _ = friction.columns(later, shape)
     np.testing.assert_allclose(viscous[0], (1 - np.exp(-t / shape["warm_up_time"])) * later.motion.qd[0], atol=1e-9)
+    np.testing.assert_allclose(all_along[0], later.motion.qd[0], atol=1e-9)
     drift, _ = offered([first, later], "torque_drift", 1)
     changing, own = drift.columns(later, {"warm_up_time": 30.0})
     np.testing.assert_allclose(changing[0], (1 - np.exp(-t / 30.0)) * own[0], atol=1e-9)
