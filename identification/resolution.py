@@ -57,16 +57,16 @@ def steps(x: Array) -> Array:
 
 
 def _step(x: Array) -> float:
-    least = ARITHMETIC * np.abs(x).max()
+    arithmetic = ARITHMETIC * np.abs(x).max()
     # Samples that follow each other may all be many steps apart, where the signal is fast; some others are few.
-    apart, gaps = (np.sort(one[one > least]) for one in (np.abs(np.diff(x)), np.diff(np.unique(x))))
+    apart, gaps = (np.sort(one[one > arithmetic]) for one in (np.abs(np.diff(x)), np.diff(np.unique(x))))
     if len(apart) < _COUNT:
         return 0.0
     moves = np.diff(x) != 0
     among = moves[:-3] | moves[1:-2] | moves[2:-1] | moves[3:]
     off = np.abs(off_cubics(x))[among]
     # The smallest differences may be of samples that were interpolated; each may be of several steps.
-    smallest = [one[k] for one in (apart, gaps) for k in (int(_INTERPOLATED * len(one)), 0)]
+    smallest = [one[k] for one in (apart, gaps) if len(one) for k in (int(_INTERPOLATED * len(one)), 0)]
     for least, several in product(smallest, range(1, _SEVERAL + 1)):
         step = _refined(least / several, apart[apart >= least])
         whole = np.quantile(np.abs(apart / step - np.round(apart / step)), _MOST) < _WHOLE

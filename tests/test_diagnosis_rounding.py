@@ -52,6 +52,12 @@ def test_steps_are_found_where_all_samples_that_follow_each_other_are_many_apart
     assert steps(np.stack([q, rounded, np.round(q, 3)])) == pytest.approx([0.0, step, 1e-3], rel=1e-6)
 
 
+def test_no_steps_are_found_in_what_samples_far_from_zero_are_told_to() -> None:
+    """Sorted ones are closer than their arithmetic."""
+    noise = np.random.default_rng(0).random(200000)
+    assert steps((1e6 + 3e-4 * noise)[None]).tolist() == [0.0]
+
+
 @pytest.mark.parametrize("name", ["kr500", "tx40"])
 def test_motors_take_the_steps_that_coupled_joints_do_not(name: str) -> None:
     """A wrist's joint is a sum of rounded positions, each with steps of its own."""

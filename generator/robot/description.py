@@ -78,10 +78,6 @@ class Joint:
         """Of what acts along it."""
         return "N" if self.sigma == PRISMATIC else "N m"
 
-    def motor_unit(self, driven: bool) -> str:
-        """Of what its motor gives: a torque, where gears are between the two, that is, the robot is ``driven``."""
-        return "N m" if driven else self.torque_unit
-
     @property
     def stiffness_unit(self) -> str:
         """Of a spring along it."""

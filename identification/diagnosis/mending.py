@@ -11,7 +11,7 @@ from generator.robot.description import Robot
 from generator.writing import replace
 from identification import recipe as recipes
 from identification.corrections import TooWarm
-from identification.dataset import load
+from identification.dataset import Run, load
 from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
@@ -111,10 +111,10 @@ def possible(text: str, roles: Roles, additions: Sequence[Addition], file: str) 
     """The additions without drifts by which some run's torque constant would be none, and what is to be told."""
     kept, notes = list(additions), list[str]()
     while any(one.effect == "torque_drift" for one in kept):
-        robot = repaired(text, file, kept).robot
         try:
-            for source in (*roles.known, *roles.test):
-                load(source, robot, recipes.recipe_of(robot.name).columns, resting=True)
+            # What can be read is not too warm.
+            for _ in _loaded((*roles.known, *roles.test), repaired(text, file, kept).robot):
+                pass
             break
         except TooWarm as error:
             kept = [one for one in kept if one.effect != "torque_drift" or error.joint not in one.joints]
@@ -162,9 +162,14 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
 def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
     """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
     robot = regressors.model.robot
-    recipe = recipes.recipe_of(robot.name)
+    for run in _loaded(sources, robot):
+        yield prepared(run, recipes.recipe_of(robot.name), regressors)
+
+
+def _loaded(sources: Sequence[str], robot: Robot) -> Iterator[Run]:
+    columns = recipes.recipe_of(robot.name).columns
     for source in sources:
-        yield prepared(load(source, robot, recipe.columns, resting=True), recipe, regressors)
+        yield load(source, robot, columns, resting=True)
 
 
 def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:

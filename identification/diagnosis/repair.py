@@ -14,12 +14,13 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
+from generator.robot.signal_units import signal_unit
 from identification.corrections import NEVER, by_time
 from identification.diagnosis.addition import Addition
 from identification.diagnosis.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
-#: What a correction is where the file says nothing, and its unit where that is the same on all joints.
+#: What a correction is where the file says nothing.
 _NEUTRAL = {
     "position_offset": 0.0,
     "torque_gain": 1.0,
@@ -30,15 +31,10 @@ _NEUTRAL = {
     "warm_rise": NEVER,
     "warm_torque": NEVER,
 }
-_UNITS = {
-    "torque_delay": "s",
-    "link_delay": "s",
-    "current_limit": "A",
-    "warm_up_time": "s",
-    "warm_rise": "K",
-}
+#: What tells a drive's warmth.
+_WARMTH = ("warm_up_time", "warm_rise", "warm_torque")
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
-_REPLACING = ("current_limit", "warm_up_time", "warm_rise", "warm_torque")
+_REPLACING = ("current_limit", *_WARMTH)
 
 _ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
 _PRODUCT = re.compile(r"-?[\w./*]+\Z", re.ASCII)
@@ -103,7 +99,7 @@ def _of_one_warmth(additions: Sequence[Addition], robot: Robot) -> list[str]:
 
 
 def _as_written(one: Addition, robot: Robot, k: int) -> bool:
-    for key in ("warm_up_time", "warm_rise", "warm_torque"):
+    for key in _WARMTH:
         told: Sequence[sympy.Expr] = getattr(robot.signals, key)
         if _number(one.values.get(key, NEVER)) != _number(float(told[k]) if told else NEVER):
             return False
@@ -119,7 +115,7 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
         return text, notes
     if "warm_up_time" in one.values:
         cold = [j.number for k, j in enumerate(robot.moving) if j.number in new and not by_time(robot, k)]
-        text = _with_signal(text, robot, "warm_up_time", one.values["warm_up_time"], cold)
+        text = _with_signal(text, robot, "warm_up_time", one.values["warm_up_time"], cold) if cold else text
     where = f"joint: {new[0]}" if len(new) == 1 else f"joints: [{', '.join(map(str, new))}]"
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
@@ -155,17 +151,9 @@ def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequen
     for k, joint in enumerate(robot.moving):
         if joint.number in joints:
             now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
-    units = [_signal_unit(key, joint, robot.drives is not None) for joint in robot.moving]
-    written = [f"{_number(x)}{f' {unit}' if unit else ''}" for x, unit in zip(now, units, strict=True)]
+    units = [signal_unit(key, joint, robot.drives is not None) for joint in robot.moving]
+    written = [_number(x) if unit == "1" else f"{_number(x)} {unit}" for x, unit in zip(now, units, strict=True)]
     return with_value(text, ("signals", key), f"[{', '.join(written)}]")
-
-
-def _signal_unit(key: str, joint: Joint, driven: bool) -> str:
-    if key == "position_offset":
-        return joint.position_unit
-    if key == "warm_torque":
-        return joint.motor_unit(driven)
-    return _UNITS.get(key, "")
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:

@@ -61,10 +61,8 @@ def deviations(
     T *= units
     A = T.T @ normal.whole @ T
     told = [one.hypothesis.held.get(each.name) for one in found.variants for each in one.coefficients]
-    std = (
-        variances(A, {i: (one.std / units[i]) ** 2 for i, one in enumerate(told, base) if one is not None}) ** 0.5
-        * units
-    )
+    held = {i: (one.std / units[i]) ** 2 for i, one in enumerate(told, base) if one is not None}
+    std = np.sqrt(variances(A, held)) * units
     shapes: dict[int, dict[str, float]] = {}
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import sympy
 
@@ -10,6 +10,7 @@ from generator.errors import InputError, Place
 from generator.robot import fields
 from generator.robot.description import FIXED, Joint, Signals
 from generator.robot.document import Entry, Items, Node
+from generator.robot.signal_units import signal_unit
 
 #: A value beyond this is a mistake of its unit: no drive answers so late, and rms for peak current, or one motor of
 #: two, makes less of a difference.
@@ -22,7 +23,7 @@ Check = Callable[[Place, str, sympy.Expr, str], None]
 def signals(entry: Entry | None, joints: Sequence[Joint], driven: bool) -> Signals:
     """The corrections of recorded signals: a list with one value per moving joint, or one value for all of them.
 
-    ``driven`` tells whether the robot has drives; without, the motor of a slide gives a force.
+    ``driven`` tells whether the robot has drives.
 
     Raises InputError for another number of values, another unit, a delay over 0.1 s, one of link-side positions that is
     negative, a gain that is not between 0.3 and 3, a limit, time, rise or torque that is not positive.
@@ -30,32 +31,17 @@ def signals(entry: Entry | None, joints: Sequence[Joint], driven: bool) -> Signa
     if entry is None:
         return Signals()
     moving = [joint for joint in joints if joint.sigma != FIXED]
-    position = [joint.position_unit for joint in moving]
-    torque = [joint.motor_unit(driven) for joint in moving]
-    kinds: dict[str, tuple[Sequence[str], Check]] = {
-        "position_offset": (position, _any),
-        "torque_gain": (["1"] * len(moving), _gain),
-        "torque_delay": (["s"] * len(moving), _either_way),
-        "link_delay": (["s"] * len(moving), _delay),
-        "current_limit": (["A"] * len(moving), _positive("current")),
-        "warm_up_time": (["s"] * len(moving), _positive("time")),
-        "warm_rise": (["K"] * len(moving), _positive("rise of temperature")),
-        "warm_torque": (torque, _positive("torque")),
-    }
-    keys = fields.table(entry.value, "signals", (), tuple(kinds))
-    found = {key: _values(one.value, key, moving, *kinds[key]) for key, one in keys.items()}
-    return Signals(**found)
+    keys = fields.table(entry.value, "signals", (), tuple(_CHECKS))
+    return Signals(**{key: _values(one.value, key, moving, driven) for key, one in keys.items()})
 
 
-def _values(
-    node: Node, key: str, moving: Sequence[Joint], units: Sequence[str], check: Check
-) -> tuple[sympy.Expr, ...]:
+def _values(node: Node, key: str, moving: Sequence[Joint], driven: bool) -> tuple[sympy.Expr, ...]:
     nodes = fields.items(node, key, len(moving)) if isinstance(node, Items) else (node,) * len(moving)
     result = []
-    for joint, item, unit in zip(moving, nodes, units, strict=True):
-        what = f"{key} of joint {joint.number}"
+    for joint, item in zip(moving, nodes, strict=True):
+        what, unit = f"{key} of joint {joint.number}", signal_unit(key, joint, driven)
         value = fields.number(item, what) if unit == "1" else fields.quantity(item, what, unit).value
-        check(item.place, what, value, unit)
+        _CHECKS[key](item.place, what, value, unit)
         result.append(value)
     return tuple(result)
 
@@ -85,3 +71,15 @@ def _positive(expected: str) -> Check:
             raise InputError(place, f"{what} is {float(value):g} {unit}", f"a positive {expected}")
 
     return check
+
+
+_CHECKS: Mapping[str, Check] = {
+    "position_offset": _any,
+    "torque_gain": _gain,
+    "torque_delay": _either_way,
+    "link_delay": _delay,
+    "current_limit": _positive("current"),
+    "warm_up_time": _positive("time"),
+    "warm_rise": _positive("rise of temperature"),
+    "warm_torque": _positive("torque"),
+}

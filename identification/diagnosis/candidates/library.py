@@ -66,7 +66,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
-    there = [use.effect for use in robot.effects if joint.number in use.joints]
+    there = _there(joint, robot)
     if effect.id in there or joint.sigma not in effect.kinds or not set(effect.needs) <= NEEDS:
         return False
     if "motor" in effect.needs and robot.drives is None:
@@ -74,6 +74,11 @@ def _possible(effect: Effect, joint: Joint, robot: Robot) -> bool:
     if any(not shape.tried and shape.default is None for shape in effect.shapes):
         return False
     return not (effect.observables and any(library()[one].observables for one in there))
+
+
+def _there(joint: Joint, robot: Robot) -> set[str]:
+    """Ids of the effects that a joint has."""
+    return {use.effect for use in robot.effects if joint.number in use.joints}
 
 
 def _shoulders(swing: Array) -> set[int]:
@@ -126,11 +131,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
         for one in effect.parameters
     )
-    late = (
-        "warmth" in effect.needs
-        and {use.effect for use in scenes[0].robot.effects if joint.number in use.joints} >= _RUBBING
-    )
-    if late:
+    from_the_start = "warmth" in effect.needs and _there(joint, scenes[0].robot) >= _RUBBING
+    if from_the_start:
         coefficients += tuple(
             Coefficient(f"{one.stem}_start{joint.number}", one.unit(joint), refines=True) for one in effect.parameters
         )
@@ -144,7 +146,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             effect.title,
             joint.number,
             coefficients,
-            columns.from_the_start if late else columns,
+            columns.from_the_start if from_the_start else columns,
             shapes=tuple(shapes),
             given=given,
             units={one.name: one.unit_on(joint) for one in effect.shapes},
