@@ -42,8 +42,8 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
     ``warm_torque``, or 1 - exp(-t/warm_up_time). A drive of which nothing tells, and on whose warmth nothing depends,
     has rows that are no numbers.
 
-    Raises InputError where an effect or a torque constant depends on it and nothing says it, and TooWarm where a
-    drive is so warm that its motor's torque constant would be none.
+    Raises Untold where an effect or a torque constant depends on it and nothing says it, and TooWarm where a drive is
+    so warm that its motor's torque constant would be none.
     """
     signals, needed = robot.signals, _warm_joints(robot)
     motor, found = motor_torques(robot, tau), []
@@ -56,10 +56,7 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
         elif by_time(robot, k):
             found.append(warming_up(t, float(signals.warm_up_time[k])))
         elif joint.number in needed:
-            problem = f"nothing says how warm the drive of joint {joint.number} is, on which torques depend"
-            ways = [f"a column temp{joint.number}", "warm_up_time in section signals of the robot file"]
-            expected = ", or ".join(ways if whole < NEVER else [ways[1], f"warm_rise there and {ways[0]}"])
-            raise InputError(place, problem, expected)
+            raise Untold(joint.number, place, whole < NEVER)
         else:
             found.append(np.full(len(t), np.nan))
     for k, part in _drifting(robot):
@@ -77,6 +74,19 @@ def by_heat(robot: Robot, k: int) -> bool:
     """Whether that is a time constant by which the recorded torque of its motor heats it."""
     torque = robot.signals.warm_torque
     return bool(by_time(robot, k) and torque and torque[k] < NEVER)
+
+
+class Untold(InputError):
+    """Nothing says how warm the drive of ``joint`` (number) is: no temperature does, where one ``could``."""
+
+    def __init__(self, joint: int, place: Place, could: bool) -> None:
+        ways = [f"a column temp{joint}", "warm_up_time in section signals of the robot file"]
+        super().__init__(
+            place,
+            f"nothing says how warm the drive of joint {joint} is, on which torques depend",
+            ", or ".join(ways if could else [ways[1], f"warm_rise there and {ways[0]}"]),
+        )
+        self.joint = joint
 
 
 class TooWarm(InputError):

@@ -17,7 +17,7 @@ from identification.diagnosis.scene import Scene
 from identification.diagnosis.selection import Selection
 from identification.recipe import Recipe
 from tests.matrices import WHITE, hypothesis
-from tests.recorded import TRUTH, recorded, two_links
+from tests.recorded import TRUTH, Array, recorded, two_links
 from tests.test_diagnosis_selection import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 
 
@@ -96,9 +96,30 @@ def test_an_effect_is_as_large_as_on_the_joints_on_which_it_acts(tmp_path: Path)
         )
         assert variant is not None
         bank.whiten([[WHITE] * 2] * 2)
-        return Weighing(bank, [0], [1], None).of(variant, []).size
+        found = Weighing(bank, [0], [1], None).of(variant, [])
+        left = np.array([one @ one for one in beside_the_model(bank, found.coefficients[0])])
+        own = left[list(variant.joints)]
+        sizes = np.sqrt(left.sum() * own / own.sum() / bank.rows(0)[list(variant.joints)])
+        assert [found.sizes[k] for k in variant.joints] == pytest.approx(sizes.tolist(), rel=0.01)
+        return found.size
 
     alone = size(0.0)
     assert alone > 0.3
-    for part in (0.03, 0.3):
-        assert size(part) == pytest.approx(alone, rel=0.15)
+    assert size(0.03) == pytest.approx(alone, rel=0.15)
+    # Of what joint 1 has of it the model takes up the less.
+    assert size(0.3) < alone
+
+
+def beside_the_model(bank: Bank, value: float) -> list[Array]:
+    """Of the first run's joints, what least squares over the base columns leave of the last column times a value."""
+    rows = []
+    for k in range(bank.dof):
+        numbers, white = bank.white(0, k)
+        of = np.zeros((bank.count, white.shape[1]))
+        of[numbers] = white[:-1]
+        rows.append(of)
+    W = np.concatenate(rows, axis=1)
+    size = np.linalg.norm(W[:-1], axis=1)
+    A = (W[:-1] / np.where(size > 0, size, 1.0)[:, None]).T
+    left = value * (W[-1] - A @ np.linalg.lstsq(A, W[-1], rcond=1e-5)[0])
+    return np.split(left, [rows[0].shape[1]])

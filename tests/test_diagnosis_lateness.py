@@ -95,7 +95,7 @@ def profile(delay: float, depth: float) -> Lateness:
     """Of 1000 rows of noise and of a torque that swings by ``depth`` of its power, late by ``delay``."""
     delays = 0.001 * np.arange(-30, 31)
     left = 1000.0 * (1 + depth * (1 - np.cos(2 * np.pi * SWING * (delays - delay))))
-    return Lateness(delays, (), np.empty((0, len(delays))), left, 1000)
+    return Lateness(delays, (), np.empty((0, len(delays))), left, 1000, 1.0)
 
 
 def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
@@ -124,10 +124,10 @@ def test_of_delays_a_period_apart_that_leave_the_same_it_is_the_shortest() -> No
     delays = 0.001 * np.arange(-100, 101)
     swing = 1 + 3.0 * (1 - np.cos(2 * np.pi * SWING * (delays - 0.016)))
     far = np.exp(-0.05 * (delays < -0.02))
-    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far, 1000)])
+    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far, 1000, 1.0)])
     assert found is not None
     assert found.value == pytest.approx(0.016, abs=1e-3)
-    clear = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far**10, 1000)])
+    clear = delay_of([Lateness(delays, (), np.empty((0, len(delays))), swing * far**10, 1000, 1.0)])
     assert clear is not None
     assert clear.value == pytest.approx(0.016 - 1 / SWING, abs=1e-3)
 
@@ -136,7 +136,7 @@ def test_of_few_rows_a_ripple_near_none_hides_no_delay() -> None:
     """The square root of 150 rows, four times, is more than a delay must leave."""
     delays = 0.001 * np.arange(-30, 31)
     valley = 1 - 0.27 * np.exp(-(((delays - 0.012) / 0.004) ** 2)) - 0.01 * np.exp(-((delays / 0.001) ** 2))
-    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), valley, 150)])
+    found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), valley, 150, 1.0)])
     assert found is not None
     assert found.value == pytest.approx(0.012, abs=5e-4)
 

@@ -165,9 +165,8 @@ def test_the_torque_constant_drifts_from_where_it_starts() -> None:
     assert [float(part) for part in found.robot.drives.torque_drift] == [0, -0.06, 0, 0, 0, 0]
     assert [float(one) for one in found.robot.signals.torque_gain] == [1, 1.02, 1, 1, 1, 1]
     assert [float(one) for one in found.robot.signals.warm_up_time] == [NEVER, 30, NEVER, NEVER, NEVER, NEVER]
-    refused = repair("emps", Addition(DRIVE, "torque_drift", (1,), {"torque_drift": -0.06}))
-    assert refused.text == text_of("emps")
-    assert "cannot be written: emps has no drives" in refused.notes[0]
+    with pytest.raises(InputError, match="emps has no drives, expected drives in the robot file"):
+        repair("emps", Addition(DRIVE, "torque_drift", (1,), {"torque_drift": -0.06}))
 
 
 @pytest.mark.parametrize("name", ["kr500", "tilted_two_link"])

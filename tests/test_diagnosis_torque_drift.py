@@ -22,7 +22,6 @@ from identification.diagnosis.diagnosis import diagnose
 from identification.diagnosis.hypothesis import DRIVE, EFFECT, Hypothesis
 from identification.diagnosis.loop import search
 from identification.diagnosis.may_act import without_record
-from identification.diagnosis.mending import possible
 from identification.diagnosis.played import Player, play
 from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.refit import refit
@@ -31,6 +30,7 @@ from identification.diagnosis.results import document
 from identification.diagnosis.roles import Roles
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.trial import along
+from identification.diagnosis.writable import writable
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -217,12 +217,12 @@ def test_a_drift_by_which_a_run_has_no_torque_constant_is_told_and_not_written(t
         Addition(DRIVE, "torque_drift", (joint,), {**values, "warm_torque": usual})
         for joint, usual in ((1, 1e3), (2, 0.1))
     )
-    kept, said = possible(TWO_LINKS, roles, [first, second], "x")
+    kept, said = writable(TWO_LINKS, "x", [first, second], roles, [])
     assert kept == [first]
     (note,) = said
     assert "torque constant of joint 2 is not written" in note
     assert "warmth of " in note
-    assert possible(TWO_LINKS, roles, [first], "x") == ([first], [])
+    assert writable(TWO_LINKS, "x", [first], roles, []) == ([first], [])
 
 
 def test_heat_that_is_of_the_record_tells_nothing_of_its_noise(tmp_path: Path) -> None:

@@ -210,12 +210,13 @@ class Bank:
         one = self._joints[run][joint]
         return one.numbers, one.white
 
-    def power(self, variant: Variant, x: Array, joint: int, runs: Sequence[int]) -> float:
-        """Sum of squares of what coefficients (k) of a variant make on a joint in some runs, white."""
+    def power(self, weights: Mapping[int, float], joint: int, runs: Sequence[int]) -> float:
+        """Sum of squares of what columns by number, times their ``weights``, make on a joint in some runs, white."""
         result = 0.0
         for r in runs:
             numbers, white = self.white(r, joint)
-            torque = x @ white[[numbers.index(number) for number in variant.columns]]
+            at = np.flatnonzero(np.isin(numbers, [*weights]))
+            torque = np.array([weights[numbers[i]] for i in at.tolist()]) @ white[at]
             result += float(torque @ torque)
         return result
 

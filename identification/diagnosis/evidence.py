@@ -15,13 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from identification.diagnosis import known_friction
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.held_out import HeldOut
 from identification.diagnosis.hypothesis import Hypothesis
 from identification.diagnosis.lacking import lacking
 from identification.diagnosis.likely import common, likely
-from identification.diagnosis.normal import Normal, Prior, inverse, told_apart
+from identification.diagnosis.normal import Normal, Places, Prior, inverse, told_apart
 
 Array = NDArray[np.float64]
 #: Effect and joint.
@@ -55,7 +56,10 @@ _SHAPES, _NEAR = 6, 0.03
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation."""
+    """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation.
+
+    ``sizes`` are the rms beside the noise's, by the coordinate on which it acts.
+    """
 
     variant: Variant
     coefficients: Array
@@ -63,7 +67,7 @@ class Evidence:
     p: float
     bic: float
     validation: float
-    size: float
+    sizes: Mapping[int, float]
     passes: bool
     why_not: str = ""
 
@@ -71,6 +75,16 @@ class Evidence:
     def score(self) -> float:
         """Rank: information criterion and held-out drop together."""
         return self.bic + self.validation
+
+    @property
+    def place(self) -> int:
+        """The coordinate on which it is the largest."""
+        return max(self.sizes, key=lambda k: self.sizes[k])
+
+    @property
+    def size(self) -> float:
+        """Rms beside the noise's on that coordinate."""
+        return self.sizes[self.place]
 
 
 class Weighing:
@@ -92,6 +106,7 @@ class Weighing:
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
+        self._friction = known_friction.friction(bank.scenes[0].robot, bank.base)
         self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
@@ -212,12 +227,13 @@ class Weighing:
         p = _chance(drop, variant)
         free = len(x) + variant.hypothesis.free
         bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
-        size = self._size(variant, x, drop)
-        one = Evidence(variant, x, drop, p, bic, 0.0, size, False)
+        one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
+        if not self._beyond_friction(drop, variant, others):
+            return replace(one, why_not="what it explains is another value of friction that is known")
         true = self._without_position_noise(variant, others)
         if true < _TRUE * drop or _chance(true, variant) * self._tried > _ALPHA:
             return replace(one, why_not="what it explains is noise of the positions")
@@ -228,7 +244,7 @@ class Weighing:
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
-        if size < floor:
+        if one.size < floor:
             return replace(one, why_not="smaller than what is named")
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
@@ -238,15 +254,24 @@ class Weighing:
             return replace(one, why_not="its shape is at the end of what was tried")
         return replace(one, passes=True)
 
-    def _size(self, variant: Variant, x: Array, drop: float) -> float:
-        """Rms beside the noise's of what lowers the sum of squares, on the joint on which it is the largest: it is
-        shared by the joints as the torque of coefficients x is.
+    def _sizes(self, drop: float, variant: Variant, x: Array, others: Sequence[Variant]) -> dict[int, float]:
+        """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as
+        that is which the model and ``others`` leave of the torque of coefficients x.
         """
-        rows = np.maximum(self._rows[list(variant.joints)], 1)
+        rows = {k: max(self._rows[k], 1) for k in variant.joints}
         if len(rows) == 1:
-            return float(np.sqrt(drop / rows[0]))
-        power = np.array([self.bank.power(variant, x, j, self.train) for j in variant.joints])
-        return float(np.sqrt(np.max(drop * power / max(power.sum(), _TINY) / rows)))
+            return {k: float(np.sqrt(drop / count)) for k, count in rows.items()}
+        beside, inverted = self._fitted_beside(others)
+        taken = inverted @ (self.normal.whole[np.ix_(beside, np.array(variant.columns, dtype=int))] @ x)
+        weights = dict(zip((*variant.columns, *beside.tolist()), (*x.tolist(), *-taken), strict=True))
+        power = {k: self.bank.power(weights, k, self.train) for k in rows}
+        whole = max(sum(power.values()), _TINY)
+        return {k: float(np.sqrt(drop * power[k] / whole / count)) for k, count in rows.items()}
+
+    def _fitted_beside(self, others: Sequence[Variant]) -> tuple[Places, Array]:
+        """The columns that are fitted beside a variant, by number, and the inverse of their products."""
+        beside, _, _ = told_apart([*range(self.normal.base), *columns_of(others)], self.normal.held)
+        return beside, inverse(self.normal.whole[np.ix_(beside, beside)])
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
         """Without coefficients that only refine, where they explain chance, or more than what they refine.
@@ -271,6 +296,16 @@ class Weighing:
         count = len(variant.columns) - len(rest)
         return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
 
+    def _beyond_friction(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
+        is known.
+        """
+        if self._prior is None:
+            return True
+        less, same = known_friction.explained(self.normal, variant.columns, columns_of(others), self._friction)
+        count = len(variant.columns) - same
+        return not same or (count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
+
     def _without_position_noise(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What a variant explains beside others without what noise of the positions makes it explain."""
         part = self.normal.part(variant.columns, columns_of(others))
@@ -284,10 +319,11 @@ class Weighing:
         """
         if self._pretence.nothing:
             return np.zeros(len(variant.columns))
-        every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
-        beside, _, _ = told_apart(every, self.normal.held)
-        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)[np.isin(every, beside)]
-        return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
+        every = [*range(self.normal.base), *columns_of(others)]
+        beside, inverted = self._fitted_beside(others)
+        explained = inverted @ self._pretence.beside(others)[np.isin(every, beside)]
+        across = self.normal.whole[np.ix_(np.array(variant.columns), beside)]
+        return np.asarray(self._pretence.of(variant) - across @ explained)
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
         """What each of the chosen explains beside the rest of them."""

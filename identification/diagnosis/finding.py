@@ -206,7 +206,9 @@ def findings(
         )
     pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    told = _beside_any_torque([_doubted(one, left, several) for one in result])
+    moving = found.bank.scenes[0].robot.moving
+    remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
+    told = _beside_any_torque([_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
@@ -230,13 +232,12 @@ def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     ]
 
 
-def _doubted(one: Finding, left: Mapping[int, float], several: Collection[int]) -> Finding:
-    """Tentative where its torque is known and its law is not: it leaves too much of it, it is one of ``several``
-    springs on a joint, or the runs do not tell the values that make it a balancer or a payload and not any torque.
+def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
+    """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
+    it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
+    balancer or a payload and not any torque.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
-    most = max(one.joints, key=lambda number: one.amplitude.get(number, 0.0))
-    remains = left.get(most, 0.0) / one.evidence.size
     any_torque = effect in SPRINGS and (
         remains > _PULLED or not set(one.joints).isdisjoint(several) or any(map(_vague, one.main))
     )

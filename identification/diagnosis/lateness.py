@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from identification.colour import inflation
 from identification.diagnosis.bank import base_rows
 from identification.diagnosis.prepared import window, windowed
 from identification.diagnosis.scene import Scene
@@ -43,7 +44,8 @@ _ROUNDING = 1e-12
 @dataclass(frozen=True)
 class Lateness:
     """Of one motor's ``rows``: ``values`` (p x D) of the base parameters ``names``, and the sums of squares ``left``
-    (D), where its torque is late by ``delays`` [s] (D).
+    (D), where its torque is late by ``delays`` [s] (D). What the best one leaves tells of it as white rows would of
+    ``colour`` times the variance.
     """
 
     delays: Array
@@ -51,6 +53,7 @@ class Lateness:
     values: Array
     left: Array
     rows: int
+    colour: float
 
     @property
     def cost(self) -> Array:
@@ -80,13 +83,14 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
-    squares = np.sum([one.rows * one.left / one.left[least] for one in known], axis=0)
-    before, here, after = squares[least - 1 : least + 2]
-    bend, step = before - 2 * here + after, delays[1] - delays[0]
-    if not bend > 0:
+    bends = np.array([one.rows * np.diff(one.left[least - 1 : least + 2], 2)[0] / one.left[least] for one in known])
+    step = delays[1] - delays[0]
+    if not bends.sum() > 0:
         return None
-    delay = delays[least] + step * (before - after) / (2 * bend)
-    return Value(float(delay - start), float(step * np.hypot(np.sqrt(2 / bend), _TOLD)), "s")
+    before, after = np.sum([one.rows * one.left[[least - 1, least + 1]] / one.left[least] for one in known], axis=0)
+    delay = delays[least] + step * (before - after) / (2 * bends.sum())
+    variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
+    return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
 
 
 def _nearest(beyond: Array, cost: Array, rows: int) -> int:
@@ -136,9 +140,10 @@ def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:
     parts = right[seen] @ Y.T
     solution = (left[:, seen] / values[seen]) @ parts / size[:, None]
     power = np.sum(Y**2, axis=1)
-    return Lateness(
-        delays, names, solution, np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max()), count
-    )
+    squares = np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max())
+    best = int(np.argmin(squares))
+    colour = inflation(Y[best] - parts[:, best] @ right[seen])
+    return Lateness(delays, names, solution, squares, count, colour)
 
 
 class _Run:

@@ -10,8 +10,6 @@ from generator.generation import Stage, silent
 from generator.robot.description import Robot
 from generator.writing import replace
 from identification import recipe as recipes
-from identification.corrections import TooWarm
-from identification.dataset import Run, load
 from identification.diagnosis.addition import Addition, addition, measured
 from identification.diagnosis.changes import difference, groupings_difference
 from identification.diagnosis.diagnosis import Diagnosis
@@ -25,9 +23,9 @@ from identification.diagnosis.prepared import Prepared, prepared
 from identification.diagnosis.priors import preferring, prior_of
 from identification.diagnosis.refit import SET, Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
-from identification.diagnosis.roles import Roles
 from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.untouched import objections, untouched
+from identification.diagnosis.writable import loaded, writable
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
@@ -67,14 +65,16 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """
     name = f"{found.robot.name}.yaml"
     old_text = path.read_text(encoding="utf-8-sig")
-    aside = measured(found.found.offered)
-    additions, cold = possible(old_text, found.roles, [*map(_addition, found.findings), *aside], name)
+    bank, aside = found.found.bank, measured(found.found.offered)
+    wanted = [*map(_addition, found.findings)]
+    additions, unwritten = writable(old_text, name, [*wanted, *aside], found.roles, bank.scenes)
     new = repaired(old_text, name, additions)
-    old_regressors = found.found.bank.scenes[0].regressors
+    written = [finding for finding, one in zip(found.findings, wanted, strict=True) if one in additions]
+    old_regressors = bank.scenes[0].regressors
     regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
-        known = None if prior is None else _prior(prior, regressors, found.findings)
-        said, unused = _description(found.findings), _unused(found.findings)
+        known = None if prior is None else _prior(prior, regressors, written)
+        said, unused = _description(written), _unused(written)
         fit = refit(_sampled(found.roles.known, regressors), regressors, known, said, unused)
         if prior is None:
             values = refit(_sampled(found.roles.known, old_regressors), old_regressors).written
@@ -90,7 +90,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
-    against = objections(untouched(found.found.bank, before, after), elastic)
+    against = objections(untouched(bank, before, after), elastic)
     return Mended(
         text,
         new.robot,
@@ -102,24 +102,11 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         groupings_difference(old_regressors.model, regressors.model),
         Path(GENERATED, found.robot.name),
         tuple(
-            dict.fromkeys((*(one.evidence for one in aside), *cold, *new.notes, *fit.notes, *sets, *notes, *against))
+            dict.fromkeys(
+                (*(one.evidence for one in aside), *unwritten, *new.notes, *fit.notes, *sets, *notes, *against)
+            )
         ),
     )
-
-
-def possible(text: str, roles: Roles, additions: Sequence[Addition], file: str) -> tuple[list[Addition], list[str]]:
-    """The additions without drifts by which some run's torque constant would be none, and what is to be told."""
-    kept, notes = list(additions), list[str]()
-    while any(one.effect == "torque_drift" for one in kept):
-        try:
-            # What can be read is not too warm.
-            for _ in _loaded((*roles.known, *roles.test), repaired(text, file, kept).robot):
-                pass
-            break
-        except TooWarm as error:
-            kept = [one for one in kept if one.effect != "torque_drift" or error.joint not in one.joints]
-            notes.append(f"the drift of the torque constant of joint {error.joint} is not written: {error}")
-    return kept, notes
 
 
 def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
@@ -162,14 +149,8 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
 def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
     """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
     robot = regressors.model.robot
-    for run in _loaded(sources, robot):
+    for run in loaded(sources, robot):
         yield prepared(run, recipes.recipe_of(robot.name), regressors)
-
-
-def _loaded(sources: Sequence[str], robot: Robot) -> Iterator[Run]:
-    columns = recipes.recipe_of(robot.name).columns
-    for source in sources:
-        yield load(source, robot, columns, resting=True)
 
 
 def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from generator.effects.effect import Effect
 from generator.effects.library import library
+from generator.errors import InputError
 from generator.robot.description import Joint, Robot
 from generator.robot.signal_units import signal_unit
 from identification.corrections import NEVER, by_time
@@ -54,7 +55,7 @@ def repaired(text: str, file: str, additions: Sequence[Addition]) -> Repaired:
 
     ``file`` is its name in messages. An effect that a joint has already is left as it is, and told.
 
-    Raises InputError where the text is no robot file, before or after.
+    Raises InputError where the text is no robot file, before or after, and for what needs drives that it lacks.
     """
     notes: list[str] = []
     for one in _grouped(additions, robot_of(text, file)):
@@ -88,9 +89,9 @@ def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
 def _of_one_warmth(additions: Sequence[Addition], robot: Robot) -> list[str]:
     """Of what was found by another warmth of a drive than the one that is written."""
     notes = []
-    for one in additions:
+    for one in (each for each in additions if each.kind != SIGNAL and "warm_up_time" in each.values):
         for k, joint in enumerate(robot.moving):
-            if joint.number in one.joints and "warm_up_time" in one.values and not _as_written(one, robot, k):
+            if joint.number in one.joints and not _as_written(one, robot, k):
                 notes.append(
                     f"{one.effect} of joint {joint.number} was found by another warmth than section signals now tells: "
                     "a drive has one, and something else of this joint goes by that"
@@ -160,7 +161,7 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     drives = robot.drives
     if drives is None or (one.effect == "torque_drift" and not drives.torque_constants):
         lack = "drives" if drives is None else "torque constants"
-        return text, [f"{one.effect} cannot be written: {robot.name} has no {lack}"]
+        raise InputError(robot.place, f"{robot.name} has no {lack}", f"{lack} in the robot file")
     if one.effect == "gear_ratio":
         for number in one.joints:
             text = _with_ratio(text, robot, number, one.values["gear_ratio"])

@@ -20,7 +20,7 @@ from generator.robot.description import Joint
 from identification.corrections import by_heat
 from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.warming import warm_up_times
+from identification.diagnosis.warming import following, warm_up_times
 from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
@@ -30,8 +30,6 @@ _LARGEST = 0.6
 _DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
 _RISE = 2.0
-#: Time constants that are held against a temperature.
-_TIMES = 60
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -54,12 +52,12 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         usual = max(float(np.sqrt(np.mean(scene.motor_torque(k) ** 2))) for scene in scenes)
         if usual > 0:
             found.append(_hypothesis(k, joint, "motor's heat", (_exactly("warm_torque", "N m", usual), time), True))
-        if temperature := _temperature(k, scenes, time):
+        if temperature := _temperature(k, scenes):
             found.append(_hypothesis(k, joint, "drive's temperature", temperature))
     return found
 
 
-def _temperature(k: int, scenes: Sequence[Scene], time: ShapeRange) -> tuple[ShapeRange, ...]:
+def _temperature(k: int, scenes: Sequence[Scene]) -> tuple[ShapeRange, ...]:
     """The rise that counts as warm, and the time constant that follows the temperature best, by which the file tells
     the warmth in runs without one; none where a run has none, or nothing has got warm.
     """
@@ -67,12 +65,7 @@ def _temperature(k: int, scenes: Sequence[Scene], time: ShapeRange) -> tuple[Sha
     whole = max((float(rise.max()) for rise in rises), default=0.0)
     if len(rises) < len(scenes) or whole <= _RISE:
         return ()
-
-    def off(T: float) -> float:
-        pairs = zip(scenes, rises, strict=True)
-        return float(sum(np.sum((scene.warmth(k, T) - rise / whole) ** 2) for scene, rise in pairs))
-
-    nearest = min(np.geomspace(time.low, time.high, _TIMES).tolist(), key=off)
+    nearest = following(k, scenes, [rise / whole for rise in rises])
     return _exactly("warm_rise", "K", whole), _exactly("warm_up_time", "s", nearest)
 
 
