@@ -7,17 +7,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from generator.robot.readers import read
-from identification.corrections import recorded_motor_torques
+from identification.corrections import earlier, recorded_motor_torques
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.lateness import Lateness, delay_of
+from identification.diagnosis.lateness import Lateness, delay_of, latenesses
+from identification.diagnosis.scene import Scene
 from identification.drive_train import coupling
 from identification.observation import Motion, Regressors
 from identification.outcome import Value
-from tests.diagnosed_arm import diagnosis_of
+from tests.diagnosed_arm import ARM, diagnosis_of, ready
+from tests.diagnosed_arm import TRUTH as LINK
 from tests.recorded import TRUTH, TWO_LINKS, Array, Recorded, fourier
 
 RATE = 250.0
@@ -89,6 +92,27 @@ def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[
 
 def test_nothing_is_late_where_nothing_is(tmp_path: Path) -> None:
     assert late_by(tmp_path, (0, 0)).verdict == NOTHING
+
+
+def test_a_delay_is_as_uncertain_as_coloured_noise_leaves_it(tmp_path: Path) -> None:
+    """Rows of such noise tell of one another: white ones would tell the delay three times as closely."""
+    (tmp_path / "arm.yaml").write_text(ARM)
+    regressors, draw = Regressors(read(tmp_path / "arm.yaml")), np.random.default_rng(0)
+    delay, off = 0.03, []
+    for _ in range(12):
+        scenes = []
+        for number in (1, 2):
+            t, motion = fourier(regressors.model.robot, 30.0, 100.0, number)
+            tau = earlier(regressors.torques(LINK, motion), [-delay], 0.01)
+            noise = lfilter([1], [1, -0.8], draw.normal(size=tau.shape))
+            source = Recorded({"t": t, "q1": motion.q[0], "tau1": (tau + 0.7 * noise / noise.std())[0]})
+            run = ready(str(source.save(tmp_path / f"{number}.csv")), regressors)
+            scenes.append(Scene(run.sampled, regressors, LINK))
+        found = delay_of(latenesses(scenes))
+        assert found is not None
+        assert found.std is not None
+        off.append(((found.value or 0.0) - delay) / found.std)
+    assert 0.5 < np.sqrt(np.mean(np.square(off))) < 1.7
 
 
 def profile(delay: float, depth: float) -> Lateness:

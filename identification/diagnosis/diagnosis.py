@@ -12,6 +12,7 @@ from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis import odd_run
 from identification.diagnosis.confirmation import confirmed
+from identification.diagnosis.contradiction import Contradicted, contradicted, note
 from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.homogeneity import disagreements
@@ -50,6 +51,7 @@ class Diagnosis:
     """All that was found. ``before`` is the model as it stood, refitted; ``after`` the one with the findings, and where
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
+    ``contradicted`` are known parameters of which the runs say that they have other values.
     ``runs`` are all runs in the order of ``roles`` (train, validate, test); ``found`` holds the columns of those that
     are fitted or validate; ``steps`` is how near to the noise each finding comes. ``residuals_before`` and
     ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs by the model of the search,
@@ -67,6 +69,7 @@ class Diagnosis:
     runs: tuple[Prepared, ...]
     found: Search
     steps: Steps
+    contradicted: tuple[Contradicted, ...]
     residuals_before: tuple[Array, ...]
     residuals_after: tuple[Array, ...]
     notes: tuple[str, ...]
@@ -108,8 +111,10 @@ def diagnose(
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
+    other = () if dry else contradicted(found, prior)
     notes = [
         *roles.notes,
+        *note(other),
         *_of_elasticity(found),
         *_notes(named, runs, bool(found.maps)),
         *_taken_back(gone),
@@ -134,6 +139,7 @@ def diagnose(
         tuple(runs),
         found,
         steps(found, trial),
+        other,
         tuple(_residuals(found, start)),
         tuple(_residuals(found, weights)),
         tuple(notes),

@@ -64,6 +64,9 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.verdict == NOTHING:
         yield "The model explains these runs: no effect of the library that is large enough to be named improves it"
         yield "beyond chance, and what is left on each joint is noise."
+        if found.contradicted:
+            others = listed(one.name for one in found.contradicted)
+            yield f"But it does so with other values than are known of {others}, by far more than their uncertainty."
         return
     if found.verdict == NAMED:
         yield f"The model lacks {_named(found.findings)}."
