@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
+from identification.diagnosis.contradiction import contradicted, pulled
+from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
+from identification.diagnosis.priors import prior_of
 from identification.report.diagnose.report import report
 from tests.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
 from tests.recorded import Array, parameters_text
@@ -42,6 +45,22 @@ def test_a_set_that_holds_is_not_contradicted(tmp_path: Path) -> None:
     assert found.verdict == NOTHING
     assert not found.contradicted
     assert "by far more than their uncertainty" not in report(found, None).decode()
+
+
+def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:
+    found = known(tmp_path, 0.0)
+    prior = prior_of(found.found.bank.scenes[0].regressors.model, "known")
+    names = found.found.bank.base
+    far = np.zeros(len(names))
+    far[names.index("MX1")] = 10 * 0.05 * TRUTH["MX1"]
+    (one,) = contradicted(found.found, replace(prior, mean=prior.mean + far))
+    assert one.name == "MX1"
+    assert not one.friction
+    assert pulled(found.found, [one]) == 0
+    assert pulled(found.found, [replace(one, friction=True)]) is None
+    assert pulled(found.found, [replace(one, found=one.known * 1.0001)]) is None
+    said = replace(found, verdict=UNEXPLAINED, contradicted=(one,), by_values=True, after=replace(found.after, joint=1))
+    assert "other values than are known of MX1" in report(said, None).decode()
 
 
 def test_friction_that_depends_on_the_direction_is_named_beside_a_set(tmp_path: Path) -> None:

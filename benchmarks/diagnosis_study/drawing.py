@@ -92,6 +92,9 @@ def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> H
             places = [1]
         elif expected.joints is not None:
             places = expected.joints.get(robot, ())
+        else:
+            # What no robot file can hold there is in no library.
+            places = [joint for joint in places if _may_hold(robot, joint, law)]
     if not places:
         return None
     joint = int(rng.choice(places))

@@ -1,4 +1,7 @@
-"""Values that were known beforehand and that the runs contradict: no effect is missing there, another value holds."""
+"""Values that were known beforehand and that the runs contradict.
+
+Friction has another value than it once had; where a body has, it may stand for an effect that is missing.
+"""
 
 from __future__ import annotations
 
@@ -9,21 +12,28 @@ import numpy as np
 
 from generator.review.decimals import scientific
 from generator.review.words import listed
+from identification.diagnosis.known_friction import friction
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import Prior, inverse
 
 #: Standard deviations of what was known beyond which a value is another one, and how many are told by name.
 _FAR, _NAMED = 5.0, 6
+#: Torque of a difference that is little, in parts of the noise's rms.
+_LITTLE = 0.2
 
 
 @dataclass(frozen=True)
 class Contradicted:
-    """A base parameter that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI]."""
+    """A base parameter, by its ``place``, that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI];
+    ``friction`` tells whether it is that of a joint.
+    """
 
     name: str
+    place: int
     found: float
     known: float
     std: float
+    friction: bool
 
     @property
     def text(self) -> str:
@@ -41,11 +51,24 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
     values = np.array([found.values[name] for name in names])
     far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
+    rubbing = friction(found.bank.scenes[0].robot, names)
     return tuple(
-        Contradicted(names[i], float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])))
+        Contradicted(names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), i in rubbing)
         for i in np.argsort(-far).tolist()
         if far[i] > _FAR
     )
+
+
+def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
+    """The coordinate on which other values than the known ones, of more than friction, make most torque beside the
+    noise; None where they make little.
+    """
+    bank = found.bank
+    weights = {one.place: one.found - one.known for one in ones if not one.friction}
+    rows = np.maximum(np.sum([bank.rows(r) for r in found.train], axis=0), 1)
+    size = np.sqrt([bank.power(weights, k, found.train) / rows[k] for k in range(bank.dof)])
+    most = int(np.argmax(size))
+    return most if size[most] > _LITTLE else None
 
 
 def note(ones: Sequence[Contradicted]) -> list[str]:

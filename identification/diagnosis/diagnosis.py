@@ -12,7 +12,7 @@ from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis import odd_run
 from identification.diagnosis.confirmation import confirmed
-from identification.diagnosis.contradiction import Contradicted, contradicted, note
+from identification.diagnosis.contradiction import Contradicted, contradicted, note, pulled
 from identification.diagnosis.evidence import Key, key_of
 from identification.diagnosis.finding import Finding, findings
 from identification.diagnosis.homogeneity import disagreements
@@ -51,7 +51,8 @@ class Diagnosis:
     """All that was found. ``before`` is the model as it stood, refitted; ``after`` the one with the findings, and where
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
-    ``contradicted`` are known parameters of which the runs say that they have other values.
+    ``contradicted`` are known parameters of which the runs say that they have other values; ``by_values`` tells whether
+    nothing but that says that something is missing.
     ``runs`` are all runs in the order of ``roles`` (train, validate, test); ``found`` holds the columns of those that
     are fitted or validate; ``steps`` is how near to the noise each finding comes. ``residuals_before`` and
     ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs by the model of the search,
@@ -70,6 +71,7 @@ class Diagnosis:
     found: Search
     steps: Steps
     contradicted: tuple[Contradicted, ...]
+    by_values: bool
     residuals_before: tuple[Array, ...]
     residuals_after: tuple[Array, ...]
     notes: tuple[str, ...]
@@ -106,12 +108,16 @@ def diagnose(
     overlooked = {} if dry or open_ or found.choices else _overlooked(found, trial)
     open_ = open_ or [last.lack[k] for k in overlooked]
     after = _over_time(located(last, open_), overlooked)
-    verdict = LOCATED if dry else UNEXPLAINED if open_ else NAMED if found.choices else NOTHING
+    other = () if dry else contradicted(found, prior)
+    pulling = None if open_ or found.choices else pulled(found, other)
+    if pulling is not None:
+        after = replace(after, joint=last.lack[pulling].joint)
+    missing = bool(open_) or pulling is not None
+    verdict = LOCATED if dry else UNEXPLAINED if missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
-    other = () if dry else contradicted(found, prior)
     notes = [
         *roles.notes,
         *note(other),
@@ -140,6 +146,7 @@ def diagnose(
         found,
         steps(found, trial),
         other,
+        pulling is not None,
         tuple(_residuals(found, start)),
         tuple(_residuals(found, weights)),
         tuple(notes),

@@ -78,6 +78,12 @@ def verdict(subject: Subject) -> Iterator[str]:
         else:
             yield "No joint keeps more than noise."
         return
+    if found.by_values:
+        others = listed(one.name for one in found.contradicted)
+        yield f"The model explains these runs with other values than are known of {others}, by far more than their"
+        yield "uncertainty: those are wrong, or stand for something that is missing, most of it on joint"
+        yield f"{found.after.joint}."
+        return
     yield "Something is missing in the model that no effect of the library explains well enough to be named:"
     yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
