@@ -1,6 +1,6 @@
 """Values that were known beforehand and that the runs contradict.
 
-Friction has another value than it once had; where a body has, it may stand for an effect that is missing.
+An effect of a joint may have another value than it once had; where a body has, that may stand for what is missing.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from generator.effects.library import library
 from generator.review.decimals import scientific
 from generator.review.words import listed
-from identification.diagnosis.known_friction import friction
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import Prior, inverse
 
@@ -25,7 +25,7 @@ _LITTLE = 0.2
 @dataclass(frozen=True)
 class Contradicted:
     """A base parameter, by its ``place``, that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI];
-    ``friction`` tells whether it is that of a joint.
+    ``body`` tells whether it is of bodies and of no effect alone.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Contradicted:
     found: float
     known: float
     std: float
-    friction: bool
+    body: bool
 
     @property
     def text(self) -> str:
@@ -51,20 +51,31 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
     values = np.array([found.values[name] for name in names])
     far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
-    rubbing = friction(found.bank.scenes[0].robot, names)
+    effects = {
+        f"{one.stem}{joint}"
+        for use in found.bank.scenes[0].robot.effects
+        for joint in use.joints
+        for one in library()[use.effect].parameters
+    }
     return tuple(
-        Contradicted(names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), i in rubbing)
+        Contradicted(
+            names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects
+        )
         for i in np.argsort(-far).tolist()
         if far[i] > _FAR
     )
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
-    """The coordinate on which other values than the known ones, of more than friction, make most torque beside the
-    noise; None where they make little.
+    """The coordinate on which other values of bodies than the known ones make most torque beside the noise that no
+    other parameter stands for; None where it is little.
     """
-    bank = found.bank
-    weights = {one.place: one.found - one.known for one in ones if not one.friction}
+    bank, G = found.bank, found.weighing.normal.whole
+    weights = {one.place: one.found - one.known for one in ones if one.body}
+    own = np.array([*weights], dtype=int)
+    others = np.setdiff1d(np.arange(len(bank.base)), own)
+    taken = inverse(G[np.ix_(others, others)]) @ (G[np.ix_(others, own)] @ [*weights.values()])
+    weights |= dict(zip(others.tolist(), (-taken).tolist(), strict=True))
     rows = np.maximum(np.sum([bank.rows(r) for r in found.train], axis=0), 1)
     size = np.sqrt([bank.power(weights, k, found.train) / rows[k] for k in range(bank.dof)])
     most = int(np.argmax(size))

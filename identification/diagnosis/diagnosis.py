@@ -111,7 +111,7 @@ def diagnose(
     other = () if dry else contradicted(found, prior)
     pulling = None if open_ or found.choices else pulled(found, other)
     if pulling is not None:
-        after = replace(after, joint=last.lack[pulling].joint)
+        after = replace(after, joint=last.lack[pulling].joint, region="by other values than are known")
     missing = bool(open_) or pulling is not None
     verdict = LOCATED if dry else UNEXPLAINED if missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}

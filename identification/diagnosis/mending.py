@@ -103,7 +103,15 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         Path(GENERATED, found.robot.name),
         tuple(
             dict.fromkeys(
-                (*(one.evidence for one in aside), *unwritten, *new.notes, *fit.notes, *sets, *notes, *against)
+                (
+                    *(one.evidence for one in aside if one in additions),
+                    *unwritten,
+                    *new.notes,
+                    *fit.notes,
+                    *sets,
+                    *notes,
+                    *against,
+                )
             )
         ),
     )

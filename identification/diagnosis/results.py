@@ -30,6 +30,10 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         "where": _where(found.before),
         "findings": [_finding(one) for one in found.findings],
         "unexplained": _where(found.after) if found.verdict == UNEXPLAINED else None,
+        "contradicted": [
+            {"parameter": one.name, "value": one.found, "known": one.known, "known_std": one.std}
+            for one in found.contradicted
+        ],
         "invisible": [
             {"effect": one.effect, "joints": list(one.joints or (one.joint,)), "would_show": one.would_show}
             for one in found.invisible

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
+from identification.diagnosis.contradiction import Contradicted
 from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
@@ -64,12 +65,11 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.verdict == NOTHING:
         yield "The model explains these runs: no effect of the library that is large enough to be named improves it"
         yield "beyond chance, and what is left on each joint is noise."
-        if found.contradicted:
-            others = listed(one.name for one in found.contradicted)
-            yield f"But it does so with other values than are known of {others}, by far more than their uncertainty."
+        yield from _otherwise(found.contradicted)
         return
     if found.verdict == NAMED:
         yield f"The model lacks {_named(found.findings)}."
+        yield from _otherwise(found.contradicted)
         return
     if found.verdict == LOCATED:
         yield "This was only to look where model and measurement disagree: nothing was named."
@@ -88,6 +88,13 @@ def verdict(subject: Subject) -> Iterator[str]:
     yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
+
+
+def _otherwise(contradicted: Sequence[Contradicted]) -> Iterator[str]:
+    """What is not as it is known."""
+    if contradicted:
+        others = listed(one.name for one in contradicted)
+        yield f"But these runs want other values than are known of {others}, by far more than their uncertainty."
 
 
 def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
