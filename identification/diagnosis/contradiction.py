@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.effects.library import library
+from generator.effects.library import effects_of
 from generator.review.decimals import scientific
 from generator.review.words import listed
 from identification.diagnosis.loop import Search
@@ -51,12 +51,7 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
     values = np.array([found.values[name] for name in names])
     far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
-    effects = {
-        f"{one.stem}{joint}"
-        for use in found.bank.scenes[0].robot.effects
-        for joint in use.joints
-        for one in library()[use.effect].parameters
-    }
+    effects = {name for one in effects_of(found.bank.scenes[0].robot) for name in one.names}
     return tuple(
         Contradicted(
             names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects
@@ -70,14 +65,11 @@ def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
     """The coordinate on which other values of bodies than the known ones make most torque beside the noise that no
     other parameter stands for; None where it is little.
     """
-    bank, G = found.bank, found.weighing.normal.whole
+    weighing, joints = found.weighing, range(found.bank.dof)
     weights = {one.place: one.found - one.known for one in ones if one.body}
-    own = np.array([*weights], dtype=int)
-    others = np.setdiff1d(np.arange(len(bank.base)), own)
-    taken = inverse(G[np.ix_(others, others)]) @ (G[np.ix_(others, own)] @ [*weights.values()])
-    weights |= dict(zip(others.tolist(), (-taken).tolist(), strict=True))
-    rows = np.maximum(np.sum([bank.rows(r) for r in found.train], axis=0), 1)
-    size = np.sqrt([bank.power(weights, k, found.train) / rows[k] for k in range(bank.dof)])
+    others = np.setdiff1d(np.arange(len(found.bank.base)), [*weights])
+    power = weighing.powers(weights, others, joints)
+    size = np.sqrt([power[k] / max(weighing.rows[k], 1) for k in joints])
     most = int(np.argmax(size))
     return most if size[most] > _LITTLE else None
 

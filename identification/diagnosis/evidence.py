@@ -106,7 +106,6 @@ class Weighing:
         self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
-        self._friction = known_friction.friction(bank.scenes[0].robot, bank.base)
         self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
@@ -123,7 +122,7 @@ class Weighing:
             return
         self._seen = self.bank.count
         self.normal = self._normal(self.train)
-        self._rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
+        self.rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
 
     @property
     def all(self) -> Normal:
@@ -258,20 +257,26 @@ class Weighing:
         """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as
         that is which the model and ``others`` leave of the torque of coefficients x.
         """
-        rows = {k: max(self._rows[k], 1) for k in variant.joints}
+        rows = {k: max(self.rows[k], 1) for k in variant.joints}
         if len(rows) == 1:
             return {k: float(np.sqrt(drop / count)) for k, count in rows.items()}
-        beside, inverted = self._fitted_beside(others)
-        taken = inverted @ (self.normal.whole[np.ix_(beside, np.array(variant.columns, dtype=int))] @ x)
-        weights = dict(zip((*variant.columns, *beside.tolist()), (*x.tolist(), *-taken), strict=True))
-        power = {k: self.bank.power(weights, k, self.train) for k in rows}
+        weights = dict(zip(variant.columns, x.tolist(), strict=True))
+        power = self.powers(weights, self._fitted_beside(others), variant.joints)
         whole = max(sum(power.values()), _TINY)
         return {k: float(np.sqrt(drop * power[k] / whole / count)) for k, count in rows.items()}
 
-    def _fitted_beside(self, others: Sequence[Variant]) -> tuple[Places, Array]:
-        """The columns that are fitted beside a variant, by number, and the inverse of their products."""
-        beside, _, _ = told_apart([*range(self.normal.base), *columns_of(others)], self.normal.held)
-        return beside, inverse(self.normal.whole[np.ix_(beside, beside)])
+    def powers(self, weights: Mapping[int, float], beside: Places, joints: Sequence[int]) -> dict[int, float]:
+        """By coordinate, the white sum of squares of what the columns ``beside`` leave, where they are fitted, of other
+        columns by number times their ``weights``.
+        """
+        own, G = np.array([*weights], dtype=int), self.normal.whole
+        taken = inverse(G[np.ix_(beside, beside)]) @ (G[np.ix_(beside, own)] @ [*weights.values()])
+        left = dict(zip((*weights, *beside.tolist()), (*weights.values(), *-taken), strict=True))
+        return {k: self.bank.power(left, k, self.train) for k in joints}
+
+    def _fitted_beside(self, others: Sequence[Variant]) -> Places:
+        """The columns that are fitted beside a variant, by number."""
+        return told_apart([*range(self.normal.base), *columns_of(others)], self.normal.held)[0]
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
         """Without coefficients that only refine, where they explain chance, or more than what they refine.
@@ -294,7 +299,11 @@ class Weighing:
         rest = [i for i, one in enumerate(variant.coefficients) if not one.essential]
         less = self.beside(variant.only(rest), others)[1] if rest else 0.0
         count = len(variant.columns) - len(rest)
-        return count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA
+        return _beyond(drop, less, count)
+
+    @cached_property
+    def _friction(self) -> Places:
+        return known_friction.friction(self.bank.scenes[0].robot, self.bank.base)
 
     def _beyond_friction(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
         """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
@@ -303,8 +312,7 @@ class Weighing:
         if self._prior is None:
             return True
         less, same = known_friction.explained(self.normal, variant.columns, columns_of(others), self._friction)
-        count = len(variant.columns) - same
-        return not same or (count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
+        return not same or _beyond(drop, less, len(variant.columns) - same)
 
     def _without_position_noise(self, variant: Variant, others: Sequence[Variant]) -> float:
         """What a variant explains beside others without what noise of the positions makes it explain."""
@@ -319,11 +327,10 @@ class Weighing:
         """
         if self._pretence.nothing:
             return np.zeros(len(variant.columns))
-        every = [*range(self.normal.base), *columns_of(others)]
-        beside, inverted = self._fitted_beside(others)
-        explained = inverted @ self._pretence.beside(others)[np.isin(every, beside)]
-        across = self.normal.whole[np.ix_(np.array(variant.columns), beside)]
-        return np.asarray(self._pretence.of(variant) - across @ explained)
+        every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
+        beside = self._fitted_beside(others)
+        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)[np.isin(every, beside)]
+        return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
         """What each of the chosen explains beside the rest of them."""
@@ -354,6 +361,11 @@ class Weighing:
         taken_up = [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
         nowhere = [one for key, one in self.bank.nowhere.items() if key not in left and not one.measured]
         return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
+
+
+def _beyond(drop: float, less: float, count: int) -> bool:
+    """Whether ``count`` more coefficients explain beyond chance, and a part of it, what others explain ``less`` of."""
+    return bool(count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
 
 
 def key_of(variant: Variant) -> Key:

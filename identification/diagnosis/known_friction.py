@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from generator.effects.library import library
+from generator.effects.library import effects_of
 from generator.robot.description import Robot
-from identification.diagnosis.normal import Normal, inverse
-
-Array = NDArray[np.float64]
-Places = NDArray[np.int64]
+from identification.diagnosis.normal import Normal, Places, inverse
 
 #: Part of a column's square beside which it is another one, or a sum of others.
 _SAME = 1e-6
@@ -20,13 +16,7 @@ _SAME = 1e-6
 
 def friction(robot: Robot, base: Sequence[str]) -> Places:
     """Places among the ``base`` parameters of those that are coefficients of the file's friction."""
-    names = {
-        f"{one.stem}{joint}"
-        for use in robot.effects
-        if library()[use.effect].dissipates
-        for joint in use.joints
-        for one in library()[use.effect].parameters
-    }
+    names = {name for one in effects_of(robot) if one.effect.dissipates for name in one.names}
     return np.array([place for place, name in enumerate(base) if name in names], dtype=int)
 
 

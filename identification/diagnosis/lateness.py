@@ -83,11 +83,10 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
-    bends = np.array([one.rows * np.diff(one.left[least - 1 : least + 2], 2)[0] / one.left[least] for one in known])
-    step = delays[1] - delays[0]
+    squares = np.array([one.rows * one.left[least - 1 : least + 2] / one.left[least] for one in known])
+    (before, _, after), bends, step = squares.sum(axis=0), np.diff(squares, 2)[:, 0], delays[1] - delays[0]
     if not bends.sum() > 0:
         return None
-    before, after = np.sum([one.rows * one.left[[least - 1, least + 1]] / one.left[least] for one in known], axis=0)
     delay = delays[least] + step * (before - after) / (2 * bends.sum())
     variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
     return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")

@@ -58,6 +58,12 @@ def loaded(sources: Sequence[str], robot: Robot) -> Iterator[Run]:
 def _held(text: str, file: str, additions: Sequence[Addition]) -> tuple[list[Addition], list[str]]:
     """Those that are read back, each beside the ones before it."""
     kept, notes = list[Addition](), list[str]()
+    try:
+        repaired(text, file, additions)
+        return list(additions), notes
+    except InputError:
+        # One of them is to blame.
+        pass
     for one in additions:
         try:
             repaired(text, file, [*kept, one])
