@@ -19,6 +19,8 @@ from identification.signals import Measured
 _BEYOND = 0.05
 #: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
+#: Size of a number in whatever unit that is none of a sensor.
+_HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
 _ABRUPT = 2.5
 #: Time [s] over which a speed is looked at.
@@ -46,16 +48,17 @@ class Stretch:
 
 
 def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
-    """Raises InputError at the first row that holds what is no finite number."""
+    """Raises InputError at the first row that holds what is no finite number, or one that no sensor tells."""
     worst: tuple[int, str] | None = None
     for name, values in columns:
-        bad = np.flatnonzero(~np.isfinite(values))
+        bad = np.flatnonzero(~(np.abs(values) < _HUGE))
         if bad.size and (worst is None or bad[0] < worst[0]):
             worst = int(bad[0]), name
     if worst is not None:
         row, name = worst
         value = dict(columns)[name][row]
-        raise InputError(where(row, name), f"{name} is {value:g}", "a finite number")
+        expected = "a finite number" if not np.isfinite(value) else f"a number within +-{_HUGE:g}"
+        raise InputError(where(row, name), f"{name} is {value:g}", expected)
 
 
 def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:

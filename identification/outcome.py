@@ -95,6 +95,6 @@ def _norm(one: Residual) -> dict[str, Any]:
     return {
         "rows": one.rows,
         "norm": one.norm,
-        "relative_percent": one.relative,
-        "relative_to_mean_percent": one.relative_to_mean,
+        "relative_percent": one.relative if one.rows else None,
+        "relative_to_mean_percent": one.relative_to_mean if one.rows else None,
     }

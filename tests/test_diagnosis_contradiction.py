@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.contradiction import contradicted, pulled
-from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
+from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, VALUES, Diagnosis
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
 from identification.report.diagnose.report import report
@@ -74,7 +74,7 @@ def of_bodies(folder: Path, told: dict[str, float], hidden: str) -> Diagnosis:
 @pytest.mark.parametrize(("told", "name"), [({"ZZ1": 5.0}, "ZZ1R"), ({"MX1": 22.0}, "MX1")])
 def test_bodies_that_are_not_as_known_leave_it_unexplained(told: dict[str, float], name: str, tmp_path: Path) -> None:
     found = of_bodies(tmp_path, told, "")
-    assert (found.verdict, found.by_values, found.after.joint) == (UNEXPLAINED, True, 1)
+    assert (found.verdict, found.reason, found.after.joint) == (UNEXPLAINED, VALUES, 1)
     assert not found.findings
     assert [one.name for one in found.contradicted] == [name]
     assert "other values than are known of " + name in report(found, None).decode()
@@ -90,7 +90,7 @@ def test_bodies_that_are_not_as_known_leave_it_unexplained(told: dict[str, float
 
 def test_bodies_that_are_not_as_known_are_told_beside_what_is_named(tmp_path: Path) -> None:
     found = of_bodies(tmp_path, {"MX1": 22.0}, "asymmetry")
-    assert (found.verdict, found.by_values) == (NAMED, False)
+    assert (found.verdict, found.reason) == (NAMED, "")
     assert [one.hypothesis.effect for one in found.findings] == ["asymmetric_viscous"]
     assert [one.name for one in found.contradicted] == ["MX1"]
     assert "these runs want other values than are known of MX1" in report(found, None).decode()

@@ -68,7 +68,7 @@ def tested(new: Mended | None) -> list[str]:
     lines = [f"note: {note}" for note in new.notes]
     for kind, played in (("before", new.before), ("after", new.after)):
         found = together(played)
-        total = f"||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %"
+        total = f"||e||/||Y - mean|| {found.total.relative_to_mean:.2f} %" if found.total.rows else "no row that counts"
         lines.append(f"test, {kind + ':':<10} {total}, by joint {found.by_joint()}")
     return lines
 

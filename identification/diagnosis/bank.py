@@ -140,6 +140,12 @@ class Bank:
         """How many rows each joint of a run has (n)."""
         return np.array([int(one.kept.sum()) for one in self._joints[run]])
 
+    @property
+    def shown(self) -> tuple[int, ...]:
+        """Coordinates of which some run has rows."""
+        rows = np.sum([self.rows(r) for r in range(len(self.runs))], axis=0)
+        return tuple(np.flatnonzero(rows).tolist())
+
     def add(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool = True) -> Variant | None:
         """Columns of a hypothesis with a shape, which is one of the ``variants`` if ``offered``; None where that is
         impossible along a run or acts nowhere. What there is already is not made again.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed
 from generator.robot.description import Robot
-from identification.diagnosis import odd_run
+from identification.diagnosis import few_rows, odd_run
 from identification.diagnosis.confirmation import confirmed
 from identification.diagnosis.contradiction import Contradicted, contradicted, note, pulled
 from identification.diagnosis.evidence import Key, key_of
@@ -27,7 +27,7 @@ from identification.diagnosis.scaling import taken_up
 from identification.diagnosis.selection import Choice
 from identification.diagnosis.stated_elasticity import TOGETHER, names_of_backlash, stated
 from identification.diagnosis.steps import Steps, steps
-from identification.diagnosis.trial import Trial, along
+from identification.diagnosis.trial import Trial, along, comparable
 from identification.diagnosis.where import Where, led, located, seen
 from identification.observation import Regressors
 
@@ -38,10 +38,11 @@ NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"
 #: The verdict where nothing was looked for by name.
 LOCATED = "located"
 
-#: What may stay unexplained: in parts of the noise's rms, and of what was explained on the joint.
-_SMALL, _PART = 0.2, 0.3
-#: Where nothing repeats, nor follows the motion, the noise is not known apart from the model, and more must stay.
-_SMALL_APERIODIC = 0.5
+#: Why something stays unexplained where a residual does not say so.
+VALUES, AMPLITUDES = "values", "amplitudes"
+
+#: What may stay unexplained, in parts of what was explained on the joint.
+_PART = 0.3
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
 _ELASTIC, _SURE = 0.5, 4.0
 
@@ -51,8 +52,9 @@ class Diagnosis:
     """All that was found. ``before`` is the model as it stood, refitted; ``after`` the one with the findings, and where
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
-    ``contradicted`` are known parameters of which the runs say that they have other values; ``by_values`` tells whether
-    nothing but that says that something is missing.
+    ``contradicted`` are known parameters of which the runs say that they have other values. ``reason`` is what alone
+    says that something stays unexplained: other ``VALUES`` than are known, or ``AMPLITUDES`` that do not hold; else
+    empty.
     ``runs`` are all runs in the order of ``roles`` (train, validate, test); ``found`` holds the columns of those that
     are fitted or validate; ``steps`` is how near to the noise each finding comes. ``residuals_before`` and
     ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs by the model of the search,
@@ -71,7 +73,7 @@ class Diagnosis:
     found: Search
     steps: Steps
     contradicted: tuple[Contradicted, ...]
-    by_values: bool
+    reason: str
     residuals_before: tuple[Array, ...]
     residuals_after: tuple[Array, ...]
     notes: tuple[str, ...]
@@ -93,7 +95,7 @@ def diagnose(
     """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found = search(runs, train, validate, regressors, prior, told, dry)
+    found = few_rows.without_small(search(runs, train, validate, regressors, prior, told, dry))
     trial = None if dry else along(found, test)
     found, gone = confirmed(found, trial)
     told("looking where the residual is")
@@ -104,7 +106,8 @@ def diagnose(
     explained = _explained(found, start, weights)
     open_ = [] if dry else [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
     disagreeing = disagreements(found)
-    open_ = open_ or _doubtful(found, last, disagreeing)
+    doubtful = [] if dry or open_ else _doubtful(found, last, disagreeing)
+    open_ = open_ or doubtful
     overlooked = {} if dry or open_ or found.choices else _overlooked(found, trial)
     open_ = open_ or [last.lack[k] for k in overlooked]
     after = _over_time(located(last, open_), overlooked)
@@ -114,15 +117,18 @@ def diagnose(
         after = replace(after, joint=last.lack[pulling].joint, region="by other values than are known")
     missing = bool(open_) or pulling is not None
     verdict = LOCATED if dry else UNEXPLAINED if missing else NAMED if found.choices else NOTHING
-    beyond = {one.joint: one.size for one in last.lack if one.p < CHANCE and one.size > _told_from(one)}
+    beyond = {one.joint: one.size for one in last.lack if one.told}
     named = findings(found, not open_, disagreeing, beyond)
     if named:
         before = led(before, named[0])
     notes = [
         *roles.notes,
+        *few_rows.notes(found.bank),
+        *_unmoved(found, test),
+        *_untried(found, trial, test),
         *note(other),
         *_of_elasticity(found),
-        *_notes(named, runs, bool(found.maps)),
+        *_notes(named, runs, not found.repeats),
         *_taken_back(gone),
         *overlooked.values(),
     ]
@@ -146,11 +152,32 @@ def diagnose(
         found,
         steps(found, trial),
         other,
-        pulling is not None,
+        VALUES if pulling is not None else AMPLITUDES if doubtful else "",
         tuple(_residuals(found, start)),
         tuple(_residuals(found, weights)),
         tuple(notes),
     )
+
+
+def _unmoved(found: Search, test: Sequence[Prepared]) -> list[str]:
+    """What is to be told of joints that move where nothing is fitted."""
+    moving = found.bank.scenes[0].robot.moving
+    unseen = [k for k in range(len(moving)) if k not in found.bank.shown and any(run.kept[k].any() for run in test)]
+    where = on_joints(moving[k].number for k in unseen)
+    return [f"no run that is fitted tells of {where}, on which those that test have rows"] if unseen else []
+
+
+def _untried(found: Search, trial: Trial | None, test: Sequence[Prepared]) -> list[str]:
+    """What is to be told of runs that test and hold nothing to account."""
+    unlike = [run.sampled.run for run in test if not comparable(run, found)]
+    notes = [
+        f"{one.file} is logged at {one.rate:.4g} Hz, the fitted runs are not: their noise is not its own, and nothing "
+        "is held against it"
+        for one in unlike
+    ]
+    if test and trial is None and len(unlike) < len(test):
+        notes.append("the runs that test cannot show what was found: nothing is held against them")
+    return notes
 
 
 def _invisible(found: Search) -> tuple[Hypothesis, ...]:
@@ -189,29 +216,18 @@ def _large(lack: Lack, explained: float, bounces: float) -> bool:
     """Whether what a joint's model lacks is more than noise, and not small beside what was ``explained`` there, or
     beside what the file explains by a link that ``bounces``.
     """
-    if lack.burst is not None:
-        return True
-    return lack.p < CHANCE and lack.size > max(_told_from(lack), _PART * float(np.hypot(explained, bounces)))
+    return lack.burst is not None or (lack.told and lack.size > _PART * float(np.hypot(explained, bounces)))
 
 
 def _little(lacks: Sequence[Lack]) -> list[str]:
     """What is told of joints of ``lacks`` that keep more than noise, though little beside what was explained there."""
-    sizes = [
-        f"{one.size:.2g} times the noise on joint {one.joint}"
-        for one in lacks
-        if one.p < CHANCE and one.size > _told_from(one)
-    ]
+    sizes = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.told]
     if not sizes:
         return []
     return [
         f"more than noise is left, little beside what was explained there: {listed(sizes)}; a diagnosis of the new "
         "robot file may show what it is"
     ]
-
-
-def _told_from(lack: Lack) -> float:
-    """Size [parts of the noise] from which what a joint's model lacks is told from the noise."""
-    return _SMALL if lack.repeats or lack.follows else _SMALL_APERIODIC
 
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:

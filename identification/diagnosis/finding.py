@@ -108,7 +108,7 @@ class Finding:
     ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
     ``shape_std`` are standard deviations of the shape values that were searched. ``disagreement`` tells in words how
     the runs disagree on its amplitude, if they do; ``apart`` whether no other shape of those that are tried alone does
-    as well.
+    as well; ``sure`` that such a torque acts, whatever makes it.
     """
 
     hypothesis: Hypothesis
@@ -122,6 +122,7 @@ class Finding:
     shape_std: Mapping[str, float]
     disagreement: str = ""
     apart: bool = True
+    sure: bool = True
 
     @property
     def homogeneous(self) -> bool:
@@ -189,10 +190,11 @@ def findings(
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
+        large = one.evidence.size >= _least(found, variant)
         result.append(
             Finding(
                 hypothesis,
-                FIRM if firm and not alternatives and one.evidence.size >= _least(found, variant) else TENTATIVE,
+                FIRM if firm and not alternatives and large else TENTATIVE,
                 hypothesis.joints or (hypothesis.joint,),
                 variant.shape,
                 values,
@@ -202,6 +204,7 @@ def findings(
                 of_shape,
                 disagreements.get(key_of(variant), ""),
                 one.apart,
+                large,
             )
         )
     pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
@@ -214,7 +217,7 @@ def findings(
 
 def _least(found: Search, variant: Variant) -> float:
     """Size from which a finding is firm."""
-    if not found.maps:
+    if found.repeats:
         return 0.0
     return _APERIODIC if all(maps_taken(found.bank, found.maps, k) for k in variant.joints) else _SHORT
 
@@ -246,7 +249,9 @@ def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
         whole = "motion over the joint's whole range, with another payload"
         other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
-    if remains > _LEFT or (kind == BODY and _vague(one.main[0])) or all(map(_unknown, one.main)):
+    if all(map(_unknown, one.main)):
+        return replace(one, status=TENTATIVE, sure=False)
+    if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)
     return one
 

@@ -31,10 +31,9 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     """
     if lack.repeats or not maps or maps_taken(bank, maps, k):
         return lack
-    e = np.concatenate(list(residuals))
-    white = [
-        colours[k].white(rows, run.kept[k]) for colours, rows, run in zip(bank.colours, maps[k], bank.runs, strict=True)
-    ]
+    alone = [r for r, run in enumerate(bank.runs) if not run.period]
+    e = np.concatenate([residuals[r] for r in alone])
+    white = [bank.colours[r][k].white(maps[k][r], bank.runs[r].kept[k]) for r in alone]
     X = np.concatenate(white, axis=1)
     each = groups([joint.number for joint in bank.scenes[0].robot.moving], k)
     found = [_follows(X[part], e, what, lack, len(each)) for what, part in each.items()]

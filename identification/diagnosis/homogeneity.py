@@ -25,12 +25,12 @@ _TOLD = 1.0
 
 
 def disagreements(found: Search) -> dict[Key, str]:
-    """How the fitted runs disagree on the amplitude of findings, in words, by effect and joint; none where they agree.
+    """How the runs disagree on the amplitude of findings, in words, by effect and joint; none where they agree.
 
     Periods are compared by their number, over all runs that repeat.
     """
-    variants, weights = found.variants, found.trained
-    each = {key_of(one): [_periods(found.bank, r, one, weights) for r in found.train] for one in variants}
+    variants, weights, runs = found.variants, found.weights, (*found.train, *found.validate)
+    each = {key_of(one): [_periods(found.bank, r, one, weights) for r in runs] for one in variants}
     return {key: how for key, runs in each.items() if (how := _disagreement(runs))}
 
 

@@ -1,8 +1,8 @@
 """How much of a joint's residual no noise explains: between repetitions, or beyond the noise's power; and events.
 
 Where a motion repeats, what the periods of the residual have in common is what the model lacks, and what differs is
-noise (an F test). Where nothing repeats the residual's power is compared with that of the noise, which is weaker: the
-noise was measured on the same rows.
+noise (an F test). Along runs that do not repeat the residual's power is compared with that of the noise, which is
+weaker: the noise was measured on the same rows.
 """
 
 from __future__ import annotations
@@ -21,8 +21,13 @@ Array = NDArray[np.float64]
 
 #: Chance below which more than noise is left.
 CHANCE = 1e-4
+#: Size from which it is told from noise; where nothing repeats, nor follows the motion, the noise is not known apart
+#: from the model.
+_SMALL, _APERIODIC = 0.2, 0.5
 #: Rows of a burst that is looked for.
 _BURST = 10
+#: Degrees of freedom between periods from which they are compared.
+_COMPARED = 50
 #: By how much an event must stand out of the rest of the residual, in parts of its mean power.
 _OUTSTANDING = 12.0
 #: By how much an event's power is above that of what may come late at the time.
@@ -46,6 +51,17 @@ class Lack:
     burst: tuple[str, float] | None = None
     follows: str = ""
 
+    @property
+    def part(self) -> float:
+        """The size in parts of that from which it is told from noise; 0 where it may be chance."""
+        known = self.repeats or self.follows
+        return self.size / (_SMALL if known else _APERIODIC) if self.p < CHANCE else 0.0
+
+    @property
+    def told(self) -> bool:
+        """Whether it is told from noise."""
+        return self.part > 1
+
 
 def lack_of_fit(
     runs: Sequence[Prepared],
@@ -63,7 +79,7 @@ def lack_of_fit(
     """
     common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
     for run, e in zip(runs, residuals, strict=True):
-        if not run.times:
+        if not run.period:
             continue
         phase = np.flatnonzero(run.kept[k]) % run.period
         count = np.bincount(phase, minlength=run.period)
@@ -76,10 +92,17 @@ def lack_of_fit(
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
     burst = _burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
-    if phases and freedom > 50:
-        ratio = (common / phases) / max(differing / freedom + rounded, 1e-300)
-        size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
-        return Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
+    if not phases or freedom <= _COMPARED:
+        return _powerful(residuals, number, burst)
+    ratio = (common / phases) / max(differing / freedom + rounded, 1e-300)
+    size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
+    compared = Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
+    others = [e for run, e in zip(runs, residuals, strict=True) if not run.period]
+    return max(compared, _powerful(others, number, burst), key=lambda one: one.part)
+
+
+def _powerful(residuals: Sequence[Array], number: int, burst: tuple[str, float] | None) -> Lack:
+    """Of the power of white residuals against that of the noise."""
     rows = sum(len(e) for e in residuals)
     power = sum(float(e @ e) for e in residuals)
     ratio = power / max(rows, 1)

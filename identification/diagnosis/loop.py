@@ -16,6 +16,7 @@ from identification.diagnosis.effort_rounding import effort_rounding
 from identification.diagnosis.errors_in_variables import redrawn
 from identification.diagnosis.evidence import Weighing, columns_of
 from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.least_noise import least
 from identification.diagnosis.maps import maps
 from identification.diagnosis.noise import colours
 from identification.diagnosis.normal import Normal, Prior
@@ -39,8 +40,9 @@ _FITS = 5
 class Search:
     """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
 
-    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N]; ``maps``
-    are those of the motion, by joint and run, none where a run repeats.
+    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N], with the
+    least that counts as noise; ``maps``
+    are those of the motion, by joint and run, none where all runs repeat.
     """
 
     bank: Bank
@@ -55,6 +57,11 @@ class Search:
     maps: Sequence[Sequence[Array]] = ()
 
     @property
+    def repeats(self) -> bool:
+        """Whether a run repeats, so that its noise is known apart from the model."""
+        return any(run.period for run in self.bank.runs)
+
+    @property
     def variants(self) -> list[Variant]:
         """What was chosen."""
         return [one.evidence.variant for one in self.choices]
@@ -62,19 +69,14 @@ class Search:
     @property
     def start(self) -> dict[int, float]:
         """Values of the base columns without the choices, by number, fitted to all runs."""
-        return self._fitted((), True)
+        return self._fitted(())
 
     @property
     def weights(self) -> dict[int, float]:
         """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
         not look like something that the model lacks.
         """
-        return self._fitted(self.variants, True)
-
-    @property
-    def trained(self) -> dict[int, float]:
-        """The same, fitted to the runs number ``train`` alone."""
-        return self._fitted(self.variants, False)
+        return self._fitted(self.variants)
 
     def keeping(self, choices: Sequence[Choice]) -> Search:
         """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
@@ -82,8 +84,8 @@ class Search:
         values = self.bank.values(solution)
         return replace(self, choices=tuple(choices), values=values, covariance=covariance)
 
-    def _fitted(self, variants: Sequence[Variant], with_validating: bool) -> dict[int, float]:
-        solution, _ = self.weighing.fitted(variants, with_validating)
+    def _fitted(self, variants: Sequence[Variant]) -> dict[int, float]:
+        solution, _ = self.weighing.fitted(variants, True)
         return dict(zip([*range(len(self.bank.base)), *columns_of(variants)], solution.tolist(), strict=True))
 
 
@@ -120,7 +122,7 @@ def search(
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         told("measuring the noise")
         rounded = tuple(
-            rounding(run, scene, r) + effort_rounding(run, scene)
+            rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
             for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
         )
         noisy = redrawn(clear, scenes)

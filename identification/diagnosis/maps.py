@@ -1,6 +1,6 @@
 """Torques that follow from a joint's motion by no law of the library: columns that any of them is nearly a sum of.
 
-They name nothing. Where a motion does not repeat they keep what the model lacks out of the noise.
+They name nothing. Along a motion that does not repeat they keep what the model lacks out of the noise.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ _FADING = (0.1, 0.4)
 
 
 def maps(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> list[list[Array]]:
-    """By joint and run, rows (m x rows) of what may act on it, the same m in all runs; none where one of them
-    repeats.
+    """By joint and run, rows (m x rows) of what may act on it, the same m in all runs; zero in one that repeats, and
+    none where all do.
 
     The torque at places of the range, forward and backward, and at speeds; what other joints' speeds drag, and drag
     against the joint's own motion; and what fades after a reversal.
     """
-    if any(run.period for run in runs):
+    if all(run.period for run in runs):
         return []
     return [_of(runs, scenes, k) for k in range(len(scenes[0].motion.q))]
 
@@ -49,7 +49,8 @@ def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
     ends = _ends([scene.motion.q[k] for scene in scenes])
     fastest = max(float(np.abs(scene.motion.qd[k]).max()) for scene in scenes)
-    return [run.decimated(_columns(scene, k, ends, fastest)) for run, scene in zip(runs, scenes, strict=True)]
+    every = [run.decimated(_columns(scene, k, ends, fastest)) for run, scene in zip(runs, scenes, strict=True)]
+    return [np.zeros_like(rows) if run.period else rows for run, rows in zip(runs, every, strict=True)]
 
 
 def _ends(signals: Sequence[Array]) -> tuple[float, float]:

@@ -10,6 +10,7 @@ is left at a frequency is divided by its part that is free there.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from identification.diagnosis.normal import inverse
 from identification.diagnosis.whitening import ORDER, Colour, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
+_Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
@@ -150,20 +152,24 @@ def _inside(gram: Array, base: int, most: int) -> Array:
 
 
 def _between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
-    """What differs between the periods of rows (... x N)."""
-    count = x.shape[-1] // period if period else 0
-    if count < 2:
+    """What differs between the periods of rows (... x N), of which the last may be a part."""
+    if not period:
         return x
-    used = count * period
-    whole, there = x[..., :used].reshape(*x.shape[:-1], count, period), kept[:used].reshape(count, period)
-    mean = np.where(there, whole, 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
-    return np.asarray(np.where(kept, x - np.tile(mean, count + 1)[..., : x.shape[-1]], x))
+    there = _by_period(kept, period)
+    mean = np.where(there, _by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
+    return np.asarray(np.where(kept, x - np.tile(mean, len(there))[..., : x.shape[-1]], x))
 
 
 def _common(kept: NDArray[np.bool_], period: int) -> float:
     """Rows' worth of noise that is in what periods have in common."""
-    count = len(kept) // period if period else 0
-    return float(kept[: count * period].reshape(count, period).any(axis=0).sum()) if count > 1 else 0.0
+    return float(_by_period(kept, period).any(axis=0).sum()) if period else 0.0
+
+
+def _by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
+    """Rows (... x N) in periods (... x P x period), zero after the last."""
+    count = -(-x.shape[-1] // period)
+    padded = np.pad(x, (*((0, 0) for _ in x.shape[:-1]), (0, count * period - x.shape[-1])))
+    return np.asarray(padded.reshape(*x.shape[:-1], count, period), dtype=x.dtype)
 
 
 def _power(x: Array, inside: Array) -> Array:

@@ -25,8 +25,7 @@ def density(bank: Bank, k: int, frequency: Array) -> Array:
     """One-sided power density [unit^2/Hz] of the noise of coordinate k at frequencies [Hz], mean of all runs."""
     every = []
     for run, colours in zip(bank.runs, bank.colours, strict=True):
-        rate = 1 / (run.sampled.run.period * run.sampled.filters.factor)
-        every.append(colours[k].spectrum(frequency, rate))
+        every.append(colours[k].spectrum(frequency, run.rate))
     return np.asarray(np.mean(every, axis=0))
 
 
@@ -42,11 +41,10 @@ def notes(bank: Bank, aside: Collection[int] = ()) -> list[str]:
     Of coordinates ``aside`` it is known what it is.
     """
     parts = {}
-    filters = bank.runs[0].sampled.filters
     for k, joint in enumerate(bank.scenes[0].robot.moving):
         tau = np.concatenate([run.tau[k][run.kept[k]] for run in bank.runs])
         if k not in aside and len(tau) and np.ptp(tau):
-            parts[joint.number] = noise_floor(bank, k, filters.rate / filters.factor) / float(np.std(tau))
+            parts[joint.number] = noise_floor(bank, k, bank.runs[0].rate) / float(np.std(tau))
     least = min(_LOUD, max(_LOUDER, _TIMES * float(np.median([*parts.values()])))) if len(parts) > 2 else _LOUD
     loud = [f"{100 * part:.0f} % on joint {number}" for number, part in parts.items() if part > least]
     if not loud:

@@ -35,7 +35,7 @@ def untold(found: Search, weights: Mapping[int, float]) -> dict[int, float]:
         parts = [(bank.residual(r, k, weights, white=False), *bank.raw(r, k)[2:]) for r in range(len(bank.runs))]
         e = np.concatenate([left[kept] for left, _, kept in parts])
         tau = np.concatenate([torque[kept] for _, torque, kept in parts])
-        if len(e) < _FEWEST or not np.ptp(tau):
+        if len(e) < _FEWEST or not np.std(tau):
             continue
         if (part := _rms(_slow(e)) / float(np.std(tau))) > _MOST:
             result[k] = part

@@ -39,6 +39,8 @@ _SETTLING = 0.03
 _STILL = 2e-3
 #: Shortest run, or part of one, that anything can be told from [s].
 SHORTEST = 1.0
+#: Periods that rows hold from which they are compared: a run of two loses some rows at its ends.
+_TWICE = 1.8
 #: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.
 _NEAR = 0.35
 
@@ -48,9 +50,9 @@ class Prepared:
     """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
-    ``period`` is that of the motion in rows, 0 where it is no whole number of them; ``repeats`` is that in samples, 0
-    where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of
-    ``sampled`` too; all rows of a joint that is held are.
+    ``period`` is that of the motion in rows, 0 where it is no whole number of them or the rows hold no two of it;
+    ``repeats`` is that in samples, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the
+    rows that are left out, of ``sampled`` too; all rows of a joint that is held are.
     """
 
     sampled: Sampled
@@ -64,9 +66,13 @@ class Prepared:
 
     @property
     def times(self) -> float:
-        """How often the run has a row of each phase of the motion, in the mean; 0 where that is less than twice."""
-        times = len(self.t) / self.period if self.period else 0.0
-        return times if times >= 2 else 0.0
+        """How often the run has a row of each phase of the motion, in the mean; 0 where periods are not compared."""
+        return len(self.t) / self.period if self.period else 0.0
+
+    @property
+    def rate(self) -> float:
+        """Rows a second."""
+        return self.sampled.filters.rate / self.sampled.filters.factor
 
     @property
     def unlike(self) -> str:
@@ -76,7 +82,8 @@ class Prepared:
         if not self.repeats:
             return "does not repeat"
         factor = self.sampled.filters.factor
-        return f"repeats after {self.repeats} samples, of which one in {factor} is looked at: periods are not compared"
+        why = f"of which one in {factor} is looked at" if self.repeats % factor else "too late for its rows to hold two"
+        return f"repeats after {self.repeats} samples, {why}: periods are not compared"
 
     def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
         """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
@@ -161,5 +168,5 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
-    rows = period // factor if period and period % factor == 0 else 0
+    rows = period // factor if period % factor == 0 and tau.shape[-1] >= _TWICE * (period // factor) else 0
     return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow, period)

@@ -63,7 +63,8 @@ def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:
     for kind, played in (("before", new.before), ("after", new.after)):
         each = together(played)
         result[kind] = outcome.norms({numbers[k]: one for k, one in each.per_joint.items()}, each.total)
-    floors = [(number, noise_floor(found.found.bank, k, rate)) for k, number in enumerate(numbers)]
+    bank = found.found.bank
+    floors = [(number, noise_floor(bank, k, rate) if k in bank.shown else None) for k, number in enumerate(numbers)]
     result["noise_floor"] = {"per_joint": [{"joint": number, "rms": floor} for number, floor in floors]}
     return result
 

@@ -45,4 +45,4 @@ def _of_trial(trial: Trial, partly: Sequence[Sequence[Variant]]) -> tuple[float,
 def _of_fit(normal: Normal, partly: Sequence[Sequence[Variant]]) -> tuple[float, ...]:
     columns = [columns_of(variants) for variants in partly]
     squares = [normal.misfit(numbers, normal.solution(numbers)[0]) for numbers in columns]
-    return tuple(float(np.sqrt(one / max(normal.rows, 1))) for one in squares)
+    return tuple(float(np.sqrt(max(one, 0.0) / max(normal.rows, 1))) for one in squares)

@@ -15,10 +15,12 @@ from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import Normal
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.whitening import Colour
+from identification.diagnosis.whitening import Colour, at_rate
 
 Array = NDArray[np.float64]
 
+#: Times that one run is logged faster than another from which their noise is not compared.
+_UNLIKE = 1.5
 #: Noise of joints that no row of the other runs shows.
 _PLAIN = Colour((np.ones(1),), (1.0,))
 
@@ -60,33 +62,44 @@ class Trial:
         return np.asarray(self.torque - theta @ self.columns)
 
 
+def comparable(run: Prepared, found: Search) -> bool:
+    """Whether the noise of the runs that were searched is that of this one too: a log takes what is above its own
+    frequencies for slower noise.
+    """
+    rate, others = run.sampled.run.rate, [one.sampled.run.rate for one in found.bank.runs]
+    return any(max(rate, other) < _UNLIKE * min(rate, other) for other in others)
+
+
 def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
-    """Joints that the other runs show, white by the noisiest of them.
+    """Joints that the other runs show, white by the noisiest of them, along runs that were logged about as fast.
 
     None without rows, and where what was found is impossible along a run: a testing run may lack what the
     others have, such as a temperature.
     """
+    test = [run for run in test if comparable(run, found)]
     if not test:
         return None
     like = found.bank.scenes[0]
     jumps = Acting(tuple(found.variants)).jumps
     test = [run.without_standstill(jumps) for run in test]
     bank = Bank(test, [Scene(run.sampled, like.regressors, like.values, like.beside) for run in test])
-    shown = np.sum([found.bank.rows(r) for r in (*found.train, *found.validate)], axis=0) > 0
+    known = found.bank.shown
+    rates = [run.rate for run in found.bank.runs]
     of_joint = list(zip(*found.bank.colours, strict=True))
-    noisiest = [
-        max(mine, key=lambda one: one.deviations[-1]) if seen else _PLAIN
-        for mine, seen in zip(of_joint, shown, strict=True)
-    ]
+    loudest = [int(np.argmax([one.deviations[-1] for one in mine])) for mine in of_joint]
+
+    def noise(k: int, rate: float) -> Colour:
+        r = loudest[k]
+        return at_rate(of_joint[k][r], rates[r], rate) if k in known else _PLAIN
+
     places: dict[tuple[str, int], tuple[int, ...]] = {}
     for variant in found.variants:
         there = bank.add(variant.hypothesis, variant.shape)
         if there is None and key_of(variant) not in bank.nowhere:
             return None
         places[key_of(variant)] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
-    bank.whiten([noisiest for _ in test])
+    bank.whiten([[noise(k, run.rate) for k in range(bank.dof)] for run in test])
     blocks, usual = [np.empty((bank.count + 1, 0))], [np.empty(0)]
-    known = tuple(np.flatnonzero(shown).tolist())
     for r in range(len(test)):
         for k in known:
             numbers, white = bank.white(r, k)
@@ -94,7 +107,7 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
             block[[*numbers, bank.count]] = white
             blocks.append(block)
             mean = np.sqrt(np.mean([one.deviations[-1] ** 2 for one in of_joint[k]]))
-            usual.append(np.full(white.shape[1], mean / noisiest[k].deviations[-1]))
+            usual.append(np.full(white.shape[1], mean / of_joint[k][loudest[k]].deviations[-1]))
     rows = np.concatenate(blocks, axis=1)
     if not rows.shape[1]:
         return None

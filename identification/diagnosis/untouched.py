@@ -45,7 +45,7 @@ def rms(one: Residual) -> float:
 
 
 def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> dict[int, Untouched]:
-    """By the joint's number, all runs together; joints without rows are left out.
+    """By the joint's number, all runs together; joints without rows are left out, and those of which ``bank`` has none.
 
     The noise is that of the runs in ``bank``, at the rate of these rows.
     """
@@ -54,7 +54,7 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     return {
         joint.number: Untouched(old[k], new[k], noise_floor(bank, k, rate))
         for k, joint in enumerate(bank.scenes[0].robot.moving)
-        if old[k].rows and new[k].rows
+        if old[k].rows and new[k].rows and k in bank.shown
     }
 
 

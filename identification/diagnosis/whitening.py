@@ -76,9 +76,22 @@ def recoloured(one: Colour, free: Array) -> Colour:
     """The colour of which a part ``free`` of the power is left, at frequencies evenly from none to half the rate."""
     spectrum = one.spectrum(np.linspace(0.0, 0.5, _FREQUENCIES), 1.0) / 2
     given = np.interp(np.linspace(0.0, 1.0, _FREQUENCIES), np.linspace(0.0, 1.0, len(free)), free)
-    r = np.fft.irfft(spectrum / given)
+    return _of_power(spectrum / given, len(one.filters) - 1)
+
+
+def at_rate(one: Colour, own: float, rate: float) -> Colour:
+    """The colour in rows at another ``rate`` [Hz] than its ``own``: even where its rows show no frequencies."""
+    if np.isclose(own, rate):
+        return one
+    frequency = np.linspace(0.0, rate / 2, _FREQUENCIES)
+    return _of_power(one.spectrum(np.minimum(frequency, own / 2), own) * rate / 2, len(one.filters) - 1)
+
+
+def _of_power(power: Array, order: int) -> Colour:
+    """The colour of rows with a power at frequencies evenly from none to half the rate (Levinson's recursion)."""
+    r = np.fft.irfft(power)
     filters, deviations = [np.ones(1)], [float(np.sqrt(r[0]))]
-    for m in range(1, len(one.filters)):
+    for m in range(1, order + 1):
         a = np.concatenate([[1.0], solve_toeplitz(r[:m], -r[1 : m + 1])])
         filters.append(a)
         deviations.append(float(np.sqrt(np.maximum(a @ r[: m + 1], 0.0))))

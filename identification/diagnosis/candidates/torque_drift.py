@@ -39,7 +39,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes or scenes[0].robot.drives is None:
         return []
     robot = scenes[0].robot
-    stated = robot.drives.torque_drift if robot.drives is not None else ()
+    stated = scenes[0].robot.drives.torque_drift
     time = warm_up_times(scenes)
     found = []
     for k, joint in enumerate(robot.moving):

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.contradiction import Contradicted
-from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
+from identification.diagnosis.diagnosis import AMPLITUDES, KNOWN, LOCATED, NAMED, NOTHING, VALUES
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
 from identification.diagnosis.played import together
@@ -68,7 +68,8 @@ def verdict(subject: Subject) -> Iterator[str]:
         yield from _otherwise(found.contradicted)
         return
     if found.verdict == NAMED:
-        yield f"The model lacks {_named(found.findings)}."
+        lacks = "lacks" if any(one.sure for one in found.findings) else "may lack"
+        yield f"The model {lacks} {_named(found.findings)}."
         yield from _otherwise(found.contradicted)
         return
     if found.verdict == LOCATED:
@@ -78,14 +79,18 @@ def verdict(subject: Subject) -> Iterator[str]:
         else:
             yield "No joint keeps more than noise."
         return
-    if found.by_values:
+    if found.reason == VALUES:
         others = listed(one.name for one in found.contradicted)
         yield f"The model explains these runs with other values than are known of {others}, by far more than their"
         yield "uncertainty: those are wrong, or stand for something that is missing, most of it on joint"
         yield f"{found.after.joint}."
         return
     yield "Something is missing in the model that no effect of the library explains well enough to be named:"
-    yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
+    if found.reason == AMPLITUDES:
+        off = (f"the size of {one.hypothesis.named} {one.disagreement}" for one in found.findings if one.disagreement)
+        yield f"{listed(off)}."
+    else:
+        yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
 
@@ -121,6 +126,8 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
         yield f"This data cannot tell it from {listed(others)}."
     elif one.status == FIRM:
         yield f"No other effect of the library is as likely in its place{' on any of them' if several else ''}."
+    elif not one.sure:
+        yield "Noise is not known apart from the model here, and may be all that this is."
     elif subject.found.verdict == NAMED:
         yield "That such a torque acts is sure; that this makes it is not."
     if one.disagreement:

@@ -34,6 +34,4 @@ def render(subject: Subject) -> Markup:
 
 
 def _period(one: Prepared) -> str:
-    if not one.period:
-        return "does not repeat"
-    return f"repeats every {one.period * one.sampled.filters.factor * one.sampled.run.period:.4g} s"
+    return one.unlike or f"repeats every {one.period * one.sampled.filters.factor * one.sampled.run.period:.4g} s"
