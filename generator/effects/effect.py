@@ -44,7 +44,8 @@ class Shape:
     ``prismatic`` is the unit on a prismatic joint, where it is another one. ``joint`` tells that it is the number of
     another moving joint. ``tried`` are the values at which a search for an unknown one begins, in units of the joint's
     top speed where ``relative`` says "speed", of its rotor's inertia where it says "rotor", of half the range it moves
-    through, from its middle, where it says "position"; where ``whole`` nothing between whole numbers is a value, and
+    through, from its middle, where it says "position", and ``within`` are ends between which it goes on from there in
+    geometric steps; where ``whole`` nothing between whole numbers is a value, and
     where ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole
     numbers is another effect.
     """
@@ -58,6 +59,7 @@ class Shape:
     prismatic: str | None = None
     joint: bool = False
     tried: tuple[float, ...] = ()
+    within: tuple[float, float] | None = None
     relative: str = ""
     whole: bool = False
     several: int = 0

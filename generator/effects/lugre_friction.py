@@ -26,8 +26,15 @@ EFFECT = Effect(
     ),
     columns=_columns,
     shapes=(
-        Shape("xs", "rad", "deflection of the bristles in fast sliding", 0.0, prismatic="m", tried=(1e-3, 1e-2)),
-        Shape("excess", "1", "what friction has at rest beyond Coulomb's, as a part of that", 0.0, tried=(0.5,)),
+        Shape("xs", "rad", "deflection of the bristles in fast sliding", 0.0, prismatic="m", tried=(1e-3, 3e-3, 1e-2)),
+        Shape(
+            "excess",
+            "1",
+            "what friction has at rest beyond Coulomb's, as a part of that",
+            0.0,
+            tried=(0.5,),
+            within=(0.05, 3.0),
+        ),
         Shape(
             "vs",
             "rad/s",
@@ -35,6 +42,7 @@ EFFECT = Effect(
             0.0,
             prismatic="m/s",
             tried=(0.05,),
+            within=(0.01, 0.3),
             relative="speed",
         ),
     ),

@@ -37,6 +37,8 @@ _WARM_UP = 60.0
 _RUBBING = frozenset({"viscous_friction", "coulomb_friction"})
 #: Part of the inertia that a joint feels that is its rotor's where the model has no rotors.
 _SHARE = 0.5
+#: Step of the logarithm of a shape that is searched between ends from one point.
+_STEP = 0.7
 #: What an effect shows in, by what its columns are made of; the first that fits.
 _VARIABLES = (
     ("warmth", "time"),
@@ -116,7 +118,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
     for shape in effect.shapes:
         if not shape.tried:
             continue
-        points = likely_orders(scenes, k, shape.several) if shape.several else _points(shape, k, scenes)
+        points = likely_orders(scenes, k, shape.several) if shape.several else _points(shape, shape.tried, k, scenes)
         if not points and shape.default is not None:
             continue
         if not points:
@@ -126,6 +128,9 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
         even = shape.relative == "position" or min(points) <= 0
         low = LOWEST if shape.several else min(points)
         found = ShapeRange(shape.name, unit, low, max(points), log=not even, points=points)
+        if shape.within:
+            low, high = _points(shape, shape.within, k, scenes)
+            found = replace(found, low=low, high=high, step=_STEP)
         shapes.append(replace(found, whole=shape.whole, exact=shape.exact))
     coefficients = tuple(
         Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
@@ -160,7 +165,8 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
     ]
 
 
-def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
+def _points(shape: Shape, values: Sequence[float], k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
+    """The values, in units of what the shape is relative to; none where that is not known."""
     zero, unit = 0.0, 1.0
     if shape.relative == "rotor":
         unit = rotor_inertia(scenes[0], k) or _SHARE * float(np.min(link_side(scenes[0], k, 0.0).inertia))
@@ -171,7 +177,7 @@ def _points(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
     elif shape.relative == "position":
         q = np.concatenate([scene.motion.q[k] for scene in scenes])
         zero, unit = float(q.max() + q.min()) / 2, float(np.ptp(q)) / 2
-    return tuple(zero + unit * one for one in shape.tried)
+    return tuple(zero + unit * one for one in values)
 
 
 def _variable(effect: Effect) -> str:
