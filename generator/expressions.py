@@ -28,6 +28,8 @@ _TOKEN = re.compile(
 )
 _NOT_FINITE = re.compile(r"\.?(?:inf|infinity|nan)\Z", re.IGNORECASE)
 _GRAMMAR = "numbers, pi, names and + - * / ^ ( )"
+_END = "an operator or the end"
+_NO_UNIT = f"{_END}; a unit stands behind a number alone: write pi/2, or give it a name in geometry"
 _OPERAND = "a number, pi, a name or ("
 
 
@@ -154,7 +156,7 @@ class _Parser:
         result = self._sum()
         token = self._peek()
         if token.kind != "end":
-            raise InputError(token.place, f"unexpected {token.text!r}", "an operator or the end")
+            raise InputError(token.place, f"unexpected {token.text!r}", _END if token.kind != "name" else _NO_UNIT)
         return result
 
     def _peek(self) -> _Token:

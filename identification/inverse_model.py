@@ -24,6 +24,7 @@ from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
+from identification.shared_samples import unshared
 from identification.sidecar import Payload
 from identification.suspicion import directed, suspect
 
@@ -103,6 +104,7 @@ def identify(
         tuple(_observed(_loaded(str(source), robot, recipe, options), recipe, given) for source in sources)
         for sources in (data, test)
     )
+    unshared({"fit": [one.sampled.run for one in trained], "test": [one.sampled.run for one in tried]})
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
     regressors, aside = under_own_load(

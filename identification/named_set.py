@@ -6,10 +6,13 @@ from generator.errors import InputError, Place
 from generator.robot.description import ParameterSet, Robot
 from generator.robot.fields import nearest
 
+#: What a robot without any set needs.
+_NONE = "one in section parameters of the robot file, which has none"
+
 
 def named_set(robot: Robot, name: str, place: Place) -> ParameterSet:
     """The robot's set ``name``; raises InputError, at ``place``, where it has none of that name."""
     sets = robot.parameter_sets
     if name not in sets:
-        raise InputError(place, f"{robot.name} has no parameter set {name!r}", nearest(name, sets))
+        raise InputError(place, f"{robot.name} has no parameter set {name!r}", nearest(name, sets) if sets else _NONE)
     return sets[name]

@@ -59,7 +59,7 @@ class Sidecar:
 
 def path_of(run: Path) -> Path:
     """Where the sidecar of a run file is, if there is one."""
-    return run.with_suffix(".yaml")
+    return run.with_suffix(".yaml") if run.name else run / ".yaml"
 
 
 def read(run: Path) -> Sidecar:

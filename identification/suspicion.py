@@ -19,7 +19,7 @@ from identification.factors import Factor, triangular
 from identification.filtering import smoothed
 from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
-from identification.residuals import Residuals
+from identification.residuals import Residual, Residuals
 from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
@@ -47,10 +47,15 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
         raise InputError(runs[0].run.place, problem, "a run of this robot, in rad and N m")
     numbers = [joint.number for joint in regressors.model.robot.moving]
     return [
-        f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained"
+        f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained{_asked(each[k])}"
         for k in bad
         if each[k].relative_to_mean > _REFUSED
     ]
+
+
+def _asked(one: Residual) -> str:
+    """What is asked where a model leaves more of a torque than its mean would."""
+    return ", more than its mean leaves: is it in N m, or its current in A?" if one.relative_to_mean > 100 else ""
 
 
 def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:

@@ -60,7 +60,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         # What a command leaves goes with its process; Python's last collection would walk all of it first.
         atexit.register(gc.freeze)
     try:
-        arguments = _parser(commands()).parse_args(argv)
+        arguments, unknown = _parser(commands()).parse_known_args(argv)
+        if unknown:
+            arguments.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
         arguments.command.run(arguments)
         sys.stdout.flush()
     except InputError as error:
@@ -101,6 +103,6 @@ def _parser(known: dict[str, Command]) -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
-        chosen.set_defaults(command=command)
+        chosen.set_defaults(command=command, parser=chosen)
         command.configure(chosen)
     return parser

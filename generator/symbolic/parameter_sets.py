@@ -59,6 +59,10 @@ def resolved(model: Model, values: Values) -> dict[str, float]:
     return dict(zip(names, parameter_vector(model, values).tolist(), strict=True))
 
 
+#: Where a set's names are those of other groupings.
+_REGROUPED = "a set of another geometry has other groupings, counterpoise review tells those of this file"
+
+
 def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
     """The names of ``values`` that only base and that only standard parameters have, one of the two empty."""
     base = {parameter.name: parameter for parameter in model.all_parameters}
@@ -71,14 +75,16 @@ def _kinds(model: Model, values: Values) -> tuple[list[str], list[str]]:
         raise InputError(
             values[standard_only[0]].place,
             f"the standard parameter {standard_only[0]} beside the base parameter {base_only[0]}",
-            "parameters of one kind",
+            f"parameters of one kind; {_REGROUPED}" if f"{standard_only[0]}R" in base else "parameters of one kind",
         )
     return base_only, standard_only
 
 
 def _check(model: Model, name: str, value: ParameterValue, known: Mapping[str, Parameter]) -> None:
     if name not in known:
-        expected = lacking(model.robot, name) or nearest(name, known)
+        other = name.removesuffix("R") if name.endswith("R") else f"{name}R"
+        regrouped = f"{other!r}, which is another sum; {_REGROUPED}" if other in known else ""
+        expected = lacking(model.robot, name) or regrouped or nearest(name, known)
         raise InputError(value.place, f"the robot has no parameter {name!r}", expected)
     if value.unit not in (UNSTATED, known[name].unit):
         raise InputError(value.place, f"{name} is given in {value.unit}", known[name].unit)

@@ -43,6 +43,8 @@ VALUES, AMPLITUDES = "values", "amplitudes"
 
 #: What may stay unexplained, in parts of what was explained on the joint.
 _PART = 0.3
+#: Size of what is left that is told though it may be noise.
+_NOTED = 0.2
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
 _ELASTIC, _SURE = 0.5, 4.0
 
@@ -137,6 +139,8 @@ def diagnose(
             f"what is left on joint {one.joint} follows {one.follows}" for one in open_ if one.follows
         )
         notes += odd_run.notes(found)
+    if not open_:
+        notes += _hardly(last.lack)
     if named and not open_:
         notes += _little([lack for lack in last.lack if lack.joint not in bounces])
     return Diagnosis(
@@ -217,6 +221,17 @@ def _large(lack: Lack, explained: float, bounces: float) -> bool:
     beside what the file explains by a link that ``bounces``.
     """
     return lack.burst is not None or (lack.told and lack.size > _PART * float(np.hypot(explained, bounces)))
+
+
+def _hardly(lacks: Sequence[Lack]) -> list[str]:
+    """What is told of joints of ``lacks`` that keep more than chance, though not more than noise that is not known may
+    be.
+    """
+    where = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.p < CHANCE and not one.told]
+    where = [] if all(one.size < _NOTED for one in lacks) else where
+    if not where:
+        return []
+    return [f"more than chance is left, {listed(where)}: so little is not told from noise where no motion repeats"]
 
 
 def _little(lacks: Sequence[Lack]) -> list[str]:

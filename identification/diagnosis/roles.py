@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
-from pathlib import Path
 
 from generator.errors import InputError
 from identification.dataset import Run, part_of
 from identification.diagnosis.periods import period_of
 from identification.diagnosis.prepared import SHORTEST
+from identification.shared_samples import unshared
 
 #: Part of a run's time that tests, where there are too few runs, and how long it must be [s] to tell anything.
 _TESTED, _ENOUGH = 0.25, 5.0
@@ -49,7 +48,7 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     Where nothing is ``tested`` no run is spent on it. Raises InputError for runs that have samples in common, and for
     one too short to be split.
     """
-    _unshared({"fit": data, "validate": validate, "test": test})
+    unshared({"fit": data, "validate": validate, "test": test})
     fit, held, last = (tuple(run.name for run in runs) for runs in (data, validate, test))
     notes: list[str] = []
     fitted: list[Run] = list(data)
@@ -75,18 +74,6 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     elif not validate:
         notes.append("each run is held against what the others predict")
     return Roles(train, held, last, (*known, *held), tuple(notes))
-
-
-def _unshared(runs: Mapping[str, Sequence[Run]]) -> None:
-    """Refuses runs, by what they do, that are of one recording and share samples."""
-    every = [(run, use) for use, mine in runs.items() for run in mine]
-    for (one, use), (other, again) in combinations(every, 2):
-        start, end = max(one.start, other.start), min(one.start + _length(one), other.start + _length(other))
-        if one.sha256 == other.sha256 and end - start > max(one.period, other.period):
-            twice = f"{use} in {Path(one.name).name} and {again} in {Path(other.name).name}"
-            raise InputError(
-                other.place, f"its samples from {start:g} s to {end:g} s {twice}", "runs, or parts, that share none"
-            )
 
 
 def _tail(run: Run) -> str:

@@ -29,13 +29,15 @@ class Untouched:
     @property
     def relative_floor(self) -> float:
         """What noise alone would leave, in % of the torque's spread."""
-        return 100 * self.floor * float(np.sqrt(self.after.rows)) / self.after.spread if self.after.spread else 0.0
+        return 100 * self.floor * float(np.sqrt(self.before.rows)) / self.before.spread if self.before.spread else 0.0
 
     @property
     def closed(self) -> float | None:
-        """The share of the gap between ``before`` and the noise that is closed, in squares; None without a gap."""
-        before, after = (rms(one) ** 2 for one in (self.before, self.after))
-        gap = before - self.floor**2
+        """The share of the gap between ``before`` and the noise that is closed, in squares of parts of the torque's
+        spread, which a gain changes too; None without a gap.
+        """
+        before, after = (one.relative_to_mean**2 for one in (self.before, self.after))
+        gap = before - self.relative_floor**2
         return (before - after) / gap if gap > _GAP * before else None
 
 
@@ -67,12 +69,12 @@ def objections(tried: Mapping[int, Untouched], elastic: bool = False) -> list[st
     worse = [
         f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
         for number, one in tried.items()
-        if rms(one.after) > _WORSE * rms(one.before)
+        if one.after.relative_to_mean > _WORSE * one.before.relative_to_mean
     ]
     lacking = [
         f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
         for number, one in tried.items()
-        if not elastic and rms(one.after) > _LACKING * one.floor
+        if not elastic and one.after.relative_to_mean > _LACKING * one.relative_floor
     ]
     notes = []
     if worse:

@@ -7,13 +7,16 @@ decimal mark of all numbers. Lines before the header that begin with # or % say 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
 from generator.errors import InputError, Place
+from generator.review.words import listed
 from identification.recording import Array, Recording, digest
 from identification.text_form import Form, decimal_mark, form, other_marks, split
 
@@ -21,6 +24,7 @@ EXTENSIONS = (".csv", ".tsv", ".txt")
 
 _HEADER = "a header row with the columns' names"
 _NAME = "a name of letters, digits and _, such as q1"
+_NO_UNITS = "a number; a row of units stands before the header, behind #"
 #: A unit is never taken from a name: what a sidecar does not say is in SI units.
 _UNIT = f"{_NAME}, in rad; q1_deg with 'columns: {{q1: q1_deg * pi / 180}}' in the sidecar"
 
@@ -57,18 +61,46 @@ def read(path: Path) -> Recording:
         rows -= 1
     if not rows:
         return Recording(file, {name: np.empty(0) for name in form.names}, digest(path), layout.place, notes)
+    names: Sequence[str] = form.names
     try:
-        values = np.loadtxt(
-            form.rows(rows), delimiter=form.separator, ndmin=2, comments=None, quotechar='"', dtype=float
-        )
+        values = _numbers(form, rows)
     except ValueError as error:
-        _find_fault(layout, rows, str(error))
+        words = _of_words(form, rows)
+        names = [name for name in form.names if name not in words]
+        if not words or not names:
+            _find_fault(layout, rows, str(error))
+        notes = (*notes, f"{file}: {listed(words)} held no number and is left out")
+        try:
+            values = _numbers(form, rows, [form.names.index(name) for name in names])
+        except ValueError as other:
+            _find_fault(layout, rows, str(other), words)
     if len(values) != rows:
         _find_fault(layout, rows, "a line is empty")
-    if values.shape[1] != len(form.names):
-        _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(form.names)} names")
-    columns: dict[str, Array] = dict(zip(form.names, np.ascontiguousarray(values.T), strict=True))
+    if values.shape[1] != len(names):
+        _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(names)} names")
+    columns: dict[str, Array] = dict(zip(names, np.ascontiguousarray(values.T), strict=True))
     return Recording(file, columns, digest(path), layout.place, notes)
+
+
+def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Array:
+    """Rows of numbers (N x c), of some columns where they are given; raises ValueError for what is none."""
+    lines, separator = form.rows(rows), form.separator
+    return np.asarray(
+        np.loadtxt(lines, delimiter=separator, ndmin=2, comments=None, quotechar='"', dtype=float, usecols=columns)
+    )
+
+
+def _of_words(form: Form, rows: int) -> list[str]:
+    """Columns of which no row is a number; none where a row has another number of fields."""
+    words = dict.fromkeys(range(len(form.names)))
+    for text in islice(form.lines(), rows):
+        fields = split(text, form.separator)
+        if len(fields) != len(form.names):
+            return []
+        words = {k: None for k in words if not form.is_number(fields[k])}
+        if not words:
+            break
+    return [form.names[k] for k in words]
 
 
 def _layout(file: str, path: Path) -> _Layout:
@@ -89,8 +121,8 @@ def _layout(file: str, path: Path) -> _Layout:
     return layout
 
 
-def _find_fault(layout: _Layout, rows: int, problem: str) -> None:
-    """Raises InputError at the first field that is not a number."""
+def _find_fault(layout: _Layout, rows: int, problem: str, words: Sequence[str] = ()) -> NoReturn:
+    """Raises InputError at the first field that is not a number, but for columns of ``words``."""
     form, mark = layout.form, ""
     for row, text in enumerate(islice(form.lines(), rows)):
         line = form.header + row + 2
@@ -98,10 +130,13 @@ def _find_fault(layout: _Layout, rows: int, problem: str) -> None:
             raise InputError(Place(layout.file, line), "the line is empty", "a row of numbers")
         fields = split(text, form.separator)
         for name, field in zip(form.names, fields, strict=False):
+            if name in words:
+                continue
             mark = mark or decimal_mark(field)
             if not form.is_number(field):
                 problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
-                raise InputError(layout.place(row, name), problem, "a number")
+                units = row == 0 and not any(map(form.is_number, fields))
+                raise InputError(layout.place(row, name), problem, _NO_UNITS if units else "a number")
             if form.separator != "," and other_marks(field, mark):
                 problem = f"{name} is {field.strip()!r}"
                 raise InputError(layout.place(row, name), problem, f"a number with {mark!r}, as in the rows before")

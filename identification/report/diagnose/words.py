@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.contradiction import Contradicted
 from identification.diagnosis.diagnosis import AMPLITUDES, KNOWN, LOCATED, NAMED, NOTHING, VALUES
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
+from identification.diagnosis.lack_of_fit import CHANCE
 from identification.diagnosis.played import together
-from identification.diagnosis.untouched import rms
 from identification.diagnosis.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
@@ -64,7 +65,8 @@ def verdict(subject: Subject) -> Iterator[str]:
     found = subject.found
     if found.verdict == NOTHING:
         yield "The model explains these runs: no effect of the library that is large enough to be named improves it"
-        yield "beyond chance, and what is left on each joint is noise."
+        hardly = "hardly more than " if any(one.p < CHANCE for one in found.after.lack) else ""
+        yield f"beyond chance, and what is left on each joint is {hardly}noise."
         yield from _otherwise(found.contradicted)
         return
     if found.verdict == NAMED:
@@ -91,8 +93,17 @@ def verdict(subject: Subject) -> Iterator[str]:
         yield f"{listed(off)}."
     else:
         yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
+        yield from _once(found.after)
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
+
+
+def _once(where: Where) -> Iterator[str]:
+    """The event on the joint, if there is one."""
+    for one in where.lack:
+        if one.joint == where.joint and one.burst is not None:
+            run, t = one.burst
+            yield f"Something happened once there, at {t:.2f}\u202fs of {Path(run).name}."
 
 
 def _otherwise(contradicted: Sequence[Contradicted]) -> Iterator[str]:
@@ -147,7 +158,7 @@ def change(subject: Subject) -> Iterator[str]:
         one = tried[number]
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
         yield f"Joint {number} is left with {after}\u202f%, instead of {before}\u202f%;"
-        if rms(one.after) <= one.floor:
+        if one.after.relative_to_mean <= one.relative_floor:
             yield "that is not more than the noise that was measured on the fitted runs."
             continue
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
