@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import sympy
 
 from generator.errors import InputError, Place
-from generator.units import Quantity, accepted, parse_unit
+from generator.units import Quantity, accepted, is_unit, parse_unit
 
 #: Bounds that no honest robot file meets, so that no input can cost more than an instant.
 _MAX_LENGTH = 500
@@ -156,7 +156,7 @@ class _Parser:
         result = self._sum()
         token = self._peek()
         if token.kind != "end":
-            raise InputError(token.place, f"unexpected {token.text!r}", _END if token.kind != "name" else _NO_UNIT)
+            raise InputError(token.place, f"unexpected {token.text!r}", _NO_UNIT if is_unit(token.text) else _END)
         return result
 
     def _peek(self) -> _Token:

@@ -69,6 +69,11 @@ class Quantity:
     place: Place = _NOWHERE
 
 
+def is_unit(text: str) -> bool:
+    """Whether a word is the symbol of a unit."""
+    return text in _SYMBOLS
+
+
 def accepted(si: str) -> str:
     """What can be written for the SI unit ``si``."""
     return _ALTERNATIVES.get(si, si)

@@ -24,7 +24,7 @@ from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
-from identification.shared_samples import unshared
+from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload
 from identification.suspicion import directed, suspect
 
@@ -104,9 +104,11 @@ def identify(
         tuple(_observed(_loaded(str(source), robot, recipe, options), recipe, given) for source in sources)
         for sources in (data, test)
     )
-    unshared({"fit": [one.sampled.run for one in trained], "test": [one.sampled.run for one in tried]})
+    fitted, tested = ([one.sampled.run for one in runs] for runs in (trained, tried))
+    unshared({"fit": fitted})
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
+    notes += fitted_too(fitted, tested)
     regressors, aside = under_own_load(
         [one.sampled for one in trained],
         given,

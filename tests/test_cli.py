@@ -106,7 +106,10 @@ def test_asking_for_help_imports_no_algebra() -> None:
         (["check"], "error: counterpoise check:1:1: the following arguments are required: ROBOT, expected what"),
         (["check", "kr501"], "error: kr501:1:1: there is no robot 'kr501', expected perhaps kr500"),
         (["check", "no/such.yaml"], "error: no/such.yaml:1:1: there is no such file, expected the path of a"),
-        (["generate", "kr500", "--uot", "x"], "error: counterpoise:1:1: unrecognized arguments: --uot x, expected"),
+        (
+            ["generate", "kr500", "--uot", "x"],
+            "error: counterpoise generate:1:1: unrecognized arguments: --uot x, expected",
+        ),
     ],
 )
 def test_mistakes_on_the_command_line(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:

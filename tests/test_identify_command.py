@@ -163,7 +163,7 @@ REFUSED = {
     ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
     ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
     ("--fix", "Fv1=x"): "error: --fix:1:1: 'x' is not a number, expected numbers, pi and + - * / ^ ( )",
-    ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected none",
+    ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected one in ",
     ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",

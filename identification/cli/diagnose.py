@@ -109,5 +109,5 @@ def _value(one: Told) -> str:
 
 def _place(where: Where) -> str:
     """``joint 2, over qd, ...``."""
-    region = f", {where.region}" if where.region else ""
+    region = "".join(f", {one}" for one in dict.fromkeys((where.region, where.event)) if one)
     return f"joint {where.joint}, over {where.variable or 'nothing in particular'}{region}"

@@ -41,7 +41,7 @@ _TINY = 1e-300
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
-_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
+_ELSEWHERE = "other motion, or another mount of the base: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
 _MAIN = 0.5
 #: Times its low end below which what vanishes there has vanished.
@@ -343,23 +343,24 @@ class Weighing:
 
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""
-        return bool(self._left_of(variant) >= _VISIBLE)
+        return not all(map(self.hides, variant.columns))
 
-    def _left_of(self, variant: Variant) -> float:
-        return float(self.normal.left[np.array(variant.columns) - self.normal.base].max())
+    def hides(self, number: int) -> bool:
+        """Whether the model takes up a column, by its number."""
+        return bool(self.normal.left[number - self.normal.base] < _VISIBLE)
 
     def invisible(self) -> list[Hypothesis]:
         """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
         no torque along the runs.
         """
-        left: dict[Key, list[float]] = {}
+        hidden: dict[Key, list[bool]] = {}
         whose: dict[Key, Hypothesis] = {}
         for variant in self.bank.variants:
             key = key_of(variant)
-            left.setdefault(key, []).append(self._left_of(variant))
+            hidden.setdefault(key, []).append(not self.visible(variant))
             whose[key] = variant.hypothesis
-        taken_up = [whose[key] for key, parts in left.items() if np.median(parts) < _VISIBLE]
-        nowhere = [one for key, one in self.bank.nowhere.items() if key not in left and not one.measured]
+        taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
+        nowhere = [one for key, one in self.bank.nowhere.items() if key not in hidden and not one.measured]
         return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
 
 

@@ -186,7 +186,7 @@ def findings(
         at = [place[number] for number in variant.columns]
         hypothesis = variant.hypothesis
         alternatives = _alternatives(hypothesis, one)
-        values = {c.name: Value(0.0, 0.0, c.unit) for c in hypothesis.coefficients}
+        values = _unused(found, variant)
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
@@ -213,6 +213,18 @@ def findings(
     remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
     told = _beside_any_torque([_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
+
+
+def _unused(found: Search, variant: Variant) -> dict[str, Value]:
+    """Coefficients by name where none of them is in use: 0, of which nothing is known where the model takes them up."""
+    whole = found.bank.add(variant.hypothesis, variant.shape) or variant
+    hidden = {
+        c.name for c, number in zip(whole.coefficients, whole.columns, strict=True) if found.weighing.hides(number)
+    }
+    return {
+        c.name: Value(0.0, math.inf if c.name in hidden and not c.refines else 0.0, c.unit)
+        for c in variant.hypothesis.coefficients
+    }
 
 
 def _least(found: Search, variant: Variant) -> float:

@@ -44,6 +44,12 @@ class Where:
     lack: tuple[Lack, ...]
     views: Mapping[int, tuple[View, ...]]
 
+    @property
+    def event(self) -> str:
+        """What happens once on the joint, in words: when; empty where nothing does."""
+        (burst,) = [one.burst for one in self.lack if one.joint == self.joint] or [None]
+        return "" if burst is None else f"once, at {burst[1]:.2f} s of {Path(burst[0]).name}"
+
 
 def seen(found: Search, weights: Mapping[int, float]) -> Where:
     """What values of columns by number leave of each joint, without a verdict on where that is most."""
@@ -94,8 +100,7 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
     variable, shares = strongest(mine := seen.views[worst.joint])
     region = _region(mine, variable)
     if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:
-        run, t = worst.burst
-        variable, region = "time", f"once, at {t:.2f} s of {Path(run).name}"
+        variable, region = "time", replace(seen, joint=worst.joint).event
     return replace(seen, joint=worst.joint, variable=variable, region=region, shares=shares)
 
 

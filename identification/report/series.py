@@ -49,9 +49,9 @@ def line(x: Array, y: Array, count: int) -> tuple[Numbers, Numbers]:
     return across, upward
 
 
-def numbers(values: Iterable[float], digits: int = 5) -> Numbers:
-    """Numbers with so many significant digits; None for what is not finite."""
-    return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in values]
+def numbers(values: Iterable[float | None], digits: int = 5) -> Numbers:
+    """Numbers with so many significant digits; None for what is none, or not finite."""
+    return [float(f"{value:.{digits}g}") if value is not None and np.isfinite(value) else None for value in values]
 
 
 def some(count: int, most: int) -> NDArray[np.int64]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.contradiction import Contradicted
@@ -93,17 +92,10 @@ def verdict(subject: Subject) -> Iterator[str]:
         yield f"{listed(off)}."
     else:
         yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
-        yield from _once(found.after)
+        if found.after.event not in ("", found.after.region):
+            yield f"Something happens there {found.after.event}."
     if found.findings:
         yield f"What is named is therefore tentative: {_named(found.findings)}."
-
-
-def _once(where: Where) -> Iterator[str]:
-    """The event on the joint, if there is one."""
-    for one in where.lack:
-        if one.joint == where.joint and one.burst is not None:
-            run, t = one.burst
-            yield f"Something happened once there, at {t:.2f}\u202fs of {Path(run).name}."
 
 
 def _otherwise(contradicted: Sequence[Contradicted]) -> Iterator[str]:
