@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.prepared import RATE, windowed
 from identification.diagnosis.scene import Scene
-from identification.diagnosis.whitening import colour, stretches
+from identification.diagnosis.whitening import ORDER, colour, stretches
 
 Array = NDArray[np.float64]
 
@@ -38,7 +38,8 @@ def end(scenes: Sequence[Scene]) -> float:
     one joint; a log's filter and its steps are of all, and leave less than a rotor of what is quick.
     """
     rate = scenes[0].sampled.run.rate / _factor(scenes[0])
-    frequency = np.linspace(0, rate / 2, _FREQUENCIES + 1)[1:]
+    # A colour tells no lower ones apart.
+    frequency = np.linspace(rate / 2 / ORDER, rate / 2, _FREQUENCIES)
     power = np.quantile([_power(scenes, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
     short = power < _SHORT
     if len(scenes[0].tau) < _SEVERAL:
