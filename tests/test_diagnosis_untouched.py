@@ -60,3 +60,11 @@ def test_what_a_testing_run_contradicts_is_taken_back(
     assert found.verdict in ({NAMED, UNEXPLAINED} if named and back else {NAMED} if named else {UNEXPLAINED})
     told = [note for note in found.notes if "is taken back" in note]
     assert [note.startswith(f"{back} on joint 1 is taken back") for note in told] == [True] * bool(back)
+
+
+def test_a_gain_that_makes_torques_larger_makes_no_joint_worse() -> None:
+    """Half as much again of the torque, and of its noise: the part of the spread is what counts."""
+    one = Untouched(Residual(100, 20.0, 600.0, 500.0), Residual(100, 24.0, 900.0, 750.0), 1.0)
+    assert objections({1: one}) == []
+    assert one.closed is not None
+    assert one.closed == pytest.approx((4.0**2 - 3.2**2) / (4.0**2 - 2.0**2))

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import linalg, signal
 
-from identification.diagnosis.whitening import Colour, colour, recoloured, stretches
+from identification.diagnosis.whitening import Colour, at_rate, colour, recoloured, stretches
 
 Array = NDArray[np.float64]
 
@@ -116,3 +116,14 @@ def test_what_was_taken_away_at_a_frequency_is_given_back_there() -> None:
     rate = 50.0
     at = np.linspace(0.0, rate / 2, 65)
     assert slow.spectrum(at, rate) * free == pytest.approx(whole.spectrum(at, rate), rel=0.03)
+
+
+def test_rows_at_another_rate_have_the_same_power_at_the_same_frequency() -> None:
+    known = colour([process(40_000, 5)], order=2)
+    slower = at_rate(known, 50.0, 40.0)
+    f = np.linspace(0.5, 18.0, 30)
+    assert slower.spectrum(f, 40.0) == pytest.approx(known.spectrum(f, 50.0), rel=0.25)
+    frequency = np.linspace(0.0, 20.0, 2000)
+    power = float(np.trapezoid(known.spectrum(frequency, 50.0), frequency))
+    assert slower.deviations[0] ** 2 == pytest.approx(power, rel=0.01)
+    assert at_rate(known, 50.0, 50.0) is known

@@ -221,12 +221,26 @@ def test_refused_files(
     assert got.startswith(f"error: {file}{message}")
 
 
+OTHER_GROUPINGS = "a set of another geometry has other groupings, counterpoise review tells those of this file"
+
+
 def test_base_beside_standard_parameters_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mixed.yaml"
     file.write_text("ZZ1R: 1\nFv1: 2\nM2: 3\n")
     got = refusal("kr500", "gravity", "--q", *"000000", "--parameters", file, capsys=capsys)
     beside = "the standard parameter M2 beside the base parameter ZZ1R"
     assert got == f"error: {file}:3:1: {beside}, expected parameters of one kind\n"
+    file.write_text("ZZ1R: 1\nFv1: 2\nZZ2: 3\n")
+    got = refusal("kr500", "gravity", "--q", *"000000", "--parameters", file, capsys=capsys)
+    assert got.endswith(f"expected parameters of one kind; {OTHER_GROUPINGS}\n")
+
+
+def test_a_name_of_other_groupings_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "older.yaml"
+    file.write_text("XX1R: 1\n")
+    got = refusal("kr500", "gravity", "--q", *"000000", "--parameters", file, capsys=capsys)
+    expected = f"expected 'XX1', which is another sum; {OTHER_GROUPINGS}"
+    assert got == f"error: {file}:1:1: the robot has no parameter 'XX1R', {expected}\n"
 
 
 def test_standard_parameters_cannot_come_from_base_ones(capsys: pytest.CaptureFixture[str]) -> None:

@@ -75,6 +75,11 @@ GRAMMAR = "expected numbers, pi, names and + - * / ^ ( )"
         ("1_000", "11: unexpected '_000', expected an operator or the end"),
         ("(1", "10: unclosed parenthesis, expected as many ) as ("),
         ("1)", "11: unexpected ')', expected an operator or the end"),
+        (
+            "q2 - 90 deg",
+            "18: unexpected 'deg', expected an operator or the end; a unit stands behind a number alone: "
+            "write pi/2, or give it a name in geometry",
+        ),
         ("1 +", "13: the expression ends too early, expected a number, pi, a name or ("),
         ("", "10: the expression ends too early, expected a number, pi, a name or ("),
         ("inf", "10: 'inf' is not a finite number, expected a finite number"),

@@ -219,3 +219,22 @@ def test_nothing_that_is_read_is_written_over(read: str, folder: Path, capsys: p
 def test_the_small_robot_is_a_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (folder / "two_links.yaml").read_text() == TWO_LINKS
     assert command("check", folder / "two_links.yaml", capsys=capsys).status == 0
+
+
+def test_samples_that_are_fitted_twice_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run = folder / "a.csv"
+    done = command(
+        "identify", folder / "two_links.yaml", "--data", run, f"{run}@2:", "--out", folder / "o", capsys=capsys
+    )
+    assert done.status == 2
+    last = done.err.splitlines()[-1]
+    assert last.startswith(f"error: {run}:1:1: its samples from 2 s to ")
+    assert last.endswith("fit in a.csv and fit in a.csv@2:, expected runs, or parts, that share none")
+
+
+def test_a_run_that_tests_itself_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run = folder / "a.csv"
+    words = ["identify", folder / "two_links.yaml", "--data", run, "--test", run, "--out", folder / "o"]
+    done = command(*words, "--no-consistent", capsys=capsys)
+    assert done.status == 0, done.err
+    assert "a.csv tests what is fitted in a.csv, from 0 s to " in done.out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import scipy.io
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification.dataset import Run, load, part_of
+from identification.dataset import Run, load, part_of, sidecar_of
 from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
@@ -258,8 +259,41 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
         lambda text: text.replace("\n", ",\n").replace(",\n", ",7\n", 3).replace(",7\n", ",\n", 2),
         ":3:1: 6 fields in a row, 5 names in the header",
     ),
+    "units below the header": (
+        lambda text: text.replace("\n", "\ns,rad,rad,Nm,Nm\n", 1),
+        ":2:1: t is 's', expected a number; a row of units stands before the header, behind #",
+    ),
+    "a word beside a column of words": (
+        lambda text: with_modes(text).replace("\n0.1,", "\n0.1s,", 1),
+        ":22:1: t is '0.1s', expected a number",
+    ),
+    "too large for a sensor": (
+        lambda text: re.sub(r"\n(0\.1,.*),.*\n", r"\n\1,1e155\n", text, count=1),
+        r":22:\d+: tau2 is 1e\+155, expected a number within \+-1e\+30",
+    ),
     "underscore": (lambda text: text.replace("\n0.1,", "\n0_1,", 1), ":22:1: t is '0_1', expected a number"),
 }
+
+
+def with_modes(text: str) -> str:
+    """With a column of words, one of which is missing."""
+    return text.replace("\n", ",AUT\n").replace(",AUT", ",mode", 1).replace(",AUT", ",", 1)
+
+
+def test_a_column_without_a_number_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / "other.csv"
+    path.write_text(with_modes(text_of(good, tmp_path)))
+    run = load(str(path), robot)
+    assert same(run, good)
+    (note,) = run.notes
+    assert note.endswith("other.csv: mode held no number and is left out")
+
+
+@pytest.mark.parametrize("source", ["", ".", "/"])
+def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
+    sidecar_of(source)
+    with pytest.raises(InputError, match="a run file ending in ''"):
+        load(source, robot)
 
 
 def decimal_commas(text: str, separator: str) -> str:
