@@ -8,7 +8,7 @@ from identification.diagnosis.loop import Search
 from identification.diagnosis.may_act import counts, enough, without_record
 
 #: Size of an effect, in parts of the noise's rms, from which it is named on such a joint.
-_LEAST = 1.0
+_LEAST = 0.75
 
 
 def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
@@ -29,12 +29,12 @@ def notes(bank: Bank) -> list[str]:
         return []
     return [
         f"rows are too few for the base parameters that act there, {listed(said)}: noise holds part of the model, and "
-        "only what is larger than noise is named"
+        "only what is about as large as noise is named"
     ]
 
 
 def without_small(found: Search) -> Search:
-    """The search without the choices that are smaller than noise on such joints."""
+    """The search without the choices that are small beside the noise of such joints."""
     few = few_rows(found.bank)
     kept = [
         one for one in found.choices if one.evidence.size >= _LEAST or set(few).isdisjoint(one.evidence.variant.joints)
