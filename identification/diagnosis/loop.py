@@ -41,8 +41,7 @@ class Search:
     """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
 
     ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N], with the
-    least that counts as noise; ``maps``
-    are those of the motion, by joint and run, none where all runs repeat.
+    least that counts as noise; ``maps`` are those of the motion, by joint and run, none where all runs repeat.
     """
 
     bank: Bank
