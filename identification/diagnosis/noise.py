@@ -72,11 +72,11 @@ def _of_joint(
 
 def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
     """The colour of a joint's noise in each run."""
-    left, free = _left(parts, bank, None, rounded)
+    left, free, _ = _left(parts, bank, None, rounded)
     for _ in range(_AGAIN):
-        left, free = _left(parts, bank, _colour(left, free), rounded)
+        left, free, each = _left(parts, bank, _colour(left, free), rounded)
     known = _colour(left, free)
-    return [_scaled(known, parts, float(free.mean())) for parts in left]
+    return [_scaled(known, parts, freedom) for parts, freedom in zip(left, each, strict=True)]
 
 
 def _colour(left: list[list[Array]], free: Array) -> Colour:
@@ -86,8 +86,8 @@ def _colour(left: list[list[Array]], free: Array) -> Colour:
 
 def _left(
     parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
-) -> tuple[list[list[Array]], Array]:
-    """Stretches of noise of each run, and the part of its power that is left in them, by frequency."""
+) -> tuple[list[list[Array]], Array, list[float]]:
+    """Stretches of noise of each run, and the part of its power that is left in them: by frequency, and run by run."""
     numbers = sorted({number for part in parts for number in part.numbers})
     place = {number: i for i, number in enumerate(numbers)}
     places = [np.array([place[number] for number in part.numbers], dtype=int) for part in parts]
@@ -106,16 +106,18 @@ def _left(
     inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
     weights = inside @ (gram[:-1, -1] - pretended)
     left: list[list[Array]] = []
-    lost = np.zeros(_PART // 2 + 1)
+    lost = []
     for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
         kept = part.kept
         e = _between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
         left.append(stretches(e + rounded[r] if rounded else e, kept))
         whole = np.zeros(part.columns.shape)
         whole[:, kept] = x[:-1]
-        lost += _power(_between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
-        lost += _common(kept, run.period)
-    return left, np.maximum(1 - _smooth(lost) / max(rows, 1), _LEAST)
+        taken_away = _power(_between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
+        lost.append(taken_away + _common(kept, run.period))
+    counts = [max(x.shape[1], 1) for x in white]
+    each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
+    return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / sum(counts), _LEAST), each
 
 
 def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
