@@ -12,7 +12,7 @@ import scipy.io
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification.dataset import Run, load, part_of, sidecar_of
+from identification.dataset import Run, load, part_of
 from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
@@ -278,22 +278,6 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
 def with_modes(text: str) -> str:
     """With a column of words, one of which is missing."""
     return text.replace("\n", ",AUT\n").replace(",AUT", ",mode", 1).replace(",AUT", ",", 1)
-
-
-def test_a_column_without_a_number_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
-    path = tmp_path / "other.csv"
-    path.write_text(with_modes(text_of(good, tmp_path)))
-    run = load(str(path), robot)
-    assert same(run, good)
-    (note,) = run.notes
-    assert note.endswith("other.csv: mode held no number and is left out")
-
-
-@pytest.mark.parametrize("source", ["", ".", "/"])
-def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
-    sidecar_of(source)
-    with pytest.raises(InputError, match="a run file ending in ''"):
-        load(source, robot)
 
 
 def decimal_commas(text: str, separator: str) -> str:
