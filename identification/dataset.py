@@ -81,6 +81,11 @@ class Run:
         return int(self.q.shape[-1])
 
     @property
+    def length(self) -> float:
+        """From the first sample to the last [s]."""
+        return (self.samples - 1) * self.period
+
+    @property
     def rate(self) -> float:
         """Samples per second [Hz]."""
         return 1 / self.period

@@ -23,13 +23,13 @@ def fitted_too(fitted: Sequence[Run], tested: Sequence[Run]) -> Iterator[str]:
     """What is to be told of runs that test samples which are fitted."""
     for one, other in product(fitted, tested):
         if common := _common(one, other):
-            names = (Path(each.name).name for each in (other, one))
-            yield "{} tests what is fitted in {}, {}: it proves nothing new".format(*names, common)
+            source, test = (Path(each.name).name for each in (one, other))
+            yield f"{test} tests what is fitted in {source}, {common}: it proves nothing new"
 
 
 def _common(one: Run, other: Run) -> str:
     """The time that two runs share, in words."""
     start = max(one.start, other.start)
-    end = min(each.start + (each.samples - 1) * each.period for each in (one, other))
+    end = min(each.start + each.length for each in (one, other))
     shared = one.sha256 == other.sha256 and end - start > max(one.period, other.period)
     return f"from {start:g} s to {end:g} s" if shared else ""

@@ -43,8 +43,6 @@ VALUES, AMPLITUDES = "values", "amplitudes"
 
 #: What may stay unexplained, in parts of what was explained on the joint.
 _PART = 0.3
-#: Size of what is left that is told though it may be noise.
-_NOTED = 0.2
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
 _ELASTIC, _SURE = 0.5, 4.0
 
@@ -227,8 +225,7 @@ def _hardly(lacks: Sequence[Lack]) -> list[str]:
     """What is told of joints of ``lacks`` that keep more than chance, though not more than noise that is not known may
     be.
     """
-    where = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.p < CHANCE and not one.told]
-    where = [] if all(one.size < _NOTED for one in lacks) else where
+    where = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.hardly]
     if not where:
         return []
     return [f"more than chance is left, {listed(where)}: so little is not told from noise where no motion repeats"]

@@ -41,7 +41,7 @@ _TINY = 1e-300
 #: Part of a column's square that the model must leave for it to be seen.
 _VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
-_ELSEWHERE = "other motion, or another mount of the base: along these runs it makes no torque"
+_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
 _MAIN = 0.5
 #: Times its low end below which what vanishes there has vanished.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from generator.review.words import listed
 from identification.diagnosis.bank import Bank
 from identification.diagnosis.loop import Search
-from identification.diagnosis.may_act import counts, enough, without_record
+from identification.diagnosis.may_act import counts, enough
 
 #: Size of an effect, in parts of the noise's rms, from which it is named on such a joint.
 _LEAST = 0.75
@@ -15,7 +15,7 @@ def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
     """Rows in all runs and base parameters that act, by coordinates of which the rows are too few."""
     result = {}
     for k in range(bank.dof):
-        rows, model = counts(bank, [without_record(bank, r, k) for r in range(len(bank.runs))])
+        rows, model = counts(bank, k)
         if rows and not enough(rows, model):
             result[k] = rows, model
     return result

@@ -62,6 +62,11 @@ class Lack:
         """Whether it is told from noise."""
         return self.part > 1
 
+    @property
+    def hardly(self) -> bool:
+        """Whether it is beyond chance, and told from noise if only that were known apart from the model."""
+        return self.p < CHANCE and self.size > _SMALL and not self.told
+
 
 def lack_of_fit(
     runs: Sequence[Prepared],

@@ -117,7 +117,7 @@ def _left(
         lost.append(taken_away + _common(kept, run.period))
     counts = [max(x.shape[1], 1) for x in white]
     each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
-    return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / sum(counts), _LEAST), each
+    return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / max(rows, 1), _LEAST), each
 
 
 def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:

@@ -63,13 +63,13 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
             last = fit
             notes.append("the runs are short and test too, which tells nothing new; runs apart are stronger evidence")
         else:
-            ends = {run.name: run.start + (1 - _TESTED) * _length(run) - _gap(run) for run in data}
+            ends = {run.name: run.start + (1 - _TESTED) * run.length - _gap(run) for run in data}
             notes.append(f"the last {100 * _TESTED:.0f} % of every run test; runs apart are stronger evidence")
     known = tuple(part_of(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
     train = known
     if not validate and len(fitted) == 1:
         (run,) = fitted
-        train = tuple(part_of(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + _length(run))))
+        train = tuple(part_of(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + run.length)))
         notes.append(f"{len(train)} blocks of its time are each held against what the others predict")
     elif not validate:
         notes.append("each run is held against what the others predict")
@@ -78,17 +78,12 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
 
 def _tail(run: Run) -> str:
     """The end of a run that tests."""
-    return part_of(run.name, run.start + (1 - _TESTED) * _length(run), run.start + _length(run))
+    return part_of(run.name, run.start + (1 - _TESTED) * run.length, run.start + run.length)
 
 
 def _gap(run: Run) -> float:
     """Time between parts of a run [s]."""
-    return min(_GAP, _SHORT * _length(run))
-
-
-def _length(run: Run) -> float:
-    """From the first sample to the last [s]."""
-    return (run.samples - 1) * run.period
+    return min(_GAP, _SHORT * run.length)
 
 
 def _recorded(run: Run) -> float:

@@ -47,7 +47,7 @@ class Where:
     @property
     def event(self) -> str:
         """What happens once on the joint, in words: when; empty where nothing does."""
-        (burst,) = [one.burst for one in self.lack if one.joint == self.joint] or [None]
+        burst = next((one.burst for one in self.lack if one.joint == self.joint), None)
         return "" if burst is None else f"once, at {burst[1]:.2f} s of {Path(burst[0]).name}"
 
 

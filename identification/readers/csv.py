@@ -84,20 +84,25 @@ def read(path: Path) -> Recording:
 
 def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Array:
     """Rows of numbers (N x c), of some columns where they are given; raises ValueError for what is none."""
-    lines, separator = form.rows(rows), form.separator
-    return np.asarray(
-        np.loadtxt(lines, delimiter=separator, ndmin=2, comments=None, quotechar='"', dtype=float, usecols=columns)
+    return np.loadtxt(
+        form.rows(rows),
+        delimiter=form.separator,
+        ndmin=2,
+        comments=None,
+        quotechar='"',
+        dtype=float,
+        usecols=columns,
     )
 
 
 def _of_words(form: Form, rows: int) -> list[str]:
     """Columns of which no row is a number; none where a row has another number of fields."""
-    words = dict.fromkeys(range(len(form.names)))
+    words = list(range(len(form.names)))
     for text in islice(form.lines(), rows):
         fields = split(text, form.separator)
         if len(fields) != len(form.names):
             return []
-        words = {k: None for k in words if not form.is_number(fields[k])}
+        words = [k for k in words if not form.is_number(fields[k])]
         if not words:
             break
     return [form.names[k] for k in words]

@@ -36,10 +36,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """By the warmth of the file, else by time, by the heat of the motor and, where every run has the joint's
     temperature, by that too; none for a drift that the file states.
     """
-    if not scenes or scenes[0].robot.drives is None:
+    if not scenes or (drives := scenes[0].robot.drives) is None:
         return []
-    robot = scenes[0].robot
-    stated = scenes[0].robot.drives.torque_drift
+    robot, stated = scenes[0].robot, drives.torque_drift
     time = warm_up_times(scenes)
     found = []
     for k, joint in enumerate(robot.moving):
