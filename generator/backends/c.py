@@ -26,6 +26,9 @@ NAME = "c"
 #: Macros of the header: no parameter's constant may be called like one of them.
 _MACROS = ("H", "NQ", "NPARAMETERS", "NSTANDARD", "USE_FLOAT", "USE_LIBM", "LANES", "STATIC_ASSERT")
 
+#: Of a set of drive constants, which a robot file may hold beside whole ones.
+_NO_MODEL = "All base parameters are 0 here, with which nothing moves: take them from another set"
+
 
 @dataclass(frozen=True)
 class Constant:
@@ -133,6 +136,8 @@ def _values(model: Model, constants: Sequence[Constant]) -> list[Values]:
     for name, values in resolved_sets(model).items():
         given = model.robot.parameter_sets.get(name)
         text = f"{given.description}; source: {given.source}" if given else ""
+        if not any(values[parameter.name] for parameter in model.base_parameters):
+            text = f"{text}. {_NO_MODEL}"
         numbers = [values.get(parameter.name, 0.0) for parameter in model.parameters]
         entries = tuple(
             (f"{'-' if number < 0 else ''}{language.number(abs(Fraction(number)))}", constant.name)

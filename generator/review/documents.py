@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from generator.review import stated
 from generator.review import tex as latex
 from generator.review.counts import Stage, ladder
 from generator.review.formula import Equation, Name, Sum
@@ -21,7 +22,7 @@ _LINE = 62
 
 @dataclass(frozen=True)
 class Document:
-    """Everything in the groupings' documents; ``geometry`` is a table with its head first."""
+    """Everything in the groupings' documents; tables have their head first."""
 
     robot: Robot
     lengths: tuple[str, ...]
@@ -31,7 +32,13 @@ class Document:
     alone: tuple[str, ...]
     without_effect: tuple[str, ...]
     eliminated: tuple[tuple[str, str, str], ...]
-    geometry: tuple[tuple[str, ...], ...]
+    geometry: stated.Table
+    gravity: str
+    base: tuple[str, ...]
+    effects: stated.Table
+    elastic: str
+    drives: stated.Table
+    signals: stated.Table
     parameters: tuple[tuple[str, str, str], ...]
     base_count: int
     built_in: tuple[tuple[str, str, str], ...]
@@ -53,6 +60,12 @@ def markdown(model: Model) -> Document:
             (gone.name, gone.rule, ", ".join(gone.into) or "nothing: no effect") for gone in model.grouping.eliminated
         ),
         _geometry(model.robot),
+        stated.gravity(model.robot),
+        stated.base(model.robot),
+        stated.effects(model),
+        stated.elastic(model),
+        stated.drives(model.robot),
+        stated.signals(model.robot),
         tuple((parameter.name, parameter.unit, meaning(parameter, model.grouping)) for parameter in model.parameters),
         len(model.base_parameters),
         tuple((p.name, f"{float(model.constants[p.name]):g}", p.unit) for p in _built_in(model)),
@@ -90,7 +103,7 @@ def _by_joint(names: Iterable[str], joints: dict[str, int]) -> tuple[str, ...]:
     return tuple(f"joint {joint}: {' '.join(listed)}" for joint, listed in lines.items())
 
 
-def _geometry(robot: Robot) -> tuple[tuple[str, ...], ...]:
+def _geometry(robot: Robot) -> stated.Table:
     table = rows(robot)
     head = ("j", "a(j)", "sigma", *(name for name, _ in table[0].cells), "limits") if table else ()
     body = (

@@ -501,7 +501,7 @@ void kr270_params_report_table_7(kr270_params *params);
  * Fills *params with the set report_table_9: base parameters that it does not give are 0, lengths and torque
  * constants those of the robot.
  * joint stiffness of axis 1, output blocked; source: COROUSSO deliverable 4.2 (HAL hal-01091400),
- * Table 9
+ * Table 9. All base parameters are 0 here, with which nothing moves: take them from another set
  */
 void kr270_params_report_table_9(kr270_params *params);
 
@@ -509,7 +509,7 @@ void kr270_params_report_table_9(kr270_params *params);
  * Fills *params with the set report_table_10: base parameters that it does not give are 0, lengths and torque
  * constants those of the robot.
  * joint stiffness of axis 2, output blocked; source: COROUSSO deliverable 4.2 (HAL hal-01091400),
- * Table 10
+ * Table 10. All base parameters are 0 here, with which nothing moves: take them from another set
  */
 void kr270_params_report_table_10(kr270_params *params);
 

@@ -502,7 +502,8 @@ void kr500_params_report_table_13(kr500_params *params);
  * Fills *params with the set report_table_15: base parameters that it does not give are 0, lengths and torque
  * constants those of the robot.
  * joint stiffness of axes 1 to 3, measured under force control; source: COROUSSO deliverable 4.2
- * (HAL hal-01091400), Table 15
+ * (HAL hal-01091400), Table 15. All base parameters are 0 here, with which nothing moves: take them
+ * from another set
  */
 void kr500_params_report_table_15(kr500_params *params);
 
@@ -510,7 +511,8 @@ void kr500_params_report_table_15(kr500_params *params);
  * Fills *params with the set report_table_16: base parameters that it does not give are 0, lengths and torque
  * constants those of the robot.
  * torque constants of motors 1 to 3, measured under force control; source: COROUSSO deliverable 4.2
- * (HAL hal-01091400), Table 16
+ * (HAL hal-01091400), Table 16. All base parameters are 0 here, with which nothing moves: take them
+ * from another set
  */
 void kr500_params_report_table_16(kr500_params *params);
 

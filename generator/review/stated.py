@@ -1,0 +1,112 @@
+"""What the robot file states beside its geometry, in plain rows: effects and their values, drives, signals, gravity."""
+
+from __future__ import annotations
+
+import sympy
+
+from generator.effects.library import Instance
+from generator.review.decimals import constant, decimal, rounded
+from generator.review.words import ranges
+from generator.robot.description import Robot
+from generator.robot.signal_units import signal_unit
+from generator.symbolic.model import Model
+
+#: Rows of a table, its head first; empty where the file states nothing of it.
+Table = tuple[tuple[str, ...], ...]
+
+
+def gravity(robot: Robot) -> str:
+    """The acceleration of free fall [m/s2] in the world frame."""
+    return ", ".join(number(component) for component in robot.gravity)
+
+
+def base(robot: Robot) -> tuple[str, ...]:
+    """The rows of the pose of frame 0 in the world frame, lengths in m; none where the two are one."""
+    if robot.base == sympy.eye(4):
+        return ()
+    return tuple(" ".join(number(entry) for entry in robot.base.row(i)) for i in range(4))
+
+
+def effects(model: Model) -> Table:
+    """Each effect, the joints that have it with the same values, and those values with their units."""
+    joints: dict[tuple[str, str], list[int]] = {}
+    for instance in model.effects:
+        joints.setdefault((instance.effect.id, values(instance)), []).append(instance.joint.number)
+    rows = tuple((effect, ranges(sorted(numbers)), told) for (effect, told), numbers in joints.items())
+    return (("effect", "joints", "values"), *rows) if rows else ()
+
+
+def elastic(model: Model) -> str:
+    """The joints whose drive train is elastic."""
+    return ranges(model.robot.moving[k].number for k in model.elastic)
+
+
+def values(instance: Instance) -> str:
+    """``d21 = 0.9669 m, exponent = 1``: the shape values of an effect on a joint; "none" where it has none."""
+    given = instance.site.values
+    return (
+        ", ".join(
+            f"{shape.name} = {quantity(given[shape.name], shape.unit_on(instance.joint))}"
+            for shape in instance.effect.shapes
+        )
+        or "none"
+    )
+
+
+def drives(robot: Robot) -> Table:
+    """Gear ratios, the matrix N row by row, torque constants and their drift, one motor a row."""
+    if robot.drives is None:
+        return ()
+    stated = robot.drives
+    heads = ["joint", "gear ratio", "row of N"]
+    heads += [
+        f"torque constant, {name}{', in use' if name == stated.torque_constant else ''} [N m/A]"
+        for name in stated.torque_constants
+    ]
+    heads += ["drift at warmth 1"] if stated.torque_drift else []
+    rows = []
+    for k, joint in enumerate(robot.moving):
+        row = [str(joint.number), str(stated.ratios[k]), " ".join(map(str, stated.coupling[k]))]
+        row += [decimal(constants[k]) for constants in stated.torque_constants.values()]
+        row += [rounded(stated.torque_drift[k])] if stated.torque_drift else []
+        rows.append(tuple(row))
+    return (tuple(heads), *rows)
+
+
+#: What is written above a column of the signals' corrections.
+_CORRECTIONS = {
+    "position_offset": "added to recorded positions",
+    "torque_gain": "motor torque over the recorded one",
+    "torque_delay": "torque recorded late by",
+    "link_delay": "link position recorded late by",
+    "current_limit": "current saturates at",
+    "warm_up_time": "drive warms up with time constant",
+    "warm_rise": "drive is warm after a rise of",
+    "warm_torque": "drive is warm under an rms motor torque of",
+}
+
+
+def signals(robot: Robot) -> Table:
+    """How recorded signals differ from what the model means, one joint a row."""
+    given = {name: listed for name, listed in vars(robot.signals).items() if listed}
+    if not given:
+        return ()
+    driven = robot.drives is not None
+    rows = (
+        (
+            str(joint.number),
+            *(quantity(listed[k], signal_unit(name, joint, driven)) for name, listed in given.items()),
+        )
+        for k, joint in enumerate(robot.moving)
+    )
+    return (("joint", *(_CORRECTIONS[name] for name in given)), *rows)
+
+
+def quantity(value: sympy.Expr, symbol: str) -> str:
+    """A constant with its unit, which a pure number lacks."""
+    return number(value) if symbol == "1" else f"{number(value)} {symbol}"
+
+
+def number(value: sympy.Expr) -> str:
+    """A constant expression in decimal notation."""
+    return decimal(constant(value))
