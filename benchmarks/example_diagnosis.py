@@ -89,7 +89,7 @@ def pictures(found: Diagnosis, new: Mended) -> dict[Path, str]:
     rate = 1 / float(new.after[0].t[1] - new.after[0].t[0])
     groups = []
     for k, joint in enumerate(found.robot.moving):
-        floor = noise_floor(found.found.bank, k, rate)
+        floor = noise_floor(found.search.bank, k, rate)
         bars = {name: one[k].norm / one[k].rows ** 0.5 / floor for name, one in (("before", before), ("after", after))}
         groups.append(Group(f"joint {joint.number}", bars))
     drawn = {PICTURES / "diagnosis_gap.svg": chart("Residual on the untouched run, rms", groups, "the noise's rms")}

@@ -86,7 +86,7 @@ def _write(name: str, path: Path) -> None:
     )
     tau += _NOISE * tau.std(axis=1)[:, None] * draw.normal(size=tau.shape)
     q = np.round(motion.q / _STEP) * _STEP
-    numbers = [joint.number for joint in regressors.model.robot.moving]
+    numbers = regressors.model.robot.numbers
     header = ",".join(["t", *(f"q{j}" for j in numbers), *(f"tau{j}" for j in numbers)])
     np.savetxt(path, np.column_stack([t, q.T, tau.T]), delimiter=",", header=header, comments="", fmt="%.9g")
 

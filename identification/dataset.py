@@ -86,6 +86,11 @@ class Run:
         return (self.samples - 1) * self.period
 
     @property
+    def duration(self) -> float:
+        """Time that its samples stand for [s]."""
+        return self.samples * self.period
+
+    @property
     def rate(self) -> float:
         """Samples per second [Hz]."""
         return 1 / self.period
@@ -287,9 +292,9 @@ def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: checks.W
             rows = sum(one.end - one.start for one in mine)
             several = f" in {len(mine)} stretches, of which here is the first" if len(mine) > 1 else ""
             yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{several}, which are left out"
-    held = {name: checks.repeats(values) for name, values in zip(effort.names, effort.values, strict=True)}
-    for rows in sorted({count for count in held.values() if count > 1}):
-        names = [name for name, count in held.items() if count == rows]
+    repeats = {name: checks.repeats(values) for name, values in zip(effort.names, effort.values, strict=True)}
+    for rows in sorted({count for count in repeats.values() if count > 1}):
+        names = [name for name, count in repeats.items() if count == rows]
         keep = f"{names[0]} keeps" if len(names) == 1 else f"{listed(names)} keep"
         were = "it was" if len(names) == 1 else "they were"
         yield f"{where(None, names[0])}: {keep} each value for {rows} rows: {were} logged more slowly"

@@ -47,7 +47,7 @@ class MotorTorque:
     estimated: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DriveGains:
     """Torque constants and parameters with their standard deviations, by motor (from 0) and by name.
 
@@ -134,22 +134,21 @@ def drive_gains(
     share = {m: abs(from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
     residuals = _residuals(fit, parts)
     notes = [note for run in runs for note in run.notes] + _doubts(residuals, constants, robot)
-    ends = tuple(seen[: len(empty)]), tuple(seen[len(empty) :])
-    torques = _torques(fit, rows, refused, parts)
     return DriveGains(
-        regressors,
-        recipe,
-        *ends,
-        constants,
-        refused,
-        share,
-        stds,
-        parameters,
-        torques,
-        residuals,
-        fit.separation,
-        fit.condition,
-        tuple(notes),
+        regressors=regressors,
+        recipe=recipe,
+        empty=tuple(seen[: len(empty)]),
+        loaded=tuple(seen[len(empty) :]),
+        constants=constants,
+        refused=refused,
+        payload_share=share,
+        payload_std=stds,
+        parameters=parameters,
+        torques=_torques(fit, rows, refused, parts),
+        residuals=residuals,
+        separation=fit.separation,
+        condition=fit.condition,
+        notes=tuple(notes),
     )
 
 
@@ -295,8 +294,7 @@ def _residuals(fit: Fit, parts: Sequence[Part]) -> Residuals:
         mine = [one for one in parts if one.gain == m]
         error = np.concatenate([fit.errors(one) for one in mine])
         tau = fit.k[m] * np.concatenate([one.i for one in mine])
-        norms = (float(np.linalg.norm(x)) for x in (error, tau, tau - tau.mean()))
-        found[m] = Residual(len(tau), *norms)
+        found[m] = Residual.of(error, tau)
     return Residuals(found)
 
 

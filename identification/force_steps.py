@@ -50,8 +50,9 @@ _TURNING = 0.2
 
 @dataclass(frozen=True)
 class Pose:
-    """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench ``held``, and torques of
-    the rotors' acceleration ``rotors`` on the joint side; currents ``i``, None without (n x N each).
+    """A run about its mean, filtered and decimated: positions ``q``, torques of
+    the wrench (``wrench_torque``) and of the rotors' acceleration (``rotors``) on the joint side; currents ``i``, None
+    without (n x N each).
 
     ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands, nearly does, or its
     sample is unusable. ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the
@@ -61,7 +62,7 @@ class Pose:
     run: Run
     filters: Filters
     q: Array
-    held: Array
+    wrench_torque: Array
     rotors: Array
     i: Array | None
     turning: Array
@@ -131,7 +132,7 @@ def wrench_torque(robot: Robot) -> Any:
 
 
 def _inertias(robot: Robot, values: Mapping[str, float]) -> Array:
-    numbers = [joint.number for joint in robot.moving]
+    numbers = robot.numbers
     return np.array([values.get(f"Iam{j}", values.get(f"Ia{j}", 0.0)) for j in numbers])
 
 
@@ -217,8 +218,8 @@ def _untwisted(pose: Pose, stiffness: Mapping[str, Value], robot: Robot, generat
     for k, joint in enumerate(robot.moving):
         value = stiffness[f"k{joint.number}"].value
         if value:
-            links[k] -= (pose.load[k] + pose.held[k]) / value
-    return replace(pose, held=_about_mean(generated.wrench_torque(links.T, pose.wrench.T).T))
+            links[k] -= (pose.load[k] + pose.wrench_torque[k]) / value
+    return replace(pose, wrench_torque=_about_mean(generated.wrench_torque(links.T, pose.wrench.T).T))
 
 
 def _stiffness(
@@ -229,14 +230,14 @@ def _stiffness(
     notes: list[str] = []
     for k, joint in enumerate(robot.moving):
         name, unit = f"k{joint.number}", joint.stiffness_unit
-        shown = [one for one in poses if _changes(one.held, k)]
+        shown = [one for one in poses if _changes(one.wrench_torque, k)]
         if not shown:
             why = f"{' '.join(components)} has no lever arm about joint {joint.number} in any pose"
             values[name] = Value(None, np.inf, unit, refused=why)
             continue
-        slope, residuals[k] = _slope([one.q[k] for one in shown], [one.held[k] for one in shown])
+        slope, residuals[k] = _slope([one.q[k] for one in shown], [one.wrench_torque[k] for one in shown])
         values[name] = _value(slope, unit)
-        notes += _contradictions(name, slope, [(one.run.name, one.q[k], one.held[k]) for one in shown])
+        notes += _contradictions(name, slope, [(one.run.name, one.q[k], one.wrench_torque[k]) for one in shown])
     return values, residuals, notes
 
 
@@ -248,7 +249,7 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
     to_motors = np.asarray(np.linalg.inv(coupling(robot)).T, dtype=float)
     for m, joint in enumerate(robot.moving):
         name = f"kt{joint.number}"
-        pressed = [one for one in poses if one.i is not None and _changes(one.held, m)]
+        pressed = [one for one in poses if one.i is not None and _changes(one.wrench_torque, m)]
         if not pressed:
             why = f"the measured force asks nothing of motor {joint.number} in any pose"
             values[name] = Value(None, np.inf, "N m/A", refused=why)
@@ -265,7 +266,7 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
 def _of_motor(pose: Pose, m: int, to_motors: Array) -> Turning:
     assert pose.i is not None
     turning = pose.turning[m] != 0
-    tau = (to_motors @ (pose.held + pose.rotors))[m]
+    tau = (to_motors @ (pose.wrench_torque + pose.rotors))[m]
     return Turning(pose.i[m, turning], tau[turning], pose.q[m, turning], pose.turning[m, turning])
 
 

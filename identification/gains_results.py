@@ -57,7 +57,7 @@ def parameters(found: DriveGains) -> dict[str, Value]:
 
 def document(found: DriveGains) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md."""
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     per_joint = {numbers[m]: one for m, one in found.residuals.per_joint.items()}
     payloads = {one.run.payload.name: one.run.payload for one in found.loaded if one.run.payload is not None}
     return {
@@ -93,7 +93,7 @@ def document(found: DriveGains) -> dict[str, Any]:
 
 def refusals(found: DriveGains) -> list[str]:
     """One line for each gain that cannot be told."""
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     return [f"g_tau{numbers[m]} is not observable: {why}" for m, why in sorted(found.refused.items())]
 
 

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from identification.factors import Factor, added
+
+Array = NDArray[np.float64]
+
+
+def rms(x: Array) -> float:
+    """Root mean square of numbers; 0 of none."""
+    return float(np.sqrt(np.mean(np.square(x)))) if np.size(x) else 0.0
 
 
 @dataclass(frozen=True)
@@ -21,6 +29,26 @@ class Residual:
     norm: float
     torque: float
     spread: float
+
+    @classmethod
+    def of(cls, e: Array, y: Array) -> Residual:
+        """Of errors ``e`` and torques ``y`` (N each) [N m, N]."""
+        spread = y - y.mean() if len(y) else y
+        return cls(len(y), *(float(np.linalg.norm(x)) for x in (e, y, spread)))
+
+    @classmethod
+    def total(cls, some: Iterable[Residual]) -> Residual:
+        """Of several together: roots of the sums of squares."""
+        each = list(some)
+        norm, torque, spread = (
+            float(np.linalg.norm([getattr(one, name) for one in each])) for name in ("norm", "torque", "spread")
+        )
+        return cls(sum(one.rows for one in each), norm, torque, spread)
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the errors [N m, N]."""
+        return self.norm / float(np.sqrt(max(self.rows, 1)))
 
     @property
     def relative(self) -> float:
@@ -43,12 +71,8 @@ class Residuals:
 
     @property
     def total(self) -> Residual:
-        """All joints: roots of the sums of squares."""
-        each = self.per_joint.values()
-        norm, torque, spread = (
-            float(np.linalg.norm([getattr(one, name) for one in each])) for name in ("norm", "torque", "spread")
-        )
-        return Residual(sum(one.rows for one in each), norm, torque, spread)
+        """All joints."""
+        return Residual.total(self.per_joint.values())
 
     def by_joint(self, digits: str = ".1f") -> str:
         """||e|| / ||Y - mean(Y)|| in % of one joint after the other, ``-`` for one without rows."""

@@ -194,7 +194,7 @@ def _payload_values(found: Identification) -> dict[str, Any]:
 
 
 def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     return {
         "train": _norms(estimate.train, numbers),
         "test": None if estimate.test is None else _norms(estimate.test, numbers),
@@ -203,7 +203,7 @@ def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
 
 def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
     model = found.regressors.model
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     return {
         "weight": fit.weight,
         "prior": fit.prior,
@@ -216,7 +216,7 @@ def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
     }
 
 
-def _norms(of: Residuals, numbers: list[int]) -> dict[str, Any]:
+def _norms(of: Residuals, numbers: Sequence[int]) -> dict[str, Any]:
     return outcome.norms({numbers[k]: one for k, one in of.per_joint.items()}, of.total)
 
 

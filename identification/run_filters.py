@@ -16,7 +16,7 @@ def filters_of(run: Run, recipe: Recipe) -> Filters:
     fast_enough(run, recipe)
     filters = recipe.at(run.rate)
     if run.samples < filters.fewest:
-        problem = f"{plural(run.samples, 'row')} ({run.samples * run.period:.3g} s at {run.rate:.6g} Hz)"
+        problem = f"{plural(run.samples, 'row')} ({run.duration:.3g} s at {run.rate:.6g} Hz)"
         raise InputError(run.place, problem, f"at least {filters.fewest} for the filters")
     return filters
 

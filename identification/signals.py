@@ -51,7 +51,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
     Raises NoColumns where the recording has none of the stems, InputError where a joint's column is missing and where
     there are columns for more joints than there are.
     """
-    numbers = [joint.number for joint in robot.moving]
+    numbers = robot.numbers
     for stem in stems:
         present = [int(match[2]) for name in recording.columns if (match := _NUMBERED.match(name)) and match[1] == stem]
         if not present:

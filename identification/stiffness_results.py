@@ -54,7 +54,7 @@ def of_locked(found: LockedOutput) -> dict[str, Any]:
 
 def of_steps(found: ForceSteps) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md."""
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     values = {**found.stiffness, **found.constants}
     each = [{numbers[k]: one for k, one in some.items()} for some in (found.residuals, found.motor_residuals)]
     joints, motors = (outcome.norms(one, Residuals(one).total) if one else None for one in each)
@@ -76,7 +76,7 @@ def of_steps(found: ForceSteps) -> dict[str, Any]:
 
 def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md."""
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     values = {**found.stiffness, **found.latency}
     each = {numbers[k]: one for k, one in found.residuals.items()}
     return {

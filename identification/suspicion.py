@@ -12,7 +12,6 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.effects.library import library
 from generator.errors import InputError, Place
 from generator.symbolic.model import Model
 from identification.factors import Factor, triangular
@@ -45,7 +44,7 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
     if bad and total > _REFUSED:
         problem = f"the model of {regressors.model.robot.name} leaves {total:.0f} % of the torques unexplained"
         raise InputError(runs[0].run.place, problem, "a run of this robot, in rad and N m")
-    numbers = [joint.number for joint in regressors.model.robot.moving]
+    numbers = regressors.model.robot.numbers
     return [
         f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained{_asked(each[k])}"
         for k in bad
@@ -72,18 +71,12 @@ def directed(
     joints or of one: the torques have the other sign. ``std`` are standard deviations by name, of what was fitted and
     shows. One of joints number ``aside`` tells nothing by itself.
     """
-    storing = {
-        f"{one.stem}{joint}"
-        for use in model.robot.effects
-        if library()[use.effect].potential_energy
-        for one in library()[use.effect].parameters
-        for joint in use.joints
-    }
+    storing = {name for one in model.effects if one.effect.potential_energy for name in one.names}
     bounded = [
         one for one in model.base_parameters if one.lower == 0.0 and std.get(one.name) and one.name not in storing
     ]
     sizes = {one.name: values[one.name] / std[one.name] for one in bounded}
-    moving = {joint.number for joint in model.robot.moving}
+    moving = set(model.robot.numbers)
     for joints in (moving, *({number} for number in sorted(moving.difference(aside)))):
         mine = [sizes[one.name] for one in bounded if one.joint in joints]
         sure = [size for size in mine if abs(size) > _SURE]
@@ -106,7 +99,7 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
     straight = list(range(len(tau)))
     given = _Thinned(regressors, motion, tau, used)
     best, what = given.misfit(straight) - np.log(_BETTER), ""
-    numbers = [joint.number for joint in regressors.model.robot.moving]
+    numbers = regressors.model.robot.numbers
     for i, k in combinations(straight, 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue

@@ -155,7 +155,7 @@ def recorded(
 
 def as_recorded(of: Regressors, t: Array, q: Array, tau: Array) -> Recorded:
     """A run of times (N), positions and torques (n x N)."""
-    numbers = [joint.number for joint in of.model.robot.moving]
+    numbers = of.model.robot.numbers
     named = [
         {f"{stem}{j}": row for j, row in zip(numbers, rows, strict=True)} for stem, rows in (("q", q), ("tau", tau))
     ]

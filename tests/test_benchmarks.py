@@ -50,7 +50,7 @@ def test_results_hold_every_study_and_nothing_of_the_place() -> None:
     assert not any(place in told for place in ("/tmp", "/home", "/work", "/root", "/usr"))
 
 
-def test_every_study_can_be_run_by_the_command() -> None:
+def test_every_study_has_a_title_and_a_run() -> None:
     for study in _studies():
         assert isinstance(study.TITLE, str)
         assert callable(study.run)

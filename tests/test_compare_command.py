@@ -103,7 +103,9 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
         ("{}/other.json", "other.json:1:1: no parameter has a value here and in kr500:report_table_11"),
     ],
 )
-def test_refusals(b: str, error: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_sets_that_cannot_be_compared_are_refused(
+    b: str, error: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     written(tmp_path, ZZ1R=1.0)
     texts = {
         "bad": '{"parameters',

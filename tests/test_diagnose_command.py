@@ -80,7 +80,7 @@ def test_the_hidden_effect_is_named_and_nothing_else(hidden: Case) -> None:
     assert set(found["parameters"]) >= {"Fqc2", "Fqs2"}
     assert "firm             " in hidden.done.out
     assert "on joint 2" in hidden.done.out
-    assert "cannot be told   " in hidden.done.out
+    assert "invisible        " in hidden.done.out
     for one in hidden.result["invisible"]:
         assert f"{one['effect']} [" in hidden.done.out
     assert "Traceback" not in hidden.done.err

@@ -52,11 +52,11 @@ def test_load_friction_past_a_rotor_of_which_the_file_knows_nothing(tmp_path: Pa
 
 def test_much_that_counts_as_noise_is_told(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 2)
-    assert noise_floor.notes(diagnosis_of(sources, regressors).found.bank) == []
+    assert noise_floor.notes(diagnosis_of(sources, regressors).search.bank) == []
     for source in sources:
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
         slosh = 25.0 * np.sin(2 * np.pi * 1.337 * t + 1.0)
         Recorded({"t": t, "q1": q, "tau1": tau + slosh}).save(Path(source))
-    (note,) = noise_floor.notes(diagnosis_of(sources, regressors).found.bank)
+    (note,) = noise_floor.notes(diagnosis_of(sources, regressors).search.bank)
     assert "of the torques' spread counts as noise" in note
     assert "% on joint 1" in note

@@ -142,7 +142,7 @@ def test_what_is_large_is_exact_about_what_was_found(case: str, known_robots: Ca
     (last,), third = fitted(hypothesis.columns(again, {}), truth, kept, again)
     assert last == pytest.approx(value, rel=0.01)
     # What the rows tell by themselves is right before anything was found.
-    exact = 1e-3 if hypothesis.held else 0.0
+    exact = 1e-3 if hypothesis.preset else 0.0
     assert 1 - third < max(0.1 * (1 - first), exact)
     assert 1 - second < max(0.3 * (1 - first), exact)
 

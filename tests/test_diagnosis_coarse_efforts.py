@@ -67,12 +67,12 @@ def test_fine_torques_take_no_steps(tmp_path: Path) -> None:
 
 def test_coarse_torques_lack_nothing_and_are_told(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
-    assert notes(diagnosis_of(sources, regressors).found.bank) == []
+    assert notes(diagnosis_of(sources, regressors).search.bank) == []
     coarse(sources, STEP)
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NOTHING
-    assert notes(found.found.bank) == ["torques take steps, 5 N m on joint 1: what rounding leaves counts as noise"]
-    assert noise_floor.notes(found.found.bank, told(found.found.bank)) == []
+    assert notes(found.search.bank) == ["torques take steps, 5 N m on joint 1: what rounding leaves counts as noise"]
+    assert noise_floor.notes(found.search.bank, told(found.search.bank)) == []
 
 
 def test_lost_samples_and_a_beginning_of_its_own_hide_no_steps(tmp_path: Path) -> None:
@@ -84,13 +84,13 @@ def test_lost_samples_and_a_beginning_of_its_own_hide_no_steps(tmp_path: Path) -
         Recorded({"t": t[there], "q1": q[there], "tau1": tau[there]}).save(Path(source))
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NOTHING
-    assert told(found.found.bank) == pytest.approx({0: STEP}, rel=1e-6)
+    assert told(found.search.bank) == pytest.approx({0: STEP}, rel=1e-6)
 
 
 def test_fine_steps_are_not_told(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 2)
     coarse(sources, 0.3)
-    assert told(diagnosis_of(sources, regressors).found.bank) == {}
+    assert told(diagnosis_of(sources, regressors).search.bank) == {}
 
 
 def test_what_is_larger_than_the_steps_is_found(tmp_path: Path) -> None:

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.contradiction import contradicted, pulled
-from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, VALUES, Diagnosis
+from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.results import document
+from identification.diagnosis.unexplained import VALUES
 from identification.report.diagnose.report import report
 from tests.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
 from tests.recorded import Array, parameters_text
@@ -50,16 +51,16 @@ def test_a_set_that_holds_is_not_contradicted(tmp_path: Path) -> None:
 
 def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:
     found = known(tmp_path, 0.0)
-    prior = prior_of(found.found.bank.scenes[0].regressors.model, "known")
-    names = found.found.bank.base
+    prior = prior_of(found.search.bank.scenes[0].regressors.model, "known")
+    names = found.search.bank.base
     far = np.zeros(len(names))
     far[names.index("MX1")] = 10 * 0.05 * TRUTH["MX1"]
-    (one,) = contradicted(found.found, replace(prior, mean=prior.mean + far))
+    (one,) = contradicted(found.search, replace(prior, mean=prior.mean + far))
     assert one.name == "MX1"
     assert one.body
-    assert pulled(found.found, [one]) == 0
-    assert pulled(found.found, [replace(one, body=False)]) is None
-    assert pulled(found.found, [replace(one, found=one.known * 1.0001)]) is None
+    assert pulled(found.search, [one]) == 0
+    assert pulled(found.search, [replace(one, body=False)]) is None
+    assert pulled(found.search, [replace(one, found=one.known * 1.0001)]) is None
 
 
 def of_bodies(folder: Path, told: dict[str, float], hidden: str) -> Diagnosis:

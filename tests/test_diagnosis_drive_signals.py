@@ -79,5 +79,5 @@ def test_a_motor_that_is_late_acts_on_all_joints_that_it_drives(late: int, tmp_p
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
-    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", late)
+    assert one.hypothesis.key == ("torque_delay", late)
     assert one.parameters[f"torque_delay{late}"].value == pytest.approx(0.006, rel=0.1)

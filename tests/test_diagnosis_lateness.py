@@ -63,7 +63,7 @@ def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Pat
     found = late_by(tmp_path, (delay, delay))
     assert found.verdict == NAMED
     (one,) = found.findings
-    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", 0)
+    assert one.hypothesis.key == ("torque_delay", 0)
     assert one.parameters["torque_delay"].value == pytest.approx(1e-3 * delay, abs=2e-4)
 
 
@@ -74,7 +74,7 @@ def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) 
     found = late_by(tmp_path, delays, TWO_LINKS.replace("N21: 5", "N21: 60"))
     assert found.verdict == NAMED
     (one,) = found.findings
-    assert (one.hypothesis.effect, one.hypothesis.joint) == ("torque_delay", motor)
+    assert one.hypothesis.key == ("torque_delay", motor)
     assert one.parameters[f"torque_delay{motor}"].value == pytest.approx(0.018, abs=3e-4)
 
 
@@ -174,7 +174,7 @@ def test_what_is_held_is_weighed_as_it_is(held: float, drop: float) -> None:
         1,
         (Coefficient("torque_delay1", "s", -0.1, 0.1),),
         lambda *_: np.zeros((1, 1, 1)),
-        held={"torque_delay1": Value(held, 1e-3, "s")},
+        preset={"torque_delay1": Value(held, 1e-3, "s")},
     )
     x, found = Variant(one, {}, (5,), (0,), (0,)).best(np.array([[4.0]]), np.array([4.0]), np.array([4.0]))
     assert x.tolist() == [held]

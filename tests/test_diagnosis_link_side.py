@@ -50,7 +50,7 @@ def offered(scene: Scene, joint: int) -> Hypothesis:
 def test_a_link_is_dragged_as_its_inertia_grows(loose: Scene) -> None:
     """d/dt (M qd) holds M' qd: what the load changes by with the speed is the inertia's rate."""
     side = link_side(loose, 0, ROTOR)
-    rate = loose.rate(side.inertia)
+    rate = loose.derivative(side.inertia)
     assert np.ptp(rate) > 0.1 * float(np.mean(side.inertia))
     np.testing.assert_allclose(side.drag[50:-50], rate[50:-50], atol=0.02 * float(np.abs(rate).max()))
 

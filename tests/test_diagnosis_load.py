@@ -30,7 +30,7 @@ WAY = fourier(1, period=10.0, periods=1, before=2.0)
 def test_a_rotor_loads_no_gear(tmp_path: Path) -> None:
     """The plant's friction goes with what the gear carries; the robot file knows the rotor's inertia."""
     scene, truth, kept = played(known(ROBOTS[HEAVY], tmp_path), Effect("load_friction", 2, 0.05), WAY)
-    (hypothesis,) = (one for one in library.hypotheses([scene]) if (one.effect, one.joint) == ("load_friction", 2))
+    (hypothesis,) = (one for one in library.hypotheses([scene]) if one.key == ("load_friction", 2))
     tried = {
         shape["rotor"]: fitted(hypothesis.columns(scene, shape), truth, kept, scene) for shape in hypothesis.variants
     }
@@ -55,7 +55,7 @@ def test_of_a_rotor_that_two_joints_turn_its_inertia_loads_the_drives(tmp_path: 
 def test_what_loads_nothing_is_no_value_of_the_file(tmp_path: Path) -> None:
     """Where no rotor is known none is written: a file may hold one that is more than nothing."""
     scene, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("load_friction", 2, 0.05), WAY)
-    (hypothesis,) = (one for one in library.hypotheses([scene]) if (one.effect, one.joint) == ("load_friction", 2))
+    (hypothesis,) = (one for one in library.hypotheses([scene]) if one.key == ("load_friction", 2))
     assert addition(hypothesis, {"rotor": 0.0}, {"Fl2": 0.05}).values == {}
     assert addition(hypothesis, {"rotor": 6.0}, {"Fl2": 0.05}).values == {"rotor": 6.0}
 
@@ -66,11 +66,10 @@ def test_a_hysteresis_begins_from_standing_still(tmp_path: Path) -> None:
     speed = motion.qd.copy()
     speed[:, :100] = 0.0
     standing = replace(scene, sampled=replace(scene.sampled, motion=replace(motion, qd=speed)))
-    for one in library.hypotheses([scene]):
-        if one.effect == "hysteresis" and one.joint == 2:
-            columns = one.columns(standing, one.variants[0])
-            assert np.isfinite(columns).all()
-            assert np.abs(columns).max() > 0.1
+    (hypothesis,) = (one for one in library.hypotheses([scene]) if one.key == ("hysteresis", 2))
+    columns = hypothesis.columns(standing, hypothesis.variants[0])
+    assert np.isfinite(columns).all()
+    assert np.abs(columns).max() > 0.1
 
 
 @pytest.mark.parametrize("sprung", [False, True])
@@ -88,4 +87,4 @@ def test_stated_friction_is_under_the_load_that_was_found(sprung: bool, tmp_path
     found = diagnosed_arm.diagnosis_of(sources, regressors)
     assert found.verdict == (NAMED if sprung else NOTHING)
     assert [one.hypothesis.effect for one in found.findings] == ["joint_spring"] * sprung
-    assert found.found.values["Fl1"] == pytest.approx(FRICTION, rel=0.1)
+    assert found.search.values["Fl1"] == pytest.approx(FRICTION, rel=0.1)

@@ -62,7 +62,7 @@ def test_the_drop_of_a_candidate_is_that_of_least_squares(columns: tuple[Array, 
         assert S[i, -1] ** 2 / S[i, i] == pytest.approx(drop, rel=1e-8)
 
 
-def test_beside_others_too(columns: tuple[Array, Array, Array]) -> None:
+def test_the_drop_beside_chosen_columns_is_that_of_least_squares(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
     chosen = [P + 0, P + 3]
     S = normal(columns).beside(chosen)
@@ -129,7 +129,7 @@ def test_a_shifted_prior_lets_its_direction_go() -> None:
 def test_held_coefficients_stay(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
     left = y - 0.25 * candidates[:, 1]
-    one = replace(normal(columns), held={P + 1: 0.25})
+    one = replace(normal(columns), preset={P + 1: 0.25})
     x, covariance = one.solution([P + 1])
     assert x[-1] == 0.25
     assert x[:P] == pytest.approx(np.linalg.lstsq(W, left, rcond=None)[0], rel=1e-8)
@@ -140,7 +140,7 @@ def test_held_coefficients_stay(columns: tuple[Array, Array, Array]) -> None:
 def test_others_are_weighed_beside_what_is_held(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
     left, beside = y - 0.25 * candidates[:, 1], np.column_stack([W, candidates[:, 0]])
-    one = replace(normal(columns), held={P + 1: 0.25})
+    one = replace(normal(columns), preset={P + 1: 0.25})
     chosen = [P, P + 1]
     S, whole = one.part([P + 3], chosen), one.beside(chosen)
     drop = squares(beside, left) - squares(np.column_stack([beside, candidates[:, 3]]), left)

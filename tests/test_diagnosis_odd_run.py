@@ -31,7 +31,7 @@ def bumps(q: Array, qd: Array) -> Array:
         ([bumps] * 2, None),
     ],
 )
-def test_runs_that_differ(hidden: list[Hidden], told: str | None, tmp_path: Path) -> None:
+def test_the_run_that_differs_from_the_others_is_told(hidden: list[Hidden], told: str | None, tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, hidden)
     found = diagnosis_of(sources, regressors)
     assert found.verdict == UNEXPLAINED

@@ -126,7 +126,7 @@ def parts(names: tuple[str, ...]) -> list[tuple[str, float, float]]:
     return found
 
 
-def test_what_is_said_is_kept() -> None:
+def test_roles_that_are_given_are_kept() -> None:
     found = roles([recorded("A"), recorded("B")], [recorded("C")], [recorded("D"), recorded("E")])
     assert (found.train, found.validate, found.test) == (("A", "B"), ("C",), ("D", "E"))
     assert found.notes == ()
@@ -136,12 +136,12 @@ def test_what_is_said_is_kept() -> None:
 def test_the_last_of_many_runs_tests_and_the_others_predict_each_other() -> None:
     runs = [recorded(name) for name in "ABC"]
     both = roles(runs, [], [])
-    assert (both.train, both.validate, both.test, both.known) == (("A", "B"), (), ("C",), ("A", "B"))
+    assert (both.train, both.validate, both.test, both.searched) == (("A", "B"), (), ("C",), ("A", "B"))
     assert both.notes[0].startswith("C, the last run, tests")
     one = roles(runs, [], [recorded("T")])
     assert (one.train, one.validate, one.test) == (("A", "B", "C"), (), ("T",))
     other = roles(runs, [recorded("V")], [])
-    assert (other.train, other.validate, other.test, other.known) == (("A", "B"), ("V",), ("C",), ("A", "B", "V"))
+    assert (other.train, other.validate, other.test, other.searched) == (("A", "B"), ("V",), ("C",), ("A", "B", "V"))
 
 
 @pytest.mark.parametrize("validate", [[], ["V"]], ids=["none", "validates"])
@@ -156,13 +156,13 @@ def test_the_ends_of_two_runs_test_without_overlap(validate: list[str]) -> None:
         assert last == b
         assert first - end >= 0.49
         assert last - first == pytest.approx(0.25 * (b - a))
-    assert found.known == (*found.train, *validate)
+    assert found.searched == (*found.train, *validate)
     assert any("25 % of every run test" in note for note in found.notes)
 
 
 def test_short_runs_test_too_and_that_is_said() -> None:
     found = roles([recorded("A"), recorded("B")], [], [])
-    assert found.test == found.known == found.train == ("A", "B")
+    assert found.test == found.searched == found.train == ("A", "B")
     assert not found.untouched
     assert "tells nothing new" in found.notes[0]
 
@@ -185,7 +185,7 @@ def test_a_single_run_is_cut_into_blocks_with_gaps(seconds: float) -> None:
     assert all(
         after[1] - before[2] >= 0.019 * seconds or after[1] - before[2] >= 0.49 for before, after in pairwise(mine)
     )
-    assert found.known == ("A",)
+    assert found.searched == ("A",)
 
 
 def test_blocks_hold_two_periods_where_the_motion_repeats() -> None:
@@ -253,7 +253,7 @@ def test_parts_that_only_touch_are_apart() -> None:
 
 def test_no_run_is_spent_where_nothing_is_tested() -> None:
     found = roles([recorded(name) for name in "ABC"], [], [], tested=False)
-    assert (found.train, found.test, found.known) == (("A", "B", "C"), (), ("A", "B", "C"))
+    assert (found.train, found.test, found.searched) == (("A", "B", "C"), (), ("A", "B", "C"))
 
 
 def test_a_folder_may_look_like_a_part() -> None:

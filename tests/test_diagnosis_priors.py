@@ -214,7 +214,7 @@ def test_the_prior_tells_what_no_base_parameter_holds_before_other_sets(
     path.write_text(text)
     wanted = Request([source], prior=prior, dry=True)
     found, _, _ = diagnosed(path, read(path), wanted, tmp_path / "out", lambda *about: {})
-    assert {one.stiffness for scene in found.found.bank.scenes for one in stated(scene.robot)} == {stiffness}
+    assert {one.stiffness for scene in found.search.bank.scenes for one in stated(scene.robot)} == {stiffness}
 
 
 def test_an_unknown_set_is_refused(regressors: Regressors) -> None:

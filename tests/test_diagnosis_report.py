@@ -12,7 +12,6 @@ import pytest
 from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING, UNEXPLAINED
 from identification.diagnosis.finding import Told
 from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.untouched import rms
 from identification.outcome import Value
 from identification.report.diagnose.report import report
 from identification.report.diagnose.subject import Subject
@@ -38,7 +37,7 @@ def test_the_words_name_effect_joint_and_how_sure_it_is(named: Case) -> None:
     assert f"Fst1 = {plain(value, one.told[0].digits)} ± " in named.words
     assert f"It is {one.status}" in named.words
     tried = Subject(named.found, named.after).tried[1]
-    within = rms(tried.after) <= tried.floor
+    within = tried.after.rms <= tried.floor
     assert ("that is not more than the noise" in named.words) == within
     assert ("of the gap between the two, in squares, is closed" in named.words) != within
 
@@ -49,11 +48,11 @@ def test_the_untouched_run_is_measured_against_noise(named: Case) -> None:
     (_, before, after), k = subject.tested[0], 0
     for played, residual in ((before, one.before), (after, one.after)):
         e = (played.measured - played.model)[k, played.kept[k]]
-        assert rms(residual) == pytest.approx(float(np.sqrt(np.mean(e**2))))
+        assert residual.rms == pytest.approx(float(np.sqrt(np.mean(e**2))))
     assert one.closed is not None
     assert one.closed > 0.9
-    assert rms(one.after) == pytest.approx(one.floor, rel=0.2)
-    assert one.relative_floor == pytest.approx(one.after.relative_to_mean * one.floor / rms(one.after))
+    assert one.after.rms == pytest.approx(one.floor, rel=0.2)
+    assert one.relative_floor == pytest.approx(one.after.relative_to_mean * one.floor / one.after.rms)
 
 
 def test_the_steps_are_of_the_runs_that_test(named: Case) -> None:
@@ -72,7 +71,7 @@ def test_the_noise_floor_is_that_of_the_noise_made(named: Case) -> None:
     f = np.linspace(0, 0.8 * rate / 2, 2000)
     density = 2 * NOISE**2 / 100.0 / np.abs(1 - STAYS * np.exp(-2j * np.pi * f / 100.0)) ** 2
     made = math.sqrt(float(np.trapezoid(density, f)))
-    assert noise_floor(named.found.found.bank, 0, rate) == pytest.approx(made, rel=0.15)
+    assert noise_floor(named.found.search.bank, 0, rate) == pytest.approx(made, rel=0.15)
 
 
 def test_every_section_of_a_finding_is_there(named: Case) -> None:
@@ -140,7 +139,7 @@ def test_runs_of_one_name_are_called_by_their_folders() -> None:
 
 def test_runs_that_were_fitted_are_not_called_untouched(named: Case) -> None:
     assert "On the untouched runs " in named.words
-    roles = replace(named.found.roles, known=named.found.roles.test)
+    roles = replace(named.found.roles, searched=named.found.roles.test)
     case = Case(found := replace(named.found, roles=roles), named.after, report(found, named.after))
     assert "On the runs that were fitted " in case.words
     assert "Runs that nothing looked at before" not in case.words
@@ -159,7 +158,7 @@ def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:
     left = replace(named.found.after, joint=1, variable="q", region="q 0.3 to 0.4 rad")
     one = Case(found := replace(named.found, verdict=UNEXPLAINED, after=left), None, report(found))
     assert "no effect of the library explains well enough to be named: joint 1 keeps more than noise" in one.words
-    assert f"What is named is therefore tentative: {found.findings[0].hypothesis.title} on joint 1" in one.words
+    assert f"The findings below are therefore tentative: {found.findings[0].hypothesis.title} on joint 1" in one.words
     nameless = replace(found, findings=())
     assert "tentative" not in Case(nameless, None, report(nameless)).words
 
@@ -167,7 +166,7 @@ def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:
 def test_a_dry_run_says_where_and_no_more(named: Case) -> None:
     dry = replace(named.found, verdict=LOCATED, findings=(), after=replace(named.found.after, joint=0))
     words = Case(dry, None, report(dry)).words
-    assert "nothing was named. Joint 1 keeps more than noise, over qd" in words
+    assert "nothing was named. Joint 1 keeps more than noise, at qd " in words
     assert "no effect of the library explains" not in words
     assert "Ranking of the candidates" not in words
     nowhere = replace(dry, before=dry.after)

@@ -15,7 +15,7 @@ from identification.diagnosis.mending import Mended
 from identification.diagnosis.prepared import prepared
 from identification.diagnosis.priors import prior_of
 from identification.diagnosis.roles import roles
-from identification.diagnosis.untouched import rms, untouched
+from identification.diagnosis.untouched import untouched
 from identification.observation import Regressors
 from tests.plant.effect import Effect
 from tests.plant.robot_file import PRIOR, robot_file
@@ -82,9 +82,9 @@ def test_what_drives_and_signals_and_the_base_lack_is_corrected(
     """Corrections of recorded runs and of the base's pose, with known parameters: fresh runs show nothing more."""
     found, new, again = there_and_back("three_axis", Effect(law, 2, size), PRIOR, tmp_path)
     assert [one.hypothesis.effect for one in found.findings] == [named]
-    tried = untouched(found.found.bank, new.before, new.after)
+    tried = untouched(found.search.bank, new.before, new.after)
     # Of a gap that is small beside the noise, chance in the testing run's noise is a large part.
-    near = [one.closed is None or one.closed > 0.9 or rms(one.after) < 1.15 * one.floor for one in tried.values()]
+    near = [one.closed is None or one.closed > 0.9 or one.after.rms < 1.15 * one.floor for one in tried.values()]
     assert all(near)
     assert any(one.closed is not None for one in tried.values())
     assert (again.verdict, again.findings) == (NOTHING, ())

@@ -271,7 +271,7 @@ def test_peaks_over_the_way_are_not_hidden_by_standstill() -> None:
     assert 40.0 in likely_orders([scene], 0, 300)
 
 
-def test_a_place_has_no_zero() -> None:
+def test_where_positions_are_counted_from_does_not_matter() -> None:
     """Where the log begins to count positions does not matter to what is found."""
     for zero in (0.0, 3.0):
         data = Data(22)
@@ -307,7 +307,7 @@ def test_a_refinement_is_taken_where_the_runs_ask_for_it() -> None:
         assert [one.name for one in other.evidence.variant.coefficients] == ["c"]
 
 
-def test_without_what_makes_it_an_effect_is_another() -> None:
+def test_without_its_essential_coefficient_an_effect_is_another() -> None:
     data = Data(20)
     gain, growing = data.column(), data.column()
     drift = several("drift", [Coefficient("drift", "1", essential=True), Coefficient("start", "1")], [growing, gain])

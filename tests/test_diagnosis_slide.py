@@ -88,13 +88,13 @@ def right(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 def test_nothing_is_named_where_nothing_is_missing(right: Diagnosis) -> None:
     assert (right.verdict, right.findings) == (NOTHING, ())
     assert "torque_gain" in {one.effect for one in right.invisible}
-    assert base_tilt.hypotheses(right.found.bank.scenes) == []
+    assert base_tilt.hypotheses(right.search.bank.scenes) == []
 
 
 @pytest.mark.parametrize(("part", "alike"), [(1.0, True), (0.2, True), (0.05, False), (20.0, False)])
 def test_size_and_time_tell_one_drive_train(part: float, alike: bool, right: Diagnosis) -> None:
     """The file knows no rotor, so that they may differ by a factor of ten and no more."""
-    scenes = right.found.bank.scenes
+    scenes = right.search.bank.scenes
     (soft,), (loose,) = elasticity.hypotheses(scenes), backlash.hypotheses(scenes)
     assert soft.agrees is not None
     assert soft.agrees(np.array([part / 1e4]), {"k": 1e4}) == alike

@@ -166,8 +166,8 @@ def test_elastic_joints_that_the_file_states_are_no_discrepancy(tmp_path: Path) 
     assert (one.verdict, one.findings) == (NOTHING, ())
     assert any("the drive trains of joints 1 to 3 are elastic in the robot's file" in note for note in one.notes)
     assert not any("stiffer than stated" in note for note in one.notes)
-    assert one.found.values["elasticity"] == pytest.approx(1.0, abs=0.1)
-    assert one.found.values["stiffness2"] == pytest.approx(-np.log(1.05), abs=0.03)
+    assert one.search.values["elasticity"] == pytest.approx(1.0, abs=0.1)
+    assert one.search.values["stiffness2"] == pytest.approx(-np.log(1.05), abs=0.03)
 
 
 def test_rigid_joints_that_the_file_calls_elastic_are_told(tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ def coarse(one: Scene) -> Scene:
     """With accelerations of positions in steps of half a milliradian."""
     step, sampled = 5e-4, one.sampled
     q = filtering.smoothed(step * np.round(one.motion.q / step), 4, 50.0, sampled.run.rate)
-    qdd = one.rate(one.rate(q))
+    qdd = one.derivative(one.derivative(q))
     return replace(one, sampled=replace(sampled, motion=replace(one.motion, qdd=qdd)))
 
 

@@ -91,11 +91,9 @@ def test_noise_is_ordered_by_nothing_and_stays_in_its_band() -> None:
 def test_the_band_of_coloured_noise_is_wider() -> None:
     run, scene = SEEN.scene()
     slow = Colour((np.ones(1), np.array([1.0, -0.9])), (1 / np.sqrt(1 - 0.81), 1.0))
-    for white, coloured in zip(
-        sorted(views([run], [scene], [SEEN.q], 0, [WHITE]), key=_name),
-        sorted(views([run], [scene], [SEEN.q], 0, [slow]), key=_name),
-        strict=True,
-    ):
+    plain, wide = (sorted(views([run], [scene], [SEEN.q], 0, [noise]), key=_name) for noise in (WHITE, slow))
+    assert {"q", "qd", "time"} <= {one.variable for one in plain}
+    for white, coloured in zip(plain, wide, strict=True):
         # The mean of n rows of a process with poles at 0.9 has the variance 1/(1 - 0.9)^2 / n.
         assert coloured.band == pytest.approx(10 * white.band)
 

@@ -78,7 +78,7 @@ def test_a_jump_between_two_samples_may_come_late() -> None:
     period, count = 0.01, 400
     jump = np.where(np.arange(count) < count // 2, 0.0, 8.0)
     slow = 8 * np.sin(2 * np.pi * 0.25 * period * np.arange(count))
-    scene = SimpleNamespace(period=period, torque=np.stack([jump, slow]), rate=lambda x: np.gradient(x, period))
+    scene = SimpleNamespace(period=period, torque=np.stack([jump, slow]), derivative=lambda x: np.gradient(x, period))
     run = SimpleNamespace(decimated=lambda x: x, kept=np.ones((2, count), dtype=bool))
     colour = Colour((np.ones(1),), (1.0,))
     found: Any = SimpleNamespace(bank=SimpleNamespace(runs=[run], scenes=[scene], colours=[[colour, colour]]))

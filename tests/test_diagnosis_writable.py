@@ -60,7 +60,7 @@ def test_a_run_without_the_temperature_gets_warm_after_the_time_of_the_others(tm
             columns["temp1"] = 20.0 + 30.0 * (1 - np.exp(-t / after))
         sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
     chosen = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
-    scenes = [Scene(ready(one, regressors).sampled, regressors, TRUTH) for one in chosen.known]
+    scenes = [Scene(ready(one, regressors).sampled, regressors, TRUTH) for one in chosen.searched]
     warm = Addition(EFFECT, "warm_friction", (1,))
     kept, (note,) = writable(text, "x", [warm], chosen, scenes)
     assert kept[0] == warm
@@ -73,4 +73,4 @@ def test_a_run_without_the_temperature_gets_warm_after_the_time_of_the_others(tm
     for one in warmths:
         assert one is not None
         assert one[0, -1] == pytest.approx(1 - np.exp(-40.0 / after), abs=0.03)
-    assert writable(text, "x", [warm], Roles((), (), (), chosen.known), scenes) == ([warm], [])
+    assert writable(text, "x", [warm], Roles((), (), (), chosen.searched), scenes) == ([warm], [])

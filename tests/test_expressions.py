@@ -102,7 +102,7 @@ GRAMMAR = "expected numbers, pi, names and + - * / ^ ( )"
         ("x" * 501, "10: an expression of 501 characters, expected at most 500"),
     ],
 )
-def test_refusals(text: str, message: str) -> None:
+def test_bad_expressions_are_refused_with_their_place(text: str, message: str) -> None:
     with pytest.raises(InputError) as refused:
         parse(text, HERE)
     assert str(refused.value) == f"arm.yaml:3:{message}"

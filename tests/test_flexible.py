@@ -69,7 +69,7 @@ def chain_values(arm: Subject, chain: ElasticChain) -> dict[str, float]:
 
 def order(arm: Subject, chain: ElasticChain) -> list[int]:
     """Place in the chain's q of each entry of [q_m; q_e]."""
-    numbers = [joint.number for joint in chain.robot.moving]
+    numbers = chain.robot.numbers
     motors = [chain.motor[joint.number] for joint in arm.robot.moving]
     springs = [chain.spring[number] for number in arm.robot.flexible]
     return [numbers.index(number) for number in motors + springs]

@@ -171,7 +171,9 @@ def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.
     assert done.status == 0, done.err
 
 
-def test_refusals(arm: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_runs_that_show_no_gain_are_refused(
+    arm: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     found(arm, tmp_path)
     torques = Recorded(
         {"t": np.arange(9.0)} | {f"{stem}{j}": np.arange(9.0) for stem in ("q", "tau") for j in (1, 2, 3)}

@@ -80,6 +80,8 @@ def test_stiffness_and_torque_constants_come_back(pressed: tuple[Machine, Simula
     made = noisy(run, (0.5,), (50.0, 15.0), seed=3)
     path, _ = save(made, machine.robot.name, machine.robot.digest, tmp_path / "a.csv")
     found = force_steps(machine.robot, [str(path)], run.parameters)
+    assert {"k1", "k2", "k3"} <= set(found.stiffness)
+    assert {"kt1", "kt2", "kt3"} <= set(found.constants)
     for name, one in {**found.stiffness, **found.constants}.items():
         if name[-1] in "123":
             assert one.value == pytest.approx(wanted[name], abs=4 * one.std, rel=5e-3), name

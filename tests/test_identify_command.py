@@ -177,7 +177,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("words", REFUSED, ids=" ".join)
-def test_bad_words_are_refused(words: tuple[str, str], folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_options_are_refused(words: tuple[str, str], folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = identified(folder, capsys, *words)
     assert done.status == 2
     assert done.err.splitlines()[-1].startswith(REFUSED[words])

@@ -54,7 +54,7 @@ def heavy() -> Regressors:
     return regressors("kr300")
 
 
-def test_both_runs_are_explained(heavy: Regressors) -> None:
+def test_both_kr300_runs_are_explained(heavy: Regressors) -> None:
     found = identify(heavy.model.robot, data(A, B), regressors=heavy)
     assert found.full.train.total.relative_to_mean < 3
     assert not found.full.solution.hidden

@@ -117,7 +117,7 @@ def test_the_grid_shows_the_regressors_structure(arm: Subject) -> None:
     }
     sparsity = arm.model.functions["regressor_packed"].sparsity
     assert sparsity is not None
-    joints = [joint.number for joint in arm.robot.moving]
+    joints = arm.robot.numbers
     names = [p.name for p in arm.model.base_parameters]
     packed = {f"τ{joints[i]}, {names[k]}" for i, k in zip(sparsity.rows, sparsity.columns, strict=True)}
     assert shown == packed

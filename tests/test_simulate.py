@@ -301,7 +301,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("words", REFUSED, ids=" ".join)
-def test_bad_words_are_refused(words: tuple[str, ...], file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_options_are_refused(words: tuple[str, ...], file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = command("simulate", file, *words, capsys=capsys)
     assert done.status == 2
     assert done.err.startswith(f"error: {REFUSED[words]}")

@@ -135,7 +135,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("words", REFUSED, ids=" ".join)
-def test_bad_words_are_refused(
+def test_bad_conditions_are_refused(
     words: tuple[str, ...], file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     done = command("simulate", file, "--out", tmp_path / "a.csv", *words, capsys=capsys)

@@ -231,7 +231,7 @@ def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert results["essential"]["parameters"]["k2"]["essential"] is True
 
 
-def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_runs_that_show_no_stiffness_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, here = blocked(tmp_path / "a.csv"), tmp_path
     pressed(here / "straight.csv", STRAIGHT)
     t = np.arange(3000) / RATE

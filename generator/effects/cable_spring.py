@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import SPRING, Column, Effect, LinearParameter, Shape, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -42,4 +42,9 @@ EFFECT = Effect(
     assumptions="massless, without friction of its own; hardens alike both ways",
     source="Hooke's law; the cubic term of Duffing 1918",
     rank=65,
+    role=SPRING,
+    resembles={
+        "joint_spring": "a look at where nothing pulls: beside an offset they are one torque, but for a hose that "
+        "hardens"
+    },
 )

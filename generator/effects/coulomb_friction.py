@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import EVERYWHERE, Column, Effect, LinearParameter, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -23,4 +23,5 @@ EFFECT = Effect(
     drive_train=True,
     dissipates=True,
     rank=30,
+    occurs=EVERYWHERE,
 )

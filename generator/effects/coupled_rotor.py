@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import OFTEN, Column, Effect, LinearParameter, Shape, Site
 
 
 def _sum(at: Site, own: sympy.Symbol, stem: str) -> sympy.Expr:
@@ -47,4 +47,5 @@ EFFECT = Effect(
     "direction or a smooth stand-in: simulations do not stick by it",
     source="report section 2.3.1; Gautier and Briot 2012",
     rank=45,
+    occurs=OFTEN,
 )

@@ -33,4 +33,8 @@ EFFECT = Effect(
         "Automation in Design 111, 1989"
     ),
     rank=81,
+    resembles=dict.fromkeys(
+        ("motor_ripple", "wave_generator_ripple"),
+        "the gear's maker: with as many periods a turn they are one torque, but for a coupled wrist's",
+    ),
 )

@@ -37,4 +37,5 @@ EFFECT = Effect(
     assumptions="does not depend on the speed; Fd/xs is the stiffness at rest; a joint under a steady load creeps",
     source="Dahl, A solid friction model, Aerospace Corporation TOR-0158(3107-18)-1, 1968",
     rank=77,
+    resembles={"stribeck_friction": "slow reversals: presliding depends on the way, Stribeck on the speed"},
 )

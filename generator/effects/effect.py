@@ -14,6 +14,11 @@ import sympy
 
 from generator.robot.description import PRISMATIC, REVOLUTE, Joint
 
+#: How many robots have an effect: nearly all, or many of those that can have it.
+EVERYWHERE, OFTEN = "everywhere", "often"
+#: What an effect does beside friction and inertia: hold an arm up, or pull a link to where it rests in another way.
+BALANCER, SPRING = "balancer", "spring"
+
 #: Torque per unit parameter on each joint, by joint number.
 Column = Mapping[int, sympy.Expr]
 
@@ -155,7 +160,9 @@ class Effect:
     an elastic joint. ``on_link`` effects act on the link past the transmission, whose load they are part of; they
     depend on q alone. What reads the load is proportional to |load - rotor qdd|, ``rotor`` a shape value.
     ``dissipates`` tells that the effect never gives power to the robot while its parameters are not below their bounds.
-    ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of one joint.
+    ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of one joint. ``occurs`` is
+    how many robots have it (``EVERYWHERE``, ``OFTEN``), ``role`` what it is there for (``BALANCER``, ``SPRING``), both
+    empty of most effects. ``resembles`` maps ids of effects that look alike in measurements to what tells them apart.
     """
 
     id: str
@@ -178,6 +185,9 @@ class Effect:
     dissipates: bool = False
     kinds: tuple[int, ...] = (REVOLUTE, PRISMATIC)
     rank: int = 100
+    occurs: str = ""
+    role: str = ""
+    resembles: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def loads(self) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import BALANCER, Column, Effect, LinearParameter, Shape, Site
 from generator.effects.laws import gas
 from generator.effects.mechanisms import crank
 from generator.robot.description import REVOLUTE
@@ -64,4 +64,8 @@ EFFECT = Effect(
     sign_convention="F1 > 0 pulls the pivots together; F1 dr24/dq adds to the inverse dynamic model",
     assumptions="ideal gas in a closed chamber of constant cross-section; massless; the pivots do not rub",
     source="report eq. 33-38",
+    role=BALANCER,
+    resembles={
+        "spring_balancer": "motion over the joint's whole range: gas stiffens as it is compressed, a spring does not"
+    },
 )

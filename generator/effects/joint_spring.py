@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import SPRING, Column, Effect, LinearParameter, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -21,4 +21,5 @@ EFFECT = Effect(
     assumptions="linear, relaxed at q = 0",
     source="report eq. 7",
     rank=60,
+    role=SPRING,
 )

@@ -37,6 +37,11 @@ class Instance:
         return tuple(f"{p.stem}{self.suffix}{self.joint.number}" for p in self.effect.parameters)
 
     @property
+    def on_joint(self) -> tuple[str, ...]:
+        """The names that the same parameters have on the joint's side."""
+        return tuple(f"{p.stem}{self.joint.number}" for p in self.effect.parameters)
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         side = ", motor side" if self.suffix else ""
         return tuple(

@@ -42,4 +42,5 @@ EFFECT = Effect(
     ),
     dissipates=True,
     rank=75,
+    resembles={"position_friction": "the same motion with another payload"},
 )

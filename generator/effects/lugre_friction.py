@@ -56,4 +56,5 @@ EFFECT = Effect(
         "Transactions on Automatic Control 40, 1995"
     ),
     rank=78,
+    resembles={"stribeck_friction": "slow reversals at different accelerations"},
 )

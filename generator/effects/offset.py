@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import EVERYWHERE, Column, Effect, LinearParameter, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -21,4 +21,5 @@ EFFECT = Effect(
     source="report, section 2.1.2",
     drive_train=True,
     rank=40,
+    occurs=EVERYWHERE,
 )

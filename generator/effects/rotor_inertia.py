@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import EVERYWHERE, Column, Effect, LinearParameter, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -21,4 +21,5 @@ EFFECT = Effect(
     source="report eq. 5",
     drive_train=True,
     rank=10,
+    occurs=EVERYWHERE,
 )

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import BALANCER, Column, Effect, LinearParameter, Site
 from generator.effects.laws import linear_spring
 from generator.effects.mechanisms import crank
 from generator.robot.description import REVOLUTE
@@ -48,4 +48,5 @@ EFFECT = Effect(
     sign_convention="F1 > 0 pulls the pivots together; F1 dr24/dq adds to the inverse dynamic model",
     assumptions="massless; the pivots do not rub",
     source="report eq. 19-32",
+    role=BALANCER,
 )

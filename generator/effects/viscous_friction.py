@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from generator.effects.effect import Column, Effect, LinearParameter, Site
+from generator.effects.effect import EVERYWHERE, Column, Effect, LinearParameter, Site
 
 
 def _columns(at: Site) -> tuple[Column, ...]:
@@ -20,4 +20,5 @@ EFFECT = Effect(
     drive_train=True,
     dissipates=True,
     rank=20,
+    occurs=EVERYWHERE,
 )

@@ -30,4 +30,5 @@ EFFECT = Effect(
         "temperature effects in robot joints, IROS 2010"
     ),
     rank=84,
+    resembles={"torque_drift": "one long run with parts of constant speed"},
 )

@@ -23,4 +23,5 @@ EFFECT = Effect(
         "and Automation 12, 1996"
     ),
     rank=82,
+    resembles={"motor_ripple": "the gear's maker: with as many periods a turn they are one torque"},
 )

@@ -199,6 +199,11 @@ class Robot:
         return tuple(joint for joint in self.joints if joint.sigma != FIXED)
 
     @property
+    def numbers(self) -> tuple[int, ...]:
+        """Those of the joints that move, in order."""
+        return tuple(joint.number for joint in self.moving)
+
+    @property
     def bodies(self) -> tuple[Joint, ...]:
         """The frames that carry a body with ten standard inertial parameters: all but the tool frames."""
         return tuple(joint for joint in self.joints if not joint.tool)

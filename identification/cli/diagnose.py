@@ -85,12 +85,12 @@ def summary(found: Diagnosis) -> list[str]:
         if not one.determined:
             lines.append("                 the runs tell its torque, but not these values one by one")
         for other in one.alternatives:
-            text = f"or {other.named}; apart by: {other.separating_experiment}"
+            text = f"or {other.named}; to tell them apart: {other.separating_experiment}"
             lines.append(f"                 {text}")
     if found.after.joint:
         lines.append(f"unexplained      {_place(found.after)}")
     if found.invisible:
-        lines.append(f"cannot be told   {_listed(found.invisible)}; the report says what would show them")
+        lines.append(f"invisible        {_listed(found.invisible)}; report.html says what would show them")
     return lines
 
 
@@ -98,7 +98,7 @@ def _listed(hypotheses: Sequence[Hypothesis]) -> str:
     """``payload [1, 2, 3], position_offset [1, 3]``."""
     joints: dict[str, list[int]] = {}
     for one in hypotheses:
-        joints.setdefault(one.effect, []).extend(number for number in one.joints or (one.joint,) if number)
+        joints.setdefault(one.effect, []).extend(number for number in one.numbers if number)
     return ", ".join(f"{effect} {sorted(set(numbers)) or 'of the robot'}" for effect, numbers in joints.items())
 
 
@@ -109,5 +109,5 @@ def _value(one: Told) -> str:
 
 def _place(where: Where) -> str:
     """``joint 2, over qd, ...``."""
-    region = "".join(f", {one}" for one in dict.fromkeys((where.region, where.event)) if one)
-    return f"joint {where.joint}, over {where.variable or 'nothing in particular'}{region}"
+    event = "" if where.event in ("", where.region) else f", {where.event}"
+    return f"joint {where.joint}, {where.words or 'over nothing in particular'}{event}"

@@ -52,7 +52,7 @@ class Acting:
     def near(self, before: Acting) -> bool:
         """Whether another search, in whose columns ``before`` acts, would find the same."""
         old, new = before.coefficients, self.coefficients
-        torques = [{(v.hypothesis.effect, v.hypothesis.joint) for v in one._torques} for one in (before, self)]
+        torques = [{v.key for v in one._torques} for one in (before, self)]
         signals = [c.name for one in self.variants if one not in self._torques for c in one.coefficients]
         return torques[0] == torques[1] and all(
             abs(new[name] - old.get(name, 0.0)) <= _NEAR * abs(new[name]) for name in signals

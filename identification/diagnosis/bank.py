@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.robot.description import Robot
 from identification.diagnosis import stated_elasticity, stated_load
-from identification.diagnosis.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.hypothesis import Coefficient, Hypothesis, Key
 from identification.diagnosis.normal import bounded, lowered
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
@@ -44,6 +45,11 @@ class Variant:
     used: tuple[int, ...] = ()
 
     @property
+    def key(self) -> Key:
+        """That of its hypothesis."""
+        return self.hypothesis.key
+
+    @property
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Those of the columns."""
         return tuple(self.hypothesis.coefficients[i] for i in self.used)
@@ -56,18 +62,18 @@ class Variant:
         return lower, upper
 
     @property
-    def held(self) -> Array | None:
+    def preset(self) -> Array | None:
         """Its coefficients (k) where another fit than that of the columns tells them all; None where not."""
-        known = [value for one in self.coefficients if (value := self.hypothesis.known(one.name)) is not None]
+        known = [value for one in self.coefficients if (value := self.hypothesis.preset_value(one.name)) is not None]
         return np.array(known) if known and len(known) == len(self.columns) else None
 
     def best(self, A: Array, b: Array, size: Array) -> tuple[Array, float]:
-        """Its coefficients by products A of its columns and b with the torque, ``bounded`` or held, and by how much
+        """Its coefficients by products A of its columns and b with the torque, ``bounded`` or preset, and by how much
         they lower the sum of squares; ``size`` are the squares of the whole columns.
         """
-        if self.held is None:
+        if self.preset is None:
             return bounded(A, b, *self.bounds, size)
-        return self.held, max(lowered(A, b, self.held), 0.0)
+        return self.preset, max(lowered(A, b, self.preset), 0.0)
 
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""
@@ -94,19 +100,19 @@ class _Joint:
 class Bank:
     """Columns of several runs; ``scenes`` and ``runs`` in the same order.
 
-    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs, and ``held`` coefficients that
+    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs, and ``preset`` coefficients that
     another fit than that of the columns tells, by the column's number.
     """
 
     def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
         self.runs, self.scenes = tuple(runs), tuple(scenes)
         regressors = scenes[0].regressors
-        self.base: tuple[str, ...] = (*regressors.names, *stated_elasticity.names(scenes[0].robot))
+        self.base: tuple[str, ...] = (*regressors.names, *stated_elasticity.names(self.robot))
         self.variants: list[Variant] = []
         self._made: dict[tuple[object, ...], Variant | None] = {}
         self._offered: set[tuple[object, ...]] = set()
         self.nowhere: dict[tuple[str, int], Hypothesis] = {}
-        self.held: dict[int, float] = {}
+        self.preset: dict[int, float] = {}
         self.count = len(self.base)
         self._joints: list[list[_Joint]] = []
         self._colours: list[list[Colour]] = []
@@ -119,6 +125,11 @@ class Bank:
                     for k, rows in enumerate(base_rows(run.decimated, scene))
                 ]
             )
+
+    @property
+    def robot(self) -> Robot:
+        """The robot that the runs are of."""
+        return self.scenes[0].robot
 
     @property
     def dof(self) -> int:
@@ -177,8 +188,8 @@ class Bank:
         numbers = tuple(range(self.count, self.count + len(hypothesis.coefficients)))
         self.count += len(numbers)
         for number, one in zip(numbers, hypothesis.coefficients, strict=True):
-            if (value := hypothesis.known(one.name)) is not None:
-                self.held[number] = value
+            if (value := hypothesis.preset_value(one.name)) is not None:
+                self.preset[number] = value
         for r, (run, columns) in enumerate(zip(self.runs, per_run, strict=True)):
             if self._colours:
                 self.grams[r] = _grown(self.grams[r], len(numbers))
@@ -240,6 +251,13 @@ class Bank:
         rows = one.white if white else np.asarray([*one.rows, one.tau])
         weights = np.array([values.get(number, 0.0) for number in one.numbers])
         return np.asarray(rows[-1] - weights @ rows[:-1])
+
+    def left(self, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
+        """The same of all runs, one after the other: kept rows, white or as recorded."""
+        rows = [self.residual(r, joint, values, white) for r in range(len(self.runs))]
+        if not white:
+            rows = [each[run.kept[joint]] for run, each in zip(self.runs, rows, strict=True)]
+        return np.concatenate(rows)
 
     def _gram(self, run: int) -> Array:
         """Products of all columns and the torque, the last one (count + 1 square)."""

@@ -59,7 +59,7 @@ def diagnosed(
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
     regressors = Regressors(preferring(robot, wanted.prior))
-    known = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
+    prior = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     recipe = recipes.recipe_of(robot.name)
 
@@ -71,27 +71,27 @@ def diagnosed(
         return prepared(whole[source] if source in whole else read([source])[0], recipe, regressors)
 
     with stage(f"reading {plural(len(wanted.data) + len(wanted.validate) + len(wanted.test), 'run')}"):
-        fit, held, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
-        chosen = roles(fit, held, last, tested=not wanted.dry)
-        whole = {run.name: run for run in (*fit, *held, *last)}
+        fit, validating, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
+        chosen = roles(fit, validating, last, tested=not wanted.dry)
+        whole = {run.name: run for run in (*fit, *validating, *last)}
         runs = [ready(source) for source in (*chosen.train, *chosen.validate)]
         if not any(run.kept.any() for run in runs[: len(chosen.train)]):
             raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
         # What cannot be played at the end is refused now.
         tests = [ready(source) for source in chosen.test]
-    notes += [note for run in (*fit, *held, *last) for note in run.notes]
+    notes += [note for run in (*fit, *validating, *last) for note in run.notes]
 
-    def told(text: str) -> None:
+    def progress(text: str) -> None:
         with stage(text):
             pass
 
     with replacing(folder, GENERATED) as fresh:
-        found = diagnose(regressors, runs, chosen, known, told, wanted.dry, tests if chosen.untouched else ())
-        ended = [] if wanted.dry else torque_band.notes([found.found.bank.scenes[r] for r in found.found.train])
-        bank = found.found.bank
+        found = diagnose(regressors, runs, chosen, prior, progress, wanted.dry, tests if chosen.untouched else ())
+        ended = [] if wanted.dry else torque_band.notes([found.search.bank.scenes[r] for r in found.search.train])
+        bank = found.search.bank
         known_in_part = [k for k, one in enumerate(found.after.lack) if one.follows]
         ended += effort_rounding.notes(bank) + noise_floor.notes(bank, {*effort_rounding.told(bank), *known_in_part})
-        found = changed(found, notes=(*notes, *found.notes, *doubts(found, known, wanted.dry), *ended))
+        found = changed(found, notes=(*notes, *found.notes, *doubts(found, prior, wanted.dry), *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}

@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import key_of
 from identification.diagnosis.loop import Search
 from identification.diagnosis.selection import Choice, Selection
 from identification.diagnosis.trial import Trial
@@ -40,11 +39,11 @@ def confirmed(found: Search, trial: Trial | None) -> tuple[Search, tuple[Choice,
     if len(staying) == len(found.choices):
         return found, ()
     again = Selection(found.weighing).choices(staying)
-    kept = {key_of(one.evidence.variant) for one in again}
-    gone = tuple(one for one in found.choices if key_of(one.evidence.variant) not in kept)
-    away = {key_of(one.evidence.variant) for one in gone}
+    kept = {one.evidence.variant.key for one in again}
+    gone = tuple(one for one in found.choices if one.evidence.variant.key not in kept)
+    away = {one.evidence.variant.key for one in gone}
     told = [
-        replace(one, alternatives=tuple(other for other in one.alternatives if key_of(other.variant) not in away))
+        replace(one, alternatives=tuple(other for other in one.alternatives if other.variant.key not in away))
         for one in again
     ]
     return found.keeping(told), gone

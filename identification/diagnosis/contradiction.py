@@ -51,7 +51,7 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
     values = np.array([found.values[name] for name in names])
     far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
-    effects = {name for one in effects_of(found.bank.scenes[0].robot) for name in one.names}
+    effects = {name for one in effects_of(found.bank.robot) for name in one.names}
     return tuple(
         Contradicted(
             names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects

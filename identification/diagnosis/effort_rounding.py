@@ -56,7 +56,7 @@ def told(bank: Bank) -> dict[int, float]:
 
 def notes(bank: Bank) -> list[str]:
     """What is to be told of joints whose torques take large steps."""
-    joints = bank.scenes[0].robot.moving
+    joints = bank.robot.moving
     where = [
         f"{step:.3g} {joints[k].torque_unit} on joint {joints[k].number}" for k, step in sorted(told(bank).items())
     ]

@@ -19,14 +19,12 @@ from identification.diagnosis import known_friction
 from identification.diagnosis.bank import Bank, Variant
 from identification.diagnosis.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.held_out import HeldOut
-from identification.diagnosis.hypothesis import Hypothesis
+from identification.diagnosis.hypothesis import Hypothesis, Key
 from identification.diagnosis.lacking import lacking
 from identification.diagnosis.likely import common, likely
 from identification.diagnosis.normal import Normal, Places, Prior, inverse, told_apart
 
 Array = NDArray[np.float64]
-#: Effect and joint.
-Key = tuple[str, int]
 #: Drop of the sum of squares, variant, coefficients.
 _Found = tuple[float, Variant, Array]
 
@@ -48,7 +46,9 @@ _MAIN = 0.5
 _VANISHED = 1.1
 #: Part of what an effect explains that is not of the noise of positions.
 _TRUE = 0.5
-#: Hypotheses, by what they explain, that are held against the validating runs.
+#: Least points of a grid that has ends, and how far below and above them, in parts of the first and the last, is one.
+_FEWEST, _LOW, _HIGH = 4, 0.7, 1.4
+#: Hypotheses, by what they explain, that are tried on the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
 _SHAPES, _NEAR = 6, 0.03
@@ -103,7 +103,7 @@ class Weighing:
         noisy: Mapping[int, Redrawn] | None = None,
     ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
-        self._tried = len({(one.hypothesis.effect, one.hypothesis.joint) for one in bank.variants})
+        self._tried = len({one.key for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
         self._pretence = self._pretence_along(self.train)
@@ -161,15 +161,15 @@ class Weighing:
         for r in runs[1:]:
             total += self.bank.grams[r]
         rows = sum(int(self.bank.rows(r).sum()) for r in runs)
-        return Normal(total, len(self.bank.base), rows, self._prior, self.bank.held)
+        return Normal(total, len(self.bank.base), rows, self._prior, self.bank.preset)
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
         S = self.normal.beside(columns_of(chosen))
-        taken = {key_of(one) for one in chosen}
+        taken = {one.key for one in chosen}
         found: dict[Key, list[_Found]] = {}
         for variant in self.bank.variants:
-            key = key_of(variant)
+            key = variant.key
             if key not in taken:
                 x, drop = self._solve(S, variant)
                 found.setdefault(key, []).append((drop, variant, x))
@@ -276,7 +276,7 @@ class Weighing:
 
     def _fitted_beside(self, others: Sequence[Variant]) -> Places:
         """The columns that are fitted beside a variant, by number."""
-        return told_apart([*range(self.normal.base), *columns_of(others)], self.normal.held)[0]
+        return told_apart([*range(self.normal.base), *columns_of(others)], self.normal.preset)[0]
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
         """Without coefficients that only refine, where they explain chance, or more than what they refine.
@@ -303,7 +303,7 @@ class Weighing:
 
     @cached_property
     def _friction(self) -> Places:
-        return known_friction.friction(self.bank.scenes[0].robot, self.bank.base)
+        return known_friction.friction(self.bank.robot, self.bank.base)
 
     def _beyond_friction(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
         """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
@@ -356,7 +356,7 @@ class Weighing:
         hidden: dict[Key, list[bool]] = {}
         whose: dict[Key, Hypothesis] = {}
         for variant in self.bank.variants:
-            key = key_of(variant)
+            key = variant.key
             hidden.setdefault(key, []).append(not self.visible(variant))
             whose[key] = variant.hypothesis
         taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
@@ -367,10 +367,6 @@ class Weighing:
 def _beyond(drop: float, less: float, count: int) -> bool:
     """Whether ``count`` more coefficients explain beyond chance, and a part of it, what others explain ``less`` of."""
     return bool(count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
-
-
-def key_of(variant: Variant) -> Key:
-    return variant.hypothesis.effect, variant.hypothesis.joint
 
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
@@ -392,9 +388,9 @@ def _at_end(variant: Variant) -> bool:
         if shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED:
             return True
         points = shape.grid()
-        if shape.whole or shape.step or len(points) < 4 or not shape.log:
+        if shape.whole or shape.step or len(points) < _FEWEST or not shape.log:
             continue
         value = variant.shape[shape.name]
-        if value <= min(points) * 0.7 or value >= max(points) * 1.4:
+        if value <= min(points) * _LOW or value >= max(points) * _HIGH:
             return True
     return False

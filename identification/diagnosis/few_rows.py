@@ -23,7 +23,7 @@ def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
 
 def notes(bank: Bank) -> list[str]:
     """What is to be told of such joints."""
-    moving = bank.scenes[0].robot.moving
+    moving = bank.robot.moving
     said = [f"{rows} for {model} on joint {moving[k].number}" for k, (rows, model) in few_rows(bank).items()]
     if not said:
         return []

@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.library import library
 from generator.review.decimals import scientific
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import Evidence, Key, columns_of, key_of
-from identification.diagnosis.hypothesis import BODY, Hypothesis, on_joints
-from identification.diagnosis.likely import BALANCERS, SPRINGS
+from identification.diagnosis.evidence import Evidence, columns_of
+from identification.diagnosis.hypothesis import BODY, Hypothesis, Key, on_joints
+from identification.diagnosis.likely import balances, pulls
 from identification.diagnosis.loop import Search
 from identification.diagnosis.may_act import maps_taken
 from identification.diagnosis.selection import Choice
@@ -37,24 +38,6 @@ _LEFT, _PULLED = 1.0, 0.15
 _APERIODIC, _SHORT = 0.5, 1.0
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
-#: What tells ripples apart, of which those of motors turn with another joint's as well in a coupled wrist.
-_ONE_RIPPLE = "the gear's maker: with as many periods a turn they are one torque"
-_OF_JOINT = f"{_ONE_RIPPLE}, but for a coupled wrist's"
-#: Of effects that look alike, what tells them apart, where the hypothesis itself does not say it.
-_SEPARATING: Mapping[frozenset[str], str] = {
-    frozenset(("stribeck_friction", "dahl_friction")): "slow reversals: presliding depends on the way, Stribeck on the "
-    "speed",
-    frozenset(("stribeck_friction", "lugre_friction")): "slow reversals at different accelerations",
-    frozenset(("gas_balancer", "spring_balancer")): "motion over the joint's whole range: gas stiffens as it is "
-    "compressed, a spring does not",
-    frozenset(("warm_friction", "torque_drift")): "one long run with parts of constant speed",
-    frozenset(("load_friction", "position_friction")): "the same motion with another payload",
-    frozenset(("motor_ripple", "wave_generator_ripple")): _ONE_RIPPLE,
-    frozenset(("motor_ripple", "cycloid_ripple")): _OF_JOINT,
-    frozenset(("cycloid_ripple", "wave_generator_ripple")): _OF_JOINT,
-    frozenset(("joint_spring", "cable_spring")): "a look at where nothing pulls: beside an offset they are one torque, "
-    "but for a hose that hardens",
-}
 
 
 @dataclass(frozen=True)
@@ -193,23 +176,23 @@ def findings(
         large = one.evidence.size >= _least(found, variant)
         result.append(
             Finding(
-                hypothesis,
-                FIRM if firm and not alternatives and large else TENTATIVE,
-                hypothesis.joints or (hypothesis.joint,),
-                variant.shape,
-                values,
-                one.evidence,
-                alternatives,
-                _amplitude(found, one, solution[at]),
-                of_shape,
-                disagreements.get(key_of(variant), ""),
-                one.apart,
-                large,
+                hypothesis=hypothesis,
+                status=FIRM if firm and not alternatives and large else TENTATIVE,
+                joints=hypothesis.numbers,
+                shape=variant.shape,
+                parameters=values,
+                evidence=one.evidence,
+                alternatives=alternatives,
+                amplitude=_amplitude(found, one, solution[at]),
+                shape_std=of_shape,
+                disagreement=disagreements.get(variant.key, ""),
+                apart=one.apart,
+                sure=large,
             )
         )
-    pulled = [number for one in result if one.hypothesis.effect in SPRINGS for number in one.joints]
+    pulled = [number for one in result if pulls(one.hypothesis.effect) for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    moving = found.bank.scenes[0].robot.moving
+    moving = found.bank.robot.moving
     remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
     told = _beside_any_torque([_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
@@ -237,7 +220,7 @@ def _least(found: Search, variant: Variant) -> float:
 def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     """With offsets as sure as the torques of the position beside them: another law there takes another offset."""
     doubted = {
-        number for one in told if one.hypothesis.effect in SPRINGS and one.status == TENTATIVE for number in one.joints
+        number for one in told if pulls(one.hypothesis.effect) and one.status == TENTATIVE for number in one.joints
     }
     return [
         replace(one, status=TENTATIVE)
@@ -253,10 +236,10 @@ def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
     balancer or a payload and not any torque.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
-    any_torque = effect in SPRINGS and (
+    any_torque = pulls(effect) and (
         remains > _PULLED or not set(one.joints).isdisjoint(several) or any(map(_vague, one.main))
     )
-    any_torque |= effect in BALANCERS and not one.determined
+    any_torque |= balances(effect) and not one.determined
     if any_torque:
         whole = "motion over the joint's whole range, with another payload"
         other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
@@ -281,8 +264,7 @@ def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
     if one.odds < UNSURE:
         title = "ripple whose order is no whole number"
         turns = "more turns of the joint in one run: they tell the order more closely"
-        place = mine.joints or (mine.joint,)
-        found.append(_unnamed(OTHER_RIPPLE, title, place, one.evidence, turns))
+        found.append(_unnamed(OTHER_RIPPLE, title, mine.numbers, one.evidence, turns))
     return tuple(found)
 
 
@@ -293,8 +275,7 @@ def _unnamed(effect: str, title: str, joints: tuple[int, ...], evidence: Evidenc
 
 def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
     one = other.variant.hypothesis
-    place = one.joints or (one.joint,)
-    return Alternative(one.effect, one.title, place, one.named, other.score, separating(mine, one))
+    return Alternative(one.effect, one.title, one.numbers, one.named, other.score, separating(mine, one))
 
 
 def separating(mine: Hypothesis, other: Hypothesis) -> str:
@@ -302,22 +283,26 @@ def separating(mine: Hypothesis, other: Hypothesis) -> str:
     return (
         mine.separating.get(other.effect)
         or other.separating.get(mine.effect)
-        or _SEPARATING.get(frozenset((mine.effect, other.effect)))
+        or _resemblance(mine.effect, other.effect)
+        or _resemblance(other.effect, mine.effect)
         or other.would_show
         or "more motion of the joint: other ranges, speeds and loads"
     )
 
 
+def _resemblance(one: str, other: str) -> str:
+    return effect.resembles.get(other, "") if (effect := library().get(one)) else ""
+
+
 def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
     variant = one.evidence.variant
-    moving = found.bank.scenes[0].robot.moving
+    moving = found.bank.robot.moving
     result = {}
     for j in variant.joints:
         power, rows = 0.0, 0
         for r in found.train:
-            numbers, columns, _, kept = found.bank.raw(r, j)
-            at = [numbers.index(number) for number in variant.columns]
-            torque = values @ columns[at][:, kept]
+            kept = found.bank.runs[r].kept[j]
+            torque = values @ found.bank.columns(r, j, variant.columns)[:, kept]
             power, rows = power + float(torque @ torque), rows + torque.size
         result[moving[j].number] = float(np.sqrt(power / max(rows, 1)))
     return result

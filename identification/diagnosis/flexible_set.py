@@ -25,8 +25,7 @@ def flexible_set(model: Model, rigid: ParameterSet, found: Mapping[str, float]) 
     values = dict(rigid.values)
     units = {one.name: one.unit for one in model.parameters}
     for one in motor_side(model.robot):
-        for name, parameter in zip(one.names, one.effect.parameters, strict=True):
-            own = f"{parameter.stem}{one.joint.number}"
+        for name, own in zip(one.names, one.on_joint, strict=True):
             known = told(model.robot, own, name)
             value = found.get(name, known)
             if one.suffix and own in values:

@@ -38,7 +38,7 @@ class HeldOut:
             whole, size = self._part(more, variant, chosen)
             part, _ = self._part(fewer, variant, chosen)
             x, drop = variant.best(whole[:-1, :-1], whole[:-1, -1], size)
-            gained += drop - _drop(part, x, variant.held is not None)
+            gained += drop - _drop(part, x, variant.preset is not None)
             promised += float(coefficients @ (whole - part)[:-1, :-1] @ coefficients)
         return gained, promised
 
@@ -46,7 +46,7 @@ class HeldOut:
         """What is left beside ``chosen`` of the products of the variant's columns and the torque over some runs, fitted
         by themselves; squares of the whole columns.
         """
-        beside, known, values = told_apart([*range(len(self._bank.base)), *chosen], self._bank.held)
+        beside, known, values = told_apart([*range(len(self._bank.base)), *chosen], self._bank.preset)
         at = [*known.tolist(), *variant.columns, self._bank.count]
         across, own = self._products(runs, beside.tolist(), at), self._products(runs, at, at)
         part = own - across.T @ self._inverse(runs, beside.tolist()) @ across
@@ -68,11 +68,11 @@ class HeldOut:
         return np.asarray(result)
 
 
-def _drop(part: Array, x: Array, held: bool) -> float:
+def _drop(part: Array, x: Array, preset: bool) -> float:
     """What the columns lower the sum of squares by that coefficients x of all runs together use: others would be
-    another model. Those that are ``held`` are x here too.
+    another model. Those that are ``preset`` are x here too.
     """
-    if held:
+    if preset:
         return lowered(part[:-1, :-1], part[:-1, -1], x)
     used = np.flatnonzero(x)
     b = part[used, -1]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.evidence import Key, key_of
+from identification.diagnosis.hypothesis import Key
 from identification.diagnosis.loop import Search
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ def disagreements(found: Search) -> dict[Key, str]:
     Periods are compared by their number, over all runs that repeat.
     """
     variants, weights, runs = found.variants, found.weights, (*found.train, *found.validate)
-    each = {key_of(one): [_periods(found.bank, r, one, weights) for r in runs] for one in variants}
+    each = {one.key: [_periods(found.bank, r, one, weights) for r in runs] for one in variants}
     return {key: how for key, runs in each.items() if (how := _disagreement(runs))}
 
 

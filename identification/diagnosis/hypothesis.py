@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
 
+#: An effect and the number of its joint, 0 for the whole robot.
+Key = tuple[str, int]
+
 
 @dataclass(frozen=True)
 class Coefficient:
@@ -107,9 +110,9 @@ class Hypothesis:
     of the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
     the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
     experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
-    there is nothing to search, and the columns are zero. ``held`` are those that the runs tell by another fit than that
-    of the columns, which are right for that value alone, and ``beyond`` the names of other hypotheses' coefficients
-    without which it is nothing. ``of_model`` are the columns, of an effect that scales all of
+    there is nothing to search, and the columns are zero. ``preset`` are those that the runs tell by another fit than
+    that of the columns, which are right for that value alone, and ``beyond`` the names of other hypotheses'
+    coefficients without which it is nothing. ``of_model`` are the columns, of an effect that scales all of
     a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
     coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
@@ -133,7 +136,7 @@ class Hypothesis:
     tries: int = 0
     starts: tuple[Mapping[str, float], ...] = ()
     measured: Mapping[str, Value] = field(default_factory=dict)
-    held: Mapping[str, Value] = field(default_factory=dict)
+    preset: Mapping[str, Value] = field(default_factory=dict)
     beyond: tuple[str, ...] = ()
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
@@ -148,13 +151,23 @@ class Hypothesis:
         return sum(one.free for one in self.shapes)
 
     @property
+    def key(self) -> Key:
+        """What it is and where, whatever its shape."""
+        return self.effect, self.joint
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """The joints that it is named on; 0 for the whole robot."""
+        return self.joints or (self.joint,)
+
+    @property
     def named(self) -> str:
         """``Stribeck friction on joint 3``; what sits on no joint by its title alone."""
-        return f"{self.title} on {on_joints(self.joints or (self.joint,))}" if self.joint else self.title
+        return f"{self.title} on {on_joints(self.numbers)}" if self.joint else self.title
 
-    def known(self, name: str) -> float | None:
-        """The value of a coefficient that is held; None of another."""
-        return self.held[name].value if name in self.held else None
+    def preset_value(self, name: str) -> float | None:
+        """The value of a coefficient that is preset; None of another."""
+        return self.preset[name].value if name in self.preset else None
 
     @property
     def variants(self) -> list[dict[str, float]]:

@@ -7,12 +7,12 @@ from math import inf
 
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.hypothesis import Hypothesis
-from identification.diagnosis.likely import BALANCERS, common
+from identification.diagnosis.likely import balances, common
 
 #: What lets the link come after the motor, or the log after both.
 _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
-#: What a joint has one of: a robot file says no more, and the second tells what the first one leaves.
-_ONE_OF = (BALANCERS, ("joint_elasticity", "backlash"))
+#: What a joint has one of, as of balancers: a robot file says no more, and the second tells what the first one leaves.
+_ONE_OF = ("joint_elasticity", "backlash")
 #: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
 #: nearly the same, and where they are alike: friction of the speed, or behind the motor.
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
@@ -37,7 +37,7 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
         theirs = one.hypothesis
         if _exclude(mine, theirs):
             return inf
-        if {mine.effect, theirs.effect} <= set(BALANCERS):
+        if balances(mine.effect) and balances(theirs.effect):
             least = max(least, _SECOND * drop)
         elif set(one.joints) & set(variant.joints) and not common(one):
             least = max(least, _part(mine, theirs) * drop)
@@ -46,13 +46,14 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
 
 def _exclude(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether a joint has one of them alone."""
-    return one.joint == other.joint and any({one.effect, other.effect} <= set(group) for group in _ONE_OF)
+    both = (one.effect, other.effect)
+    return one.joint == other.joint and (all(map(balances, both)) or set(both) <= set(_ONE_OF))
 
 
 def _part(one: Hypothesis, other: Hypothesis) -> float:
     """Part of what ``other`` explains that its law may lack and ``one`` would explain."""
     # Each is told by rows of its own, not by what the other leaves.
-    if one.held and other.held:
+    if one.preset and other.preset:
         return 0.0
     # What a delay of the whole robot explains is not of one joint.
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0

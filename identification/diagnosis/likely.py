@@ -4,27 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from generator.effects.effect import BALANCER, EVERYWHERE, OFTEN, SPRING
+from generator.effects.library import library
 from identification.diagnosis.bank import Variant
+from identification.diagnosis.hypothesis import BODY
 
-#: What nearly every robot has; what many wrists have; what holds an arm up.
-_COMMON = ("rotor_inertia", "viscous_friction", "coulomb_friction", "offset", "payload")
-_WRIST = ("coupled_rotor",)
-BALANCERS = ("gas_balancer", "spring_balancer")
-#: What pulls a link to where it rests.
-SPRINGS = (*BALANCERS, "cable_spring", "joint_spring")
+
+def balances(effect: str) -> bool:
+    """Whether an effect by its id holds an arm up."""
+    return _role(effect) == BALANCER
+
+
+def pulls(effect: str) -> bool:
+    """Whether an effect by its id pulls a link to where it rests."""
+    return _role(effect) in (BALANCER, SPRING)
 
 
 def common(variant: Variant) -> bool:
     """Whether nearly every robot has the effect."""
-    return variant.hypothesis.effect in _COMMON
+    return variant.hypothesis.kind == BODY or _occurs(variant) == EVERYWHERE
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:
     """Whether an effect is to be thought of first: common ones, a wrist's coupling, one balancer in its place. A
     spring that has lost a coefficient is not: without stiffness it pushes as gas does.
     """
-    effect = variant.hypothesis.effect
-    if effect in BALANCERS:
+    if balances(variant.hypothesis.effect):
         whole = len(variant.used) == len(variant.hypothesis.coefficients)
-        return whole and variant.hypothesis.usual and not any(one.hypothesis.effect in BALANCERS for one in others)
-    return common(variant) or effect in _WRIST
+        return whole and variant.hypothesis.usual and not any(balances(one.hypothesis.effect) for one in others)
+    return common(variant) or _occurs(variant) == OFTEN
+
+
+def _occurs(variant: Variant) -> str:
+    return one.occurs if (one := library().get(variant.hypothesis.effect)) else ""
+
+
+def _role(effect: str) -> str:
+    return one.role if (one := library().get(effect)) else ""

@@ -94,7 +94,7 @@ def search(
     validate: Sequence[int],
     regressors: Regressors,
     prior: Prior | None = None,
-    told: Callable[[str], None] = lambda _: None,
+    progress: Callable[[str], None] = lambda _: None,
     dry: bool = False,
 ) -> Search:
     """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``.
@@ -110,7 +110,7 @@ def search(
     acting = Acting()
 
     for turn in range(_PASSES):
-        told("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
+        progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
         scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
         bank = Bank(clear, scenes)
@@ -119,7 +119,7 @@ def search(
             for shape in one.variants:
                 bank.add(one, shape)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
-        told("measuring the noise")
+        progress("measuring the noise")
         rounded = tuple(
             rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
             for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
@@ -128,7 +128,7 @@ def search(
         may_follow = maps(clear, scenes)
         bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy)
-        told("weighing the evidence")
+        progress("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
@@ -138,7 +138,7 @@ def search(
         if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
         if swinging(chosen) and turn + 1 < _PASSES:
-            told("settling how drive trains swing")
+            progress("settling how drive trains swing")
             chosen, values, acting = settled(weighing, chosen)
     found = tuple(choices)
     return Search(
@@ -149,11 +149,11 @@ def search(
 def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:
     """The variant of the last turn among the columns of this one."""
     for variant in bank.variants:
-        same = (variant.hypothesis.effect, variant.hypothesis.joint) == (old.hypothesis.effect, old.hypothesis.joint)
+        same = variant.key == old.key
         if same and dict(variant.shape) == dict(old.shape):
             return variant
     for one in offered:
-        same = (one.effect, one.joint) == (old.hypothesis.effect, old.hypothesis.joint)
+        same = one.key == old.key
         if same and one.variants[0].keys() == old.shape.keys():
             return bank.add(one, {**old.shape, **one.given})
     return None

@@ -24,7 +24,7 @@ from identification.diagnosis.priors import preferring, prior_of
 from identification.diagnosis.refit import SET, Refit, refit, with_payload
 from identification.diagnosis.repair import repaired
 from identification.diagnosis.stated_elasticity import stated
-from identification.diagnosis.untouched import objections, untouched
+from identification.diagnosis.untouched import Untouched, objections, untouched
 from identification.diagnosis.writable import loaded, writable
 from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
@@ -35,12 +35,12 @@ GENERATED = "generated"
 _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Mended:
     """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
-    ``before`` and ``after`` are the test runs as the old and the new model play them; ``file_difference`` and
-    ``groupings_difference`` are unified diffs.
+    ``before`` and ``after`` are the test runs as the old and the new model play them, ``tried`` what that says of each
+    joint, by its number; ``file_difference`` and ``groupings_difference`` are unified diffs.
     """
 
     text: str
@@ -49,6 +49,7 @@ class Mended:
     fit: Refit
     before: tuple[Played, ...]
     after: tuple[Played, ...]
+    tried: Mapping[int, Untouched]
     file_difference: str
     groupings_difference: str
     generated: Path
@@ -65,7 +66,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """
     name = f"{found.robot.name}.yaml"
     old_text = path.read_text(encoding="utf-8-sig")
-    bank, aside = found.found.bank, measured(found.found.offered)
+    bank, aside = found.search.bank, measured(found.search.offered)
     wanted = [*map(_addition, found.findings)]
     additions, unwritten = writable(old_text, name, [*wanted, *aside], found.roles, bank.scenes)
     new = repaired(old_text, name, additions)
@@ -75,9 +76,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, written)
         said, unused = _description(written), _unused(written)
-        fit = refit(_sampled(found.roles.known, regressors), regressors, known, said, unused)
+        fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, unused)
         if prior is None:
-            values = refit(_sampled(found.roles.known, old_regressors), old_regressors).written
+            values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
         else:
             mean = prior_of(old_regressors.model, prior).mean.tolist()
             values = dict(zip(old_regressors.names, mean, strict=True))
@@ -90,30 +91,21 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
         before, after = (tuple(played) for played in zip(*pairs, strict=True))
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
-    against = objections(untouched(bank, before, after), elastic)
+    tried = untouched(bank, before, after)
+    stated_aside = [one.evidence for one in aside if one in additions]
+    told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes, *objections(tried, elastic)]
     return Mended(
-        text,
-        new.robot,
-        tuple(additions),
-        fit,
-        before,
-        after,
-        difference(old_text, text, name),
-        groupings_difference(old_regressors.model, regressors.model),
-        Path(GENERATED, found.robot.name),
-        tuple(
-            dict.fromkeys(
-                (
-                    *(one.evidence for one in aside if one in additions),
-                    *unwritten,
-                    *new.notes,
-                    *fit.notes,
-                    *sets,
-                    *notes,
-                    *against,
-                )
-            )
-        ),
+        text=text,
+        robot=new.robot,
+        additions=tuple(additions),
+        fit=fit,
+        before=before,
+        after=after,
+        tried=tried,
+        file_difference=difference(old_text, text, name),
+        groupings_difference=groupings_difference(old_regressors.model, regressors.model),
+        generated=Path(GENERATED, found.robot.name),
+        notes=tuple(dict.fromkeys(told)),
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from generator.review.words import listed
 from identification.diagnosis.bank import Bank
+from identification.diagnosis.prepared import joined
 
 Array = NDArray[np.float64]
 
@@ -41,8 +42,8 @@ def notes(bank: Bank, aside: Collection[int] = ()) -> list[str]:
     Of coordinates ``aside`` it is known what it is.
     """
     parts = {}
-    for k, joint in enumerate(bank.scenes[0].robot.moving):
-        tau = np.concatenate([run.tau[k][run.kept[k]] for run in bank.runs])
+    for k, joint in enumerate(bank.robot.moving):
+        tau = joined(bank.runs, [run.tau for run in bank.runs], k)
         if k not in aside and len(tau) and np.ptp(tau):
             parts[joint.number] = noise_floor(bank, k, bank.runs[0].rate) / float(np.std(tau))
     least = min(_LOUD, max(_LOUDER, _TIMES * float(np.median([*parts.values()])))) if len(parts) > 2 else _LOUD

@@ -81,14 +81,14 @@ class Prior:
 class Normal:
     """Products ``gram`` (c + 1 square) of ``base`` columns, candidates and torque, over ``rows`` rows.
 
-    ``held`` are coefficients of candidates, by the column's number, that are known: a solution has them as they are.
+    ``preset`` are coefficients of candidates, by the column's number, that are known: a solution has them as they are.
     """
 
     gram: Array
     base: int
     rows: int
     prior: Prior | None = None
-    held: Mapping[int, float] = field(default_factory=dict)
+    preset: Mapping[int, float] = field(default_factory=dict)
 
     @cached_property
     def whole(self) -> Array:
@@ -123,7 +123,7 @@ class Normal:
         at = np.array(chosen, dtype=int) - self.base
         if not at.size:
             return self.schur
-        fitted, known, values = told_apart(chosen, self.held)
+        fitted, known, values = told_apart(chosen, self.preset)
         S, out = without(self.schur, known - self.base, values), fitted - self.base
         result = S - S[:, out] @ inverse(S[np.ix_(out, out)]) @ S[out]
         result[at], result[:, at] = 0.0, 0.0
@@ -131,7 +131,7 @@ class Normal:
 
     def part(self, columns: Sequence[int], chosen: Sequence[int]) -> Array:
         """The rows of ``columns`` and of the torque of the Schur complement after the columns ``chosen`` too."""
-        fitted, known, values = told_apart(chosen, self.held)
+        fitted, known, values = told_apart(chosen, self.preset)
         at = np.array([*known, *fitted, *columns, len(self.gram) - 1]) - self.base
         S = without(self.schur[np.ix_(at, at)], np.arange(len(known)), values)[len(known) :, len(known) :]
         return after(S, len(fitted))
@@ -139,8 +139,8 @@ class Normal:
     def solution(self, chosen: Sequence[int]) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance."""
         at = [*range(self.base), *chosen]
-        free = np.array([number not in self.held for number in at])
-        fitted, known, values = told_apart(at, self.held)
+        free = np.array([number not in self.preset for number in at])
+        fitted, known, values = told_apart(at, self.preset)
         G = without(self.whole, known, values)
         C = np.zeros((len(at), len(at)))
         C[np.ix_(free, free)] = inverse(G[np.ix_(fitted, fitted)])
@@ -156,11 +156,11 @@ class Normal:
         return float(v @ self.gram[np.ix_(at, at)] @ v)
 
 
-def told_apart(columns: Sequence[int], held: Mapping[int, float]) -> tuple[Places, Places, Array]:
-    """Columns by number that are fitted, those of which a coefficient is ``held``, and the values that are."""
-    known = [number for number in columns if number in held]
-    fitted = [number for number in columns if number not in held]
-    return np.array(fitted, dtype=int), np.array(known, dtype=int), np.array([held[number] for number in known])
+def told_apart(columns: Sequence[int], preset: Mapping[int, float]) -> tuple[Places, Places, Array]:
+    """Columns by number that are fitted, those of which a coefficient is ``preset``, and the values that are."""
+    known = [number for number in columns if number in preset]
+    fitted = [number for number in columns if number not in preset]
+    return np.array(fitted, dtype=int), np.array(known, dtype=int), np.array([preset[number] for number in known])
 
 
 def without(G: Array, known: Places, values: Array) -> Array:

@@ -16,6 +16,7 @@ from identification.diagnosis.loop import Search
 from identification.diagnosis.noise_floor import noise_floor
 from identification.diagnosis.stated_elasticity import stated
 from identification.diagnosis.trial import Trial
+from identification.residuals import rms
 
 Array = NDArray[np.float64]
 
@@ -32,12 +33,10 @@ def untold(found: Search, weights: Mapping[int, float]) -> dict[int, float]:
     """By coordinate, the part of the torque's spread that values of the columns by number leave slowly, where most."""
     bank, result = found.bank, {}
     for k in range(bank.dof):
-        parts = [(bank.residual(r, k, weights, white=False), *bank.raw(r, k)[2:]) for r in range(len(bank.runs))]
-        e = np.concatenate([left[kept] for left, _, kept in parts])
-        tau = np.concatenate([torque[kept] for _, torque, kept in parts])
+        e, tau = bank.left(k, weights, white=False), bank.left(k, {}, white=False)
         if len(e) < _FEWEST or not np.std(tau):
             continue
-        if (part := _rms(_slow(e)) / float(np.std(tau))) > _MOST:
+        if (part := rms(_slow(e)) / float(np.std(tau))) > _MOST:
             result[k] = part
     return result
 
@@ -49,25 +48,25 @@ def untested(found: Search, trial: Trial) -> dict[int, float]:
     Of elastic drive trains that the file states nothing is told: what is linear about stiffnesses that are not known
     does not carry over.
     """
-    if stated(found.bank.scenes[0].robot):
+    if stated(found.bank.robot):
         return {}
     theta, C = trial.normal.solution([])
     # Noise of the positions makes values small, which motion of another kind shows.
     right, _ = found.weighing.fitted((), True)
     size, unseen = _unseen(trial.normal.whole[: len(theta), : len(theta)])
-    rate = 1 / float(np.median(np.concatenate([np.diff(run.t) for run in trial.bank.runs])))
+    rate = float(np.median([run.rate for run in trial.bank.runs]))
     result = {}
     for k in trial.shown:
         columns, torque = _settled(trial.bank, k)
         scaled = columns / size[:, None]
-        told = np.linalg.norm(unseen @ scaled, axis=0) < _BEYOND * np.linalg.norm(scaled, axis=0)
-        X = columns[:, told]
+        predicted = np.linalg.norm(unseen @ scaled, axis=0) < _BEYOND * np.linalg.norm(scaled, axis=0)
+        X = columns[:, predicted]
         if X.shape[1] < _FEWEST:
             continue
-        e = min((torque[told] - values @ X for values in (theta, right)), key=_rms)
+        e = min((torque[predicted] - values @ X for values in (theta, right)), key=rms)
         noise = float(np.sqrt(_loudest(found, k, rate) ** 2 + np.mean(np.sum(X * (C @ X), axis=0))))
-        if _rms(e) > _FAR * noise and _rms(_slow(e)) > _SLOW * _rms(e):
-            result[k] = _rms(e) / noise
+        if rms(e) > _FAR * noise and rms(_slow(e)) > _SLOW * rms(e):
+            result[k] = rms(e) / noise
     return result
 
 
@@ -105,7 +104,3 @@ def _slow(x: Array) -> Array:
     """Means of rows in a row."""
     count = len(x) // _MEANS
     return np.asarray(x[: count * _MEANS].reshape(count, _MEANS).mean(axis=1))
-
-
-def _rms(x: Array) -> float:
-    return float(np.sqrt(np.mean(x**2)))

@@ -33,8 +33,8 @@ def sensitivity(torque_on: Callable[[Motion], Array], motion: Motion, change: Mo
 
 def change_of(scene: Scene, k: int, x: Array) -> Motion:
     """Coordinate ``k`` moved by ``x`` (N), its speed and acceleration by the derivatives of ``x``."""
-    speed = scene.rate(x)
-    return alone(scene.motion, k, (x, speed, scene.rate(speed)))
+    speed = scene.derivative(x)
+    return alone(scene.motion, k, (x, speed, scene.derivative(speed)))
 
 
 def scaled(scene: Scene, k: int, factor: float) -> Motion:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from generator.errors import InputError
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.normal import Prior
-from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.prepared import Prepared, joined
 from identification.residuals import Residual, Residuals
 from identification.suspicion import directed, ordered, suspect
 
@@ -18,14 +18,14 @@ Array = NDArray[np.float64]
 _REVERSED = -0.5
 
 
-def doubts(found: Diagnosis, known: Prior | None, dry: bool) -> list[str]:
+def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
     Raises InputError where columns are swapped, where the torques have the other sign, in all runs or in one of them,
     and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained. Parameters
-    that were ``known`` beforehand tell a sign as well.
+    that are known beforehand (``prior``) tell a sign as well.
     """
-    bank = found.found.bank
+    bank = found.search.bank
     runs = [run.sampled for run in bank.runs]
     regressors, left = bank.scenes[0].regressors, _left(found)
     if dry:
@@ -33,11 +33,11 @@ def doubts(found: Diagnosis, known: Prior | None, dry: bool) -> list[str]:
         return []
     for run, scene, e in zip(bank.runs, bank.scenes, found.residuals_after, strict=True):
         _alike(run, run.tau - e, "those of the other runs")
-        if known is not None:
-            mean = dict(zip(bank.base, known.mean.tolist(), strict=False))
+        if prior is not None:
+            mean = dict(zip(bank.base, prior.mean.tolist(), strict=False))
             _alike(run, run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion)), "the known parameters")
-    base, values = bank.base, found.found.values
-    std = np.sqrt(np.diag(found.found.covariance))[: len(base)]
+    base, values = bank.base, found.search.values
+    std = np.sqrt(np.diag(found.search.covariance))[: len(base)]
     # Beside another law of its joint the model's own friction may come out as what that one has too much.
     explained = {one.joints[0] for one in found.findings if len(one.joints) == 1}
     directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), explained)
@@ -46,20 +46,19 @@ def doubts(found: Diagnosis, known: Prior | None, dry: bool) -> list[str]:
 
 def _left(found: Diagnosis) -> Residuals:
     """What the model with the findings leaves of each joint in the rows that count."""
-    runs, each = found.found.bank.runs, {}
-    for k in range(found.found.bank.dof):
-        e, tau = (
-            np.concatenate([rows[k][run.kept[k]] for run, rows in zip(runs, signals, strict=True)])
-            for signals in (found.residuals_after, [run.tau for run in runs])
-        )
-        spread = tau - tau.mean() if len(tau) else tau
-        each[k] = Residual(len(tau), *(float(np.linalg.norm(x)) for x in (e, tau, spread)))
-    return Residuals(each)
+    runs = found.search.bank.runs
+    torques = [run.tau for run in runs]
+    return Residuals(
+        {
+            k: Residual.of(joined(runs, found.residuals_after, k), joined(runs, torques, k))
+            for k in range(found.search.bank.dof)
+        }
+    )
 
 
 def _alike(run: Prepared, model: Array, whose: str) -> None:
     """Raises InputError where a run's torques are far from those (n x rows) of a model, the other way."""
-    tau, told = run.tau[run.kept], model[run.kept]
-    if tau @ told < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(told):
+    tau, expected = run.tau[run.kept], model[run.kept]
+    if tau @ expected < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(expected):
         problem = f"the torques have another sign than {whose}"
         raise InputError(run.sampled.run.place, problem, "one sign in all runs; a sidecar can change it")

@@ -91,13 +91,17 @@ class Played:
         return Played(self.t[rows], self.measured[:, rows], self.model[:, rows], self.kept[:, rows])
 
     @property
+    def rate(self) -> float:
+        """Rows a second [Hz]."""
+        return 1 / float(np.median(np.diff(self.t)))
+
+    @property
     def residuals(self) -> Residuals:
         """Of the kept rows, by joint (coordinates from 0)."""
         each = {}
         for k, rows in enumerate(self.kept):
-            y, e = self.measured[k, rows], (self.measured - self.model)[k, rows]
-            spread = float(np.linalg.norm(y - y.mean())) if len(y) else 0.0
-            each[k] = Residual(len(y), float(np.linalg.norm(e)), float(np.linalg.norm(y)), spread)
+            measured = self.measured[k, rows]
+            each[k] = Residual.of(measured - self.model[k, rows], measured)
         return Residuals(each)
 
 
@@ -117,23 +121,11 @@ def play(one: Prepared, player: Player, values: Mapping[str, float]) -> Played:
 def together(played: Sequence[Played]) -> Residuals:
     """The residuals of several played runs, by joint (coordinates from 0)."""
     parts = [one.residuals.per_joint for one in played]
-    return Residuals(
-        {
-            k: Residual(
-                sum(part[k].rows for part in parts),
-                *(
-                    float(np.linalg.norm([getattr(part[k], name) for part in parts]))
-                    for name in ("norm", "torque", "spread")
-                ),
-            )
-            for k in range(len(played[0].kept))
-        }
-    )
+    return Residuals({k: Residual.total(part[k] for part in parts) for k in range(len(played[0].kept))})
 
 
 def aligned(one: Played, other: Played) -> tuple[Played, Played]:
     """Both over the rows that they have in common: a corrected delay moves the ends of a run."""
-    step = float(np.median(np.diff(one.t)))
-    shift = round(float(other.t[0] - one.t[0]) / step)
+    shift = round(float(other.t[0] - one.t[0]) * one.rate)
     count = min(len(one.t) - max(shift, 0), len(other.t) - max(-shift, 0))
     return one.part(max(shift, 0), count), other.part(max(-shift, 0), count)

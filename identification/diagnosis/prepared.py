@@ -100,6 +100,11 @@ class Prepared:
         return windowed(x, self.sampled.filters.factor)
 
 
+def joined(runs: Sequence[Prepared], signals: Sequence[Array], k: int) -> Array:
+    """Rows of coordinate k that count (N), one run after the other; ``signals`` are n x rows, one a run."""
+    return np.concatenate([rows[k, run.kept[k]] for run, rows in zip(runs, signals, strict=True)])
+
+
 def _at_rest(qd: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
     """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms."""
     result = np.zeros(qd.shape, dtype=bool)
@@ -138,9 +143,10 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         raise InputError(
             run.place, problem, "all ten in the sidecar, or none: a payload that is not known is looked for"
         )
-    length = run.samples * run.period
-    if length < SHORTEST:
-        raise InputError(run.place, f"a run of {length:.3g} s", f"{SHORTEST:g} s at least, better several periods")
+    if run.duration < SHORTEST:
+        raise InputError(
+            run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
+        )
     period = period_of(run.q, run.period)
     wanted = run.rate / RATE
     factor = possible_factor(wanted) if wanted > 1 else 1
@@ -158,7 +164,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     standing |= _at_rest(speed, regressors.signs)
     if swinging := stated(regressors.model.robot):
-        fading = min(_SWINGING, _FADING * length) * run.rate
+        fading = min(_SWINGING, _FADING * run.duration) * run.rate
         standing[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
         standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]

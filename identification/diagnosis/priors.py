@@ -9,7 +9,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from generator.effects.library import library, motor_side
+from generator.effects.library import motor_side
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.model import Model
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 #: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, and the
 #: least of any value, which may be zero but for rounding, in parts of the largest of its unit.
-_UNTOLD, _KNOWN, _ZERO, _ROUNDED = 0.05, 1e-4, 1e-3, 1e-9
+_DEFAULT, _KNOWN, _ZERO, _ROUNDED = 0.05, 1e-4, 1e-3, 1e-9
 #: Part of a variance by which parameters that are the same sums may differ.
 _EXACT = 1e-6
 
@@ -66,7 +66,7 @@ def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
-    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()} | _refining(model.robot, given)
+    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()} | _refining(model, given)
     keys = list(deviation)
     map_ = np.zeros((len(model.base_parameters), len(keys)))
     lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
@@ -79,19 +79,18 @@ def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
                 map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
     prior = Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
-    return prior, _untold(model, given, prior)
+    return prior, _unknown(model, given, prior)
 
 
-def _untold(model: Model, given: Mapping[str, ParameterValue], prior: Prior) -> dict[str, Array]:
+def _unknown(model: Model, given: Mapping[str, ParameterValue], prior: Prior) -> dict[str, Array]:
     """How much the base parameters hold (p) of each parameter of an effect that is not ``given``, by its name, where
     something would be known of one of them.
     """
     names = [
-        f"{one.stem}{joint}"
-        for use in model.robot.effects
-        for joint in use.joints
-        for one in library()[use.effect].parameters
-        if not one.refines
+        name
+        for one in model.effects
+        for name, parameter in zip(one.names, one.effect.parameters, strict=True)
+        if not parameter.refines
     ]
     whole = np.array([one.name in given for one in model.base_parameters])
     parts = {each: np.where(whole, 0.0, model.grouping.coefficients(each)) for each in names if each not in given}
@@ -104,35 +103,33 @@ def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, Para
     if any(name in model.grouping.numbers and name not in standard for name in given):
         return dict(given)
     sides = {
-        motor: f"{parameter.stem}{one.joint.number}"
+        motor: own
         for one in motor_side(model.robot)
         if one.suffix
-        for motor, parameter in zip(one.names, one.effect.parameters, strict=True)
+        for motor, own in zip(one.names, one.on_joint, strict=True)
     }
     moved = {motor: own for motor, own in sides.items() if motor in given and own in standard and own not in given}
     return {moved.get(name, name): value for name, value in given.items()}
 
 
-def _refining(robot: Robot, given: Mapping[str, ParameterValue]) -> dict[str, float]:
+def _refining(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, float]:
     """Standard deviations of coefficients that refine an effect of which the set has the others: such as the set does
     not tell are zero, to a part of the largest of those.
     """
     result = {}
-    for use in robot.effects:
-        parameters = library()[use.effect].parameters
-        for joint in use.joints:
-            values = {one: given.get(f"{one.stem}{joint}") for one in parameters}
-            largest = max((abs(one.value) for one in values.values() if one is not None), default=0.0)
-            for one, value in values.items():
-                if one.refines and (value is None or value.value == 0) and largest:
-                    result[f"{one.stem}{joint}"] = _UNTOLD * largest
+    for one in model.effects:
+        values = [given.get(name) for name in one.names]
+        largest = max((abs(value.value) for value in values if value is not None), default=0.0)
+        for name, parameter, value in zip(one.names, one.effect.parameters, values, strict=True):
+            if parameter.refines and (value is None or value.value == 0) and largest:
+                result[name] = _DEFAULT * largest
     return result
 
 
 def _deviation(one: ParameterValue, largest: float) -> float:
     """Standard deviation of a value; no part of zero tells one, and none at all would be no knowledge."""
     if one.relative_std is None or one.value == 0:
-        return max(_UNTOLD * abs(one.value), _ZERO * largest)
+        return max(_DEFAULT * abs(one.value), _ZERO * largest)
     return max(abs(one.value) * min(max(one.relative_std / 100, _KNOWN), 1 / _KNOWN), _ROUNDED * largest)
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from generator.version import VERSION
 from identification import outcome
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
@@ -35,8 +33,7 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
             for one in found.contradicted
         ],
         "invisible": [
-            {"effect": one.effect, "joints": list(one.joints or (one.joint,)), "would_show": one.would_show}
-            for one in found.invisible
+            {"effect": one.effect, "joints": list(one.numbers), "would_show": one.would_show} for one in found.invisible
         ],
         "residual": None if new is None else _residual(found, new),
         "robot_file": None if new is None else f"{found.robot.name}.yaml",
@@ -57,13 +54,13 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
 
 def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:
     """Of the untouched runs by joint: before, after, and what noise alone would leave [N m, N rms]."""
-    numbers = [joint.number for joint in found.robot.moving]
-    rate = 1 / float(np.median(np.diff(new.after[0].t)))
+    numbers = found.robot.numbers
+    rate = new.after[0].rate
     result: dict[str, Any] = {}
     for kind, played in (("before", new.before), ("after", new.after)):
         each = together(played)
         result[kind] = outcome.norms({numbers[k]: one for k, one in each.per_joint.items()}, each.total)
-    bank = found.found.bank
+    bank = found.search.bank
     floors = [(number, noise_floor(bank, k, rate) if k in bank.shown else None) for k, number in enumerate(numbers)]
     result["noise_floor"] = {"per_joint": [{"joint": number, "rms": floor} for number, floor in floors]}
     return result

@@ -25,20 +25,20 @@ _BLOCKS, _LEAST = 4, SHORTEST + 0.05
 class Roles:
     """Sources of runs by role, each a path or ``PATH@FROM:TO``; ``notes`` tell what was split and how.
 
-    Without any that validate each of ``train`` is held against what the others predict. ``known`` are all but those
-    that test, whole where parts of them have a role: what a last fit is made of.
+    Without any that validate each of ``train`` is held against what the others predict. ``searched`` are all but
+    those that test, whole where parts of them have a role: what a last fit is made of.
     """
 
     train: tuple[str, ...]
     validate: tuple[str, ...]
     test: tuple[str, ...]
-    known: tuple[str, ...]
+    searched: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
     @property
     def untouched(self) -> bool:
         """Whether nothing is fitted to what tests."""
-        return not set(self.test) & set(self.known)
+        return not set(self.test) & set(self.searched)
 
 
 def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
@@ -49,7 +49,7 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     one too short to be split.
     """
     unshared({"fit": data, "validate": validate, "test": test})
-    fit, held, last = (tuple(run.name for run in runs) for runs in (data, validate, test))
+    fit, validating, last = (tuple(run.name for run in runs) for runs in (data, validate, test))
     notes: list[str] = []
     fitted: list[Run] = list(data)
     ends: dict[str, float] = {}
@@ -65,15 +65,15 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
         else:
             ends = {run.name: run.start + (1 - _TESTED) * run.length - _gap(run) for run in data}
             notes.append(f"the last {100 * _TESTED:.0f} % of every run test; runs apart are stronger evidence")
-    known = tuple(part_of(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
-    train = known
+    whole = tuple(part_of(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
+    train = whole
     if not validate and len(fitted) == 1:
         (run,) = fitted
         train = tuple(part_of(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + run.length)))
         notes.append(f"{len(train)} blocks of its time are each held against what the others predict")
     elif not validate:
         notes.append("each run is held against what the others predict")
-    return Roles(train, held, last, (*known, *held), tuple(notes))
+    return Roles(train, validating, last, (*whole, *validating), tuple(notes))
 
 
 def _tail(run: Run) -> str:

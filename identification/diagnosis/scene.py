@@ -89,7 +89,7 @@ class Scene:
         """How warm the drive of coordinate ``k`` is (N) by its motor's torque, as ``corrections.heated``."""
         return self._inside(heated(self.motor_torque(k) / warm_torque, self.sampled.run.elapsed, warm_up_time))
 
-    def told(self, k: int) -> bool:
+    def warmth_is_stated(self, k: int) -> bool:
         """Whether the robot's file says how warm the drive of coordinate ``k`` is."""
         return bool(np.all(np.isfinite(self.warmth(k))))
 
@@ -178,7 +178,7 @@ class Scene:
         """A coefficient that an earlier search has found, zero where it has not."""
         return 0.0 if self.beside is None else self.beside.coefficients.get(name, 0.0)
 
-    def rate(self, x: Array) -> Array:
+    def derivative(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, as the motion's speeds are."""
         return flat_derivative(x, self.period)
 

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import Evidence, Key, Weighing, columns_of, key_of
-from identification.diagnosis.likely import BALANCERS, SPRINGS, common, likely
+from identification.diagnosis.evidence import Evidence, Weighing, columns_of
+from identification.diagnosis.hypothesis import Key
+from identification.diagnosis.likely import balances, common, likely, pulls
 from identification.diagnosis.normal import bounded
 from identification.diagnosis.refinement import refined
 from identification.diagnosis.scaling import scales_all
@@ -65,8 +66,11 @@ class Selection:
         seen: set[frozenset[Key]] = set()
         refused: set[Key] = set()
         most = max(_MOST, _MOST_OF_JOINT * self.weighing.bank.dof)
-        while sum(not common(one) for one in chosen) < most and (known := frozenset(map(key_of, chosen))) not in seen:
-            offered = [one for one in self.weighing.evidence(chosen) if key_of(one.variant) not in refused]
+        while sum(not common(one) for one in chosen) < most:
+            known = frozenset(one.key for one in chosen)
+            if known in seen:
+                break
+            offered = [one for one in self.weighing.evidence(chosen) if one.variant.key not in refused]
             offered.sort(key=lambda one: not likely(one.variant, chosen))
             whole = (self._whole(one, chosen) for one in offered if one.passes)
             first = next((one for one in whole if self._sound(one, chosen)), None)
@@ -79,8 +83,8 @@ class Selection:
             else:
                 chosen.append(self._shaped(first.variant, chosen))
             chosen = self._exchanged(chosen, chosen[-1], 1)
-            if first is not None and frozenset(map(key_of, chosen)) == known:
-                refused.add(key_of(first.variant))
+            if first is not None and frozenset(each.key for each in chosen) == known:
+                refused.add(first.variant.key)
             else:
                 seen.add(known)
                 refused.clear()
@@ -103,10 +107,10 @@ class Selection:
             return []
         offered: dict[Key, list[Variant]] = {}
         for one in self.weighing.bank.variants:
-            if common(one) or (one.hypothesis.effect in BALANCERS and one.hypothesis.usual):
-                offered.setdefault(key_of(one), []).append(one)
-        chosen = [shapes[0] for (effect, _), shapes in offered.items() if effect not in BALANCERS]
-        balancers = [one for (effect, _), shapes in offered.items() if effect in BALANCERS for one in shapes]
+            if common(one) or (balances(one.hypothesis.effect) and one.hypothesis.usual):
+                offered.setdefault(one.key, []).append(one)
+        chosen = [shapes[0] for (effect, _), shapes in offered.items() if not balances(effect)]
+        balancers = [one for (effect, _), shapes in offered.items() if balances(effect) for one in shapes]
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
         chosen = self._standing(chosen)
@@ -173,7 +177,7 @@ class Selection:
     def _shaped(self, one: Variant, others: Sequence[Variant]) -> Variant:
         """With the shape that explains most beside ``others``, from whichever of its starts leads there."""
         if one.hypothesis.starts:
-            same = [other for other in self.weighing.bank.variants if key_of(other) == key_of(one)]
+            same = [other for other in self.weighing.bank.variants if other.key == one.key]
             one = self.weighing.best_shape([one, *same], others).variant
         each = [refined(self.weighing, start, others) for start in (one, *self._of_other_forms(one, others))]
         if len(each) > 1:
@@ -187,7 +191,7 @@ class Selection:
         """
         forms: dict[tuple[tuple[str, float | None], ...], list[Variant]] = {}
         for other in self.weighing.bank.variants:
-            if key_of(other) == key_of(one) and other.hypothesis.free:
+            if other.key == one.key and other.hypothesis.free:
                 forms.setdefault(_form(other), []).append(other)
         forms.pop(_form(one), None)
         return [self.weighing.best_shape(same, others).variant for same in forms.values()]
@@ -198,17 +202,17 @@ class Selection:
         Where shapes are compared, those of the nearest rivals are refined too: on its grid alone the right one loses.
         One spring may be another's special case, without any.
         """
-        found = [one for one in self.weighing.evidence(others) if key_of(one.variant) != key_of(mine.variant)]
-        if not mine.variant.hypothesis.shapes and mine.variant.hypothesis.effect not in SPRINGS:
+        found = [one for one in self.weighing.evidence(others) if one.variant.key != mine.variant.key]
+        if not mine.variant.hypothesis.shapes and not pulls(mine.variant.hypothesis.effect):
             return found
         near = [one for one in found if one.drop > _RIVAL * mine.drop and one.variant.hypothesis.shapes]
         near = [one for one in near if one.variant.joints == mine.variant.joints][:_RIVALS]
-        beside = frozenset(map(key_of, others))
+        beside = frozenset(each.key for each in others)
         for one in near:
-            if (key_of(one.variant), beside) not in self._refined:
-                self._refined.add((key_of(one.variant), beside))
+            if (one.variant.key, beside) not in self._refined:
+                self._refined.add((one.variant.key, beside))
                 refined(self.weighing, one.variant, others)
-        return [one for one in self.weighing.evidence(others) if key_of(one.variant) != key_of(mine.variant)]
+        return [one for one in self.weighing.evidence(others) if one.variant.key != mine.variant.key]
 
     def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
         """Two that explain together what neither may alone."""
@@ -220,10 +224,10 @@ class Selection:
         """Two common effects of the joint that explain together as much as ``mine``, which is rare; none else."""
         if likely(mine.variant, others):
             return []
-        taken = {key_of(one) for one in others}
+        taken = {one.key for one in others}
         bank = self.weighing.bank
         same = [one for one in bank.variants if common(one) and one.joints == mine.variant.joints]
-        drop, pair = self._best_pair([one for one in same if key_of(one) not in taken], others)
+        drop, pair = self._best_pair([one for one in same if one.key not in taken], others)
         bic = drop - sum(len(one.columns) for one in pair) * np.log(self.weighing.normal.rows)
         return [] if mine.bic > bic + _BETTER + _RARE * drop else pair
 
@@ -250,10 +254,10 @@ class Selection:
         usual = likely(one, others)
         near = []
         for other in self.weighing.evidence(others):
-            if key_of(other.variant) == key_of(one) or not self._sound(other, others) or not _agrees(other):
+            if other.variant.key == one.key or not self._sound(other, others) or not _agrees(other):
                 continue
             margin = -max(_EQUAL * max(mine.drop, mine.score), _BETTER)
-            springs = {one.hypothesis.effect, other.variant.hypothesis.effect} <= set(SPRINGS)
+            springs = pulls(one.hypothesis.effect) and pulls(other.variant.hypothesis.effect)
             if usual and not likely(other.variant, others) and not springs:
                 margin = _RARE / 2 * mine.drop - _BETTER
             if other.score > mine.score + margin:
@@ -267,7 +271,7 @@ class Selection:
         same = [
             each
             for each in self.weighing.bank.variants
-            if key_of(each) == key_of(one) and each.shape.keys() == one.shape.keys()
+            if each.key == one.key and each.shape.keys() == one.shape.keys()
         ]
         unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
         drops = [self.weighing.beside(each.only(one.used), others)[1] for each in unlike]

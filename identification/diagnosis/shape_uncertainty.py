@@ -60,25 +60,25 @@ def deviations(
             T[number, len(chosen) + k] += weight
     T *= units
     A = T.T @ normal.whole @ T
-    told = [one.hypothesis.held.get(each.name) for one in found.variants for each in one.coefficients]
-    held = {i: (one.std / units[i]) ** 2 for i, one in enumerate(told, base) if one is not None}
-    std = np.sqrt(variances(A, held)) * units
+    fitted_apart = [one.hypothesis.preset.get(each.name) for one in found.variants for each in one.coefficients]
+    preset = {i: (one.std / units[i]) ** 2 for i, one in enumerate(fitted_apart, base) if one is not None}
+    std = np.sqrt(variances(A, preset)) * units
     shapes: dict[int, dict[str, float]] = {}
     for k, (which, name, _) in enumerate(steps):
         shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
     return std[: len(chosen)], shapes
 
 
-def variances(A: Array, held: Mapping[int, float]) -> Array:
+def variances(A: Array, preset: Mapping[int, float]) -> Array:
     """Of coefficients with products ``A`` of their columns, over the noise's power; infinite where no row shows one.
 
-    Those that are ``held`` have these variances of their own, by another fit: their errors are in the others', beside
+    Those that are ``preset`` have these variances of their own, by another fit: their errors are in the others', beside
     the noise.
     """
-    known = np.array(sorted(held), dtype=int)
+    known = np.array(sorted(preset), dtype=int)
     fitted = np.setdiff1d(np.arange(len(A)), known)
     own = A[np.ix_(fitted, fitted)]
-    C, error = inverse(own), np.array([held[i] for i in known.tolist()])
+    C, error = inverse(own), np.array([preset[i] for i in known.tolist()])
     moved = C @ A[np.ix_(fitted, known)]
     result = np.empty(len(A))
     result[known] = error

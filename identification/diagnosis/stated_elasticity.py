@@ -195,14 +195,14 @@ class _Links:
         return self.scene.torque_of(self.values, motion)
 
     @cached_property
-    def held(self) -> int:
+    def samples_per_inertia(self) -> int:
         """Samples for which the inertia matrix is taken as constant."""
         return max(round(_HELD / self.scene.period), 1)
 
     @cached_property
     def inertia(self) -> Array:
-        """Of the links (C x m x m), once in ``held`` samples."""
-        motion = self.scene.motion.at(slice(0, None, self.held))
+        """Of the links (C x m x m), once in ``samples_per_inertia``."""
+        motion = self.scene.motion.at(slice(0, None, self.samples_per_inertia))
         still = self.torque_on(motion)
         result = np.empty((motion.samples, len(self.at), len(self.at)))
         for j, k in enumerate(self.at):
@@ -232,7 +232,7 @@ class _Links:
         h, N = self.scene.period, self.scene.motion.samples
         V, m = K.shape
         load = self.torque_on(self.scene.motion)[self.at].T
-        each = np.arange(N) // self.held
+        each = np.arange(N) // self.samples_per_inertia
         inverse = np.linalg.inv(self.inertia)
         F = np.zeros((len(inverse), V, 2 * m, 2 * m))
         F[..., :m, m:] = np.eye(m)
@@ -241,17 +241,18 @@ class _Links:
         P = np.linalg.inv(even - F * (h / 2))
         A = P @ (even + F * (h / 2))
         # Blocks of samples with one inertia: what drives a step is that of its end.
-        blocks = np.zeros((len(inverse) * self.held, 2 * m, 2))
+        blocks = np.zeros((len(inverse) * self.samples_per_inertia, 2 * m, 2))
         g = np.zeros((N, 2 * m))
         g[:, m:] = -(inverse[each] @ load[..., None])[..., 0]
         blocks[1:N] = np.stack([(g[1:] + g[:-1]) * (h / 2), (g[1:] - g[:-1]) * (h * h / 12)], axis=-1)
-        mean, change = np.moveaxis(blocks.reshape(len(inverse), 1, self.held, 2 * m, 2).swapaxes(2, 3), -1, 0)
+        in_blocks = blocks.reshape(len(inverse), 1, self.samples_per_inertia, 2 * m, 2).swapaxes(2, 3)
+        mean, change = np.moveaxis(in_blocks, -1, 0)
         b = P @ mean - (P @ F) @ change
         x = np.empty((N, V, 2 * m, 1))
         # The log does not tell how the links swing when it begins: they hang still on their springs.
         x[0, :, :m, 0], x[0, :, m:, 0] = -load[0] / K, -(load[1] - load[0]) / (h * K)
         for t in range(1, N):
-            block, i = divmod(t, self.held)
+            block, i = divmod(t, self.samples_per_inertia)
             np.matmul(A[block], x[t - 1], out=x[t])
             x[t, ..., 0] += b[block, ..., i]
         for v in range(V):

@@ -12,6 +12,7 @@ from identification.diagnosis.evidence import columns_of
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import Normal
 from identification.diagnosis.trial import Trial
+from identification.residuals import rms
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ def steps(found: Search, trial: Trial | None) -> Steps:
 def _of_trial(trial: Trial, partly: Sequence[Sequence[Variant]]) -> tuple[float, ...]:
     """The rms of what fits to the other runs leave, in parts of the noise that those have in the mean."""
     left = [trial.left(trial.fitted(variants)[0]) / trial.usual for variants in partly]
-    return tuple(float(np.sqrt(np.mean(e**2))) for e in left)
+    return tuple(rms(e) for e in left)
 
 
 def _of_fit(normal: Normal, partly: Sequence[Sequence[Variant]]) -> tuple[float, ...]:

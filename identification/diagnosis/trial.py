@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.acting import Acting
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.evidence import columns_of, key_of
+from identification.diagnosis.evidence import columns_of
 from identification.diagnosis.loop import Search
 from identification.diagnosis.normal import Normal
 from identification.diagnosis.prepared import Prepared
@@ -50,7 +50,7 @@ class Trial:
         """
         solution, covariance = self.normal.solution(columns_of(variants))
         base = range(self.normal.base)
-        at = np.array([*base, *(self.places[key_of(one)][i] for one in variants for i in one.used)])
+        at = np.array([*base, *(self.places[one.key][i] for one in variants for i in one.used)])
         acts = at >= 0
         theta, C = np.zeros(len(self.columns)), np.zeros((len(self.columns),) * 2)
         theta[at[acts]] = solution[acts]
@@ -95,9 +95,9 @@ def along(found: Search, test: Sequence[Prepared]) -> Trial | None:
     places: dict[tuple[str, int], tuple[int, ...]] = {}
     for variant in found.variants:
         there = bank.add(variant.hypothesis, variant.shape)
-        if there is None and key_of(variant) not in bank.nowhere:
+        if there is None and variant.key not in bank.nowhere:
             return None
-        places[key_of(variant)] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
+        places[variant.key] = there.columns if there else (-1,) * len(variant.hypothesis.coefficients)
     bank.whiten([[noise(k, run.rate) for k in range(bank.dof)] for run in test])
     blocks, usual = [np.empty((bank.count + 1, 0))], [np.empty(0)]
     for r in range(len(test)):

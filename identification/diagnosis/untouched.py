@@ -41,21 +41,15 @@ class Untouched:
         return (before - after) / gap if gap > _GAP * before else None
 
 
-def rms(one: Residual) -> float:
-    """Root mean square of a residual [N m, N]."""
-    return one.norm / float(np.sqrt(max(one.rows, 1)))
-
-
 def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> dict[int, Untouched]:
     """By the joint's number, all runs together; joints without rows are left out, and those of which ``bank`` has none.
 
     The noise is that of the runs in ``bank``, at the rate of these rows.
     """
     old, new = together(before).per_joint, together(after).per_joint
-    rate = 1 / float(np.median(np.diff(after[0].t)))
     return {
-        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, rate))
-        for k, joint in enumerate(bank.scenes[0].robot.moving)
+        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, after[0].rate))
+        for k, joint in enumerate(bank.robot.moving)
         if old[k].rows and new[k].rows and k in bank.shown
     }
 

@@ -18,6 +18,12 @@ Array = NDArray[np.float64]
 
 #: Bins over the range of a variable.
 BINS = 24
+#: Rows of a bin from which its mean is shown, and of all bins in the mean.
+_ROWS = 4
+#: Change of a variable, in parts of its largest value, that is rounding.
+_CONSTANT = 1e-12
+#: Part of what the best variable explains from which a simpler one is named instead.
+_NEARLY = 0.85
 #: Part of the joint's rms torque by which its load changes at least, to order anything.
 _FLAT = 1e-3
 
@@ -69,7 +75,7 @@ def views(
     """All views of coordinate k's residuals, one (N rows) and a colour of noise a run; the strongest variable first."""
     kept = [run.kept[k] for run in runs]
     e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
-    if len(e) < 4 * BINS:
+    if len(e) < _ROWS * BINS:
         return ()
     power = _of_means(noise, [int(rows.sum()) for rows in kept])
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
@@ -82,7 +88,7 @@ def views(
     found: list[View] = []
     for name, (unit, _) in every[0].items():
         x = np.concatenate([mine[name][1][rows] for mine, rows in zip(every, kept, strict=True)])
-        least = _FLAT * usual if name == "load" else 1e-12 * float(np.abs(x).max())
+        least = _FLAT * usual if name == "load" else _CONSTANT * float(np.abs(x).max())
         if np.ptp(x) <= least:
             continue
         sides = (-1, 1) if name in ("q by direction", "load") else (0,)
@@ -101,7 +107,7 @@ def _view(
         rows = np.ones(len(e), dtype=bool) if side == 0 else side * qd > 0
         count = np.bincount(at[rows], minlength=BINS)
         total = np.bincount(at[rows], weights=e[rows] - e.mean(), minlength=BINS)
-        used = count > 3
+        used = count >= _ROWS
         mean = np.where(used, total / np.maximum(count, 1), 0.0)
         band = np.where(used, 2 * np.sqrt(power / np.maximum(count, 1)), np.inf)
         explained += float(count[used] @ mean[used] ** 2)
@@ -132,5 +138,5 @@ def strongest(found: Sequence[View]) -> tuple[str, Mapping[str, float]]:
         return "", shares
     order = ("q", "qd", "load", "time", "motor phase", "q by direction", "time since reversal", "qdd")
     best = max(shares.values())
-    near = [name for name in order if shares.get(name, 0.0) >= 0.85 * best and best > 0]
+    near = [name for name in order if shares.get(name, 0.0) >= _NEARLY * best and best > 0]
     return (near[0] if near else ""), shares

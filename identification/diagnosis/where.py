@@ -24,7 +24,7 @@ _ORDERED = 0.05
 #: Part of what the strongest variable orders that the variable of a finding must order.
 _LEADS = 0.25
 #: Part of a sample's period within which the samples do not tell when a torque jumped.
-_UNTOLD = 0.5
+_HALF_SAMPLE = 0.5
 #: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
 #: motor's phase other orders cancel.
 _SHOWN = ("q", "q by direction", "qd", "qdd", "load")
@@ -45,6 +45,15 @@ class Where:
     views: Mapping[int, tuple[View, ...]]
 
     @property
+    def words(self) -> str:
+        """``at q 0.3 to 0.4 rad``: the variable that orders the residual, and the region of it; empty without one."""
+        if not self.variable:
+            return ""
+        if self.region.startswith(self.variable):
+            return f"at {self.region}"
+        return f"over {self.variable}" + (f", {self.region}" if self.region else "")
+
+    @property
     def event(self) -> str:
         """What happens once on the joint, in words: when; empty where nothing does."""
         burst = next((one.burst for one in self.lack if one.joint == self.joint), None)
@@ -54,7 +63,7 @@ class Where:
 def seen(found: Search, weights: Mapping[int, float]) -> Where:
     """What values of columns by number leave of each joint, without a verdict on where that is most."""
     bank = found.bank
-    numbers = [joint.number for joint in bank.scenes[0].robot.moving]
+    numbers = [joint.number for joint in bank.robot.moving]
     everything = range(len(bank.runs))
     chosen = found.variants
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
@@ -88,7 +97,7 @@ def late(found: Search, r: int, k: int) -> Array:
     """What the torque of a joint changes by in the time that samples do not tell, in white kept rows of a run."""
     bank = found.bank
     run, scene = bank.runs[r], bank.scenes[r]
-    change = run.decimated(_UNTOLD * scene.period * scene.rate(scene.torque[k]))
+    change = run.decimated(_HALF_SAMPLE * scene.period * scene.derivative(scene.torque[k]))
     return np.asarray(bank.colours[r][k].white(change[None], run.kept[k])[0])
 
 

@@ -30,7 +30,7 @@ def writable(
     while any(map(_by_warmth, kept)):
         try:
             # What can be read is not too warm, nor of an unknown warmth.
-            for _ in loaded((*roles.known, *roles.test), repaired(text, file, kept).robot):
+            for _ in loaded((*roles.searched, *roles.test), repaired(text, file, kept).robot):
                 pass
             break
         except TooWarm as error:
@@ -82,7 +82,7 @@ def _by_warmth(one: Addition) -> bool:
 def _by_time(joint: int, scenes: Sequence[Scene]) -> Addition:
     """A time constant of the drive of ``joint`` (number), as the warmth goes that the file tells by temperature."""
     k = [one.number for one in scenes[0].robot.moving].index(joint)
-    told = [scene for scene in scenes if scene.told(k)]
+    told = [scene for scene in scenes if scene.warmth_is_stated(k)]
     return Addition(
         SIGNAL, "warm_up_time", (joint,), {"warm_up_time": following(k, told, [scene.warmth(k) for scene in told])}
     )

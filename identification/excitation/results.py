@@ -131,7 +131,7 @@ def _joints(found: Excitation) -> list[dict[str, Any]]:
 
 
 def _run(found: Excitation) -> str:
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     names = ["t", *(f"{stem}{number}" for stem in ("qr", "qd") for number in numbers)]
     times = np.arange(found.motion.samples) / found.rate
     row = ",".join([f"%.{_DIGITS}g"] * len(names))

@@ -37,7 +37,7 @@ def parameters(found: OutputError) -> dict[str, Value]:
 def document(found: OutputError) -> dict[str, Any]:
     """The content of results.json, see docs/output_error.md."""
     best, settings = found.best, found.settings
-    numbers = [joint.number for joint in found.robot.moving]
+    numbers = found.robot.numbers
     units = {parameter.name: parameter.unit for parameter in found.first.regressors.model.base_parameters}
     fixed = {
         name: {"value": best.values[name], "std": 0.0, "fixed": True, "unit": units[name]}

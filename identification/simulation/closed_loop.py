@@ -188,7 +188,7 @@ class Encoders:
 
 def torque_constants(machine: Machine, model: Any) -> Array:
     """Torque of each rotor per unit of its logged effort (n): kt [N m/A], or 1 where there are none."""
-    numbers = [joint.number for joint in machine.robot.moving]
+    numbers = machine.robot.numbers
     if not machine.model.torque_constants:
         return np.ones(len(numbers))
     return np.array([cascade.value_of(machine.module, model, f"kt{number}") for number in numbers])

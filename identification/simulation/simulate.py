@@ -93,7 +93,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     """What is logged, without noise, and with what the robot's file says of its signals."""
     robot, kept = machine.robot, slice(None, None, settings.every)
     rows, n = log.q.shape
-    numbers = [joint.number for joint in robot.moving]
+    numbers = robot.numbers
     N = coupling(robot)
     constants = torque_constants(machine, model)
     t: Array = settings.period * np.arange(rows, dtype=float)

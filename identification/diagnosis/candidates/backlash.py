@@ -115,8 +115,8 @@ def _changes_sign(side: LinkSide) -> bool:
 
 def _gaps(side: LinkSide) -> tuple[float, float]:
     """The narrowest and the widest gap that is looked for: M e'' = -tau_link' t, so e = tau_link' t^3 / (6 M)."""
-    rate = float(np.sqrt(np.mean(side.scene.rate(side.load) ** 2)))
-    each = rate / (6 * float(np.mean(side.inertia)))
+    slope = float(np.sqrt(np.mean(side.scene.derivative(side.load) ** 2)))
+    each = slope / (6 * float(np.mean(side.inertia)))
     return each * _QUICKEST**3, each * _SLOWEST**3
 
 

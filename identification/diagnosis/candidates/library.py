@@ -8,13 +8,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.effects.effect import Effect, Shape
+from generator.effects.effect import BALANCER, Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.corrections import by_heat
 from identification.diagnosis.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.likely import BALANCERS
 from identification.diagnosis.link_side import link_side, rotor_inertia
 from identification.diagnosis.orders import LOWEST, likely_orders
 from identification.diagnosis.scene import Scene
@@ -61,9 +60,9 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         for effect in library().values()
         for k, joint in enumerate(robot.moving)
         if any(scene.moves(k) for scene in scenes)
-        if _possible(effect, joint, robot) and (effect.id not in BALANCERS or weighty[k])
+        if _possible(effect, joint, robot) and (effect.role != BALANCER or weighty[k])
         if "warmth" not in effect.needs or _warming(k, scenes)
-        for one in _hypothesis(effect, joint, k, scenes, effect.id not in BALANCERS or k in shoulders)
+        for one in _hypothesis(effect, joint, k, scenes, effect.role != BALANCER or k in shoulders)
     ]
 
 
@@ -106,7 +105,7 @@ def _warming(k: int, scenes: Sequence[Scene]) -> bool:
 
 def _told(k: int, scenes: Sequence[Scene]) -> bool:
     """Whether the robot's file tells a drive's warmth; runs for which it does not show nothing then."""
-    return any(scene.told(k) for scene in scenes)
+    return any(scene.warmth_is_stated(k) for scene in scenes)
 
 
 def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usual: bool) -> list[Hypothesis]:

@@ -68,7 +68,7 @@ def _hypothesis(joints: Sequence[Joint], k: int | None, start: float, told: _Tol
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
         partial(_columns, k, joint, start, told),
         kind=SIGNAL,
-        held={} if told is None else {_name(joint): told.beyond},
+        preset={} if told is None else {_name(joint): told.beyond},
         beyond=(_name(None),) if start else (),
         joints=tuple(one.number for one in joints),
         variable="frequency",
@@ -106,6 +106,6 @@ def _columns(
     if k is not None:
         tau = supplied(scene.robot, k, tau)
     if not more:
-        return -scene.rate(tau)[None]
+        return -scene.derivative(tau)[None]
     before, after = (earlier(tau, [-delay] * len(tau), scene.period) for delay in (start, start + more))
     return (after - before)[None] / more

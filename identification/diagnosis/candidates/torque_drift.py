@@ -44,7 +44,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     for k, joint in enumerate(robot.moving):
         if stated and stated[k]:
             continue
-        if any(scene.told(k) for scene in scenes):
+        if any(scene.warmth_is_stated(k) for scene in scenes):
             found.append(_hypothesis(k, joint, "drive's warmth", recorded=by_heat(robot, k)))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))

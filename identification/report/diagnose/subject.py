@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,7 +10,7 @@ from generator.quantities import signals
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending import Mended
 from identification.diagnosis.played import Played
-from identification.diagnosis.untouched import Untouched, untouched
+from identification.diagnosis.untouched import Untouched
 from identification.report.titles import titles
 
 
@@ -21,9 +22,9 @@ class Subject:
     mended: Mended | None = None
 
     @property
-    def numbers(self) -> list[int]:
+    def numbers(self) -> tuple[int, ...]:
         """The joints' numbers."""
-        return [joint.number for joint in self.found.robot.moving]
+        return self.found.robot.numbers
 
     @property
     def leading(self) -> str:
@@ -33,7 +34,7 @@ class Subject:
     @cached_property
     def torque_units(self) -> dict[int, str]:
         """By the joint's number."""
-        model = self.found.found.bank.scenes[0].regressors.model
+        model = self.found.search.bank.scenes[0].regressors.model
         return dict(zip(self.numbers, signals.torque_units(model), strict=True))
 
     @property
@@ -43,9 +44,7 @@ class Subject:
             return []
         return list(zip(titles(self.found.roles.test), self.mended.before, self.mended.after, strict=True))
 
-    @cached_property
-    def tried(self) -> dict[int, Untouched]:
+    @property
+    def tried(self) -> Mapping[int, Untouched]:
         """Untouched runs together, by the joint's number."""
-        if self.mended is None or not self.mended.before:
-            return {}
-        return untouched(self.found.found.bank, self.mended.before, self.mended.after)
+        return {} if self.mended is None else self.mended.tried

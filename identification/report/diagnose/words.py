@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.contradiction import Contradicted
-from identification.diagnosis.diagnosis import AMPLITUDES, KNOWN, LOCATED, NAMED, NOTHING, VALUES
+from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
 from identification.diagnosis.finding import FIRM, Finding, Told
 from identification.diagnosis.hypothesis import on_joints
 from identification.diagnosis.lack_of_fit import CHANCE
 from identification.diagnosis.played import together
+from identification.diagnosis.unexplained import AMPLITUDES, VALUES
 from identification.diagnosis.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
@@ -95,7 +96,7 @@ def verdict(subject: Subject) -> Iterator[str]:
         if found.after.event not in ("", found.after.region):
             yield f"Something happens there {found.after.event}."
     if found.findings:
-        yield f"What is named is therefore tentative: {_named(found.findings)}."
+        yield f"The findings below are therefore tentative: {_named(found.findings)}."
 
 
 def _otherwise(contradicted: Sequence[Contradicted]) -> Iterator[str]:
@@ -130,9 +131,9 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
     elif one.status == FIRM:
         yield f"No other effect of the library is as likely in its place{' on any of them' if several else ''}."
     elif not one.sure:
-        yield "Noise is not known apart from the model here, and may be all that this is."
+        yield "Noise cannot be told from the model's faults here, so this may be noise alone."
     elif subject.found.verdict == NAMED:
-        yield "That such a torque acts is sure; that this makes it is not."
+        yield "Such a torque acts for certain; that this effect makes it is not certain."
     if one.disagreement:
         yield f"Its size {one.disagreement}: it drifts, or something else makes it."
 
@@ -161,7 +162,7 @@ def change(subject: Subject) -> Iterator[str]:
 def mode(subject: Subject) -> str:
     """What the mode can and cannot see."""
     if subject.found.mode == KNOWN:
-        return "Parameters were held near what was known of them, so that effects they could stand for are seen too."
+        return "Parameters were kept near their known values, so that effects they could stand for are seen too."
     return (
         "All parameters were fitted together with the effects. What they can stand for cannot be seen so; a parameter"
         " set that is known beforehand (--prior) would show it."
@@ -183,6 +184,4 @@ def _with_alternatives(group: Sequence[Finding]) -> str:
 
 
 def _ordered(where: Where) -> str:
-    if not where.variable:
-        return "and no variable orders it"
-    return f"over {where.variable}" + (f" ({where.region})" if where.region else "")
+    return where.words or "and no variable orders it"

@@ -46,9 +46,9 @@ class Subject:
     runs: tuple[ShownRun, ...]
 
     @property
-    def numbers(self) -> list[int]:
+    def numbers(self) -> tuple[int, ...]:
         """The joints' numbers."""
-        return [joint.number for joint in self.found.robot.moving]
+        return self.found.robot.numbers
 
     @property
     def torque_units(self) -> dict[int, str]:

@@ -46,7 +46,7 @@ class Subject:
     @property
     def position_units(self) -> dict[int, str]:
         """By the joint's number."""
-        numbers = [joint.number for joint in self.found.robot.moving]
+        numbers = self.found.robot.numbers
         return dict(zip(numbers, signals.position_units(self.found.first.regressors.model), strict=True))
 
     @property

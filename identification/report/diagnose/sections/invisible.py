@@ -15,7 +15,7 @@ def render(subject: Subject) -> Markup | None:
         return None
     grouped: dict[tuple[str, str], list[str]] = {}
     for one in invisible:
-        where = [str(number) for number in one.joints or (one.joint,) if number]
+        where = [str(number) for number in one.numbers if number]
         grouped.setdefault((one.title, one.would_show), []).extend(where)
     rows: list[list[Content]] = [
         [title, ", ".join(dict.fromkeys(numbers)) or "robot", show or "more motion: other ranges, speeds and loads"]

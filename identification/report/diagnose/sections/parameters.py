@@ -17,7 +17,7 @@ def render(subject: Subject) -> Markup | None:
     mended = subject.mended
     if mended is None:
         return None
-    old = {one.name for one in subject.found.found.bank.scenes[0].regressors.model.base_parameters}
+    old = {one.name for one in subject.found.search.bank.scenes[0].regressors.model.base_parameters}
     units = {one.name: one.unit for one in mended.fit.regressors.model.base_parameters}
     rows: dict[str, dict[str, Any]] = {}
     states: dict[str, Content] = {}

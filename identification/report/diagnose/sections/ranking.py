@@ -22,12 +22,12 @@ _LISTED = 12
 def render(subject: Subject) -> Markup | None:
     if subject.found.verdict == LOCATED:
         return None
-    weighing = subject.found.found.weighing
-    chosen = subject.found.found.variants
+    weighing = subject.found.search.weighing
+    chosen = subject.found.search.variants
     tables = {"before anything is named": _table(weighing.evidence([]), chosen)}
     if chosen:
         tables["beside the findings"] = _table(weighing.evidence(chosen), chosen)
-    tried = len({(one.effect, one.joint) for one in subject.found.found.offered})
+    tried = len({one.key for one in subject.found.search.offered})
     text = (
         f"{tried} effects on joints were tried, each with the shape that fits best. Evidence is the drop of the sum of"
         " squares, in variances of the noise, less what its"
@@ -39,7 +39,7 @@ def render(subject: Subject) -> Markup | None:
 
 
 def _table(ranked: Sequence[Evidence], chosen: Sequence[Variant]) -> Markup:
-    named = {(one.hypothesis.effect, one.hypothesis.joint) for one in chosen}
+    named = {one.key for one in chosen}
     rows: list[list[Content]] = []
     for place, one in enumerate(ranked[:_LISTED], 1):
         hypothesis = one.variant.hypothesis

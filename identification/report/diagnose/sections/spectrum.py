@@ -36,7 +36,7 @@ def _panel(subject: Subject, k: int, number: int) -> Markup:
     before, after = (_spectrum(subject, each, k) for each in (found.residuals_before, found.residuals_after))
     if before is None or after is None:
         return element("p", f"Joint {number} has too few rows for a spectrum.")
-    noise = np.sqrt(density(found.found.bank, k, before.f))
+    noise = np.sqrt(density(found.search.bank, k, before.f))
     curves = [
         line(numbers(before.f), numbers(noise), "noise", f"{MEASURED}/60", line={"width": 4}),
         line(numbers(before.f), numbers(before.amplitude), "before", RESIDUAL),

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from generator.review.markup import Markup, element, join
 from generator.review.words import plural
 from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING
-from identification.diagnosis.untouched import rms
 from identification.report.diagnose import words
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import card, plain
@@ -42,7 +41,7 @@ def _cards(subject: Subject) -> Iterator[Markup]:
             f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs"
         )
     if subject.tried:
-        number = max(subject.tried, key=lambda k: rms(subject.tried[k].before) - rms(subject.tried[k].after))
+        number = max(subject.tried, key=lambda k: subject.tried[k].before.rms - subject.tried[k].after.rms)
         one = subject.tried[number]
         change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
         yield card(change, f"left on joint {number}", f"{words.tested(subject)}, of the spread")

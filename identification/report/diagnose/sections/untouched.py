@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.words import unit
-from identification.diagnosis.untouched import rms
 from identification.report.chart import ESTIMATED, MEASURED, RESIDUAL, axis, chart
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
@@ -49,7 +48,7 @@ def _table(subject: Subject) -> Markup:
     for joint, one in subject.tried.items():
         symbol = f"\u202f{unit(subject.torque_units[joint])}"
         closed = NONE if one.closed is None else percent(100 * min(one.closed, 1.0))
-        sizes = [[number(value, 4), symbol] for value in (rms(one.before), rms(one.after), one.floor)]
+        sizes = [[number(value, 4), symbol] for value in (one.before.rms, one.after.rms, one.floor)]
         rows.append(
             [str(joint), *sizes, percent(one.before.relative_to_mean), percent(one.after.relative_to_mean), closed]
         )

@@ -34,12 +34,12 @@ def _panel(found: ForceSteps, k: int) -> list[Markup]:
     joint = found.robot.moving[k]
     number = joint.number
     length, torque = ("m", "N") if joint.sigma == PRISMATIC else ("rad", "N m")
-    twists = [(pose.run.name, pose.q[k], pose.held[k]) for pose in found.poses]
+    twists = [(pose.run.name, pose.q[k], pose.wrench_torque[k]) for pose in found.poses]
     across, upward = axis(f"change of q{number}", length), axis("torque of the wrench", torque)
     drawn = [_chart(twists, found.stiffness.get(f"k{number}"), f"k{number}", across, upward)]
     to_motors = np.linalg.inv(coupling(found.robot)).T
     currents = [
-        (pose.run.name, pose.i[k], (to_motors @ (pose.held + pose.rotors))[k])
+        (pose.run.name, pose.i[k], (to_motors @ (pose.wrench_torque + pose.rotors))[k])
         for pose in found.poses
         if pose.i is not None
     ]
