@@ -29,7 +29,7 @@ export CALLER := $(PWD)
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
 .PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
-    example-diagnosis study-diagnosis test test-extra format lock bench twins reproduce clean distclean
+    example-diagnosis study-diagnosis setup test test-extra format lock bench twins reproduce clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -81,6 +81,8 @@ diagnose: $(TESTING) ## robot=NAME data="A.csv B.csv" validate=C.csv test=D.csv 
 
 example-diagnosis: $(TESTING) ## simulate a robot with effects that its file lacks, find them, write docs/diagnosis.md's example anew
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.example_diagnosis
+
+setup: $(TESTING) ## install the packages for simulate, excite, identify, diagnose, ... into .venv
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --ignore=tests/extra tests

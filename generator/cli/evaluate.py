@@ -4,9 +4,9 @@ Every input of the quantity is an option, its numbers separated by spaces or com
   counterpoise evaluate ROBOT gravity --q 0 -pi/4 0.2 0 0 0 --parameters SET
   counterpoise evaluate ROBOT inverse_dynamics --help     lists the inputs with their sizes and units
 
---parameters is a set of the robot file or a JSON or YAML file {name: value} with base or standard parameters. What a
-set lacks is zero (not essential); lengths and torque constants are the robot's own unless the set has them.
-A wrench or payload that is not given is zero.
+--parameters is a set of the robot file, or a JSON or YAML file {name: value} with base or standard parameters.
+Parameters that a set lacks are zero (not essential); lengths and torque constants are those of the robot file unless
+the set has them. A wrench or payload that is not given is zero.
 """
 
 from __future__ import annotations

@@ -16,16 +16,18 @@ from generator.resources import find_robot
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, --plain, --build-in, --self-test and --library."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("generated"), help="default: generated")
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, default=Path("generated"), help="where the files go (default: generated)"
+    )
     parser.add_argument(
         "--plain",
         action="store_true",
-        help="write the textbook recursion with SYMORO's names, longer, to be read beside a paper",
+        help="write the textbook recursion with SYMORO's names; longer, for reading beside a paper",
     )
     parser.add_argument(
         "--build-in",
         metavar="SET",
-        help="write the values of a parameter set into the code as numbers; goes to OUT/<robot>_<SET>/",
+        help="write the values of a parameter set into the code as numbers, into OUT/<robot>_<SET>/",
     )
     parser.add_argument(
         "--self-test",

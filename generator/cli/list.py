@@ -1,4 +1,4 @@
-"""List the robots that are known by name, with their parameter sets."""
+"""List the robots in robots/ with their parameter sets."""
 
 from __future__ import annotations
 

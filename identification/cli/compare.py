@@ -1,8 +1,7 @@
 """Compare two sets of parameter values, one by one: relative differences, and whether they can be noise.
 
 A and B are results (results.json, or a model of it: results.json:essential, results.json:consistent) or parameter sets
-of robots (ROBOT:SET). Differences are in parts of A (report eq. 79). DIR receives comparison.json
-and report.html.
+of robots (ROBOT:SET). Differences are in percent of A. DIR receives comparison.json and report.html.
 """
 
 from __future__ import annotations
@@ -22,9 +21,9 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """A, B, --out."""
-    parser.add_argument("a", metavar="A", help="the values compared with: RESULTS.json or ROBOT:SET")
-    parser.add_argument("b", metavar="B", help="the other values")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go; nowhere without")
+    parser.add_argument("a", metavar="A", help="the reference values: RESULTS.json or ROBOT:SET")
+    parser.add_argument("b", metavar="B", help="the values to compare with A")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: no files)")
 
 
 def run(arguments: argparse.Namespace) -> None:

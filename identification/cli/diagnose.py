@@ -1,10 +1,10 @@
 """Find where a robot's model and recorded runs disagree, name the missing effect, and add it to the robot's file.
 
 Runs are as in `counterpoise identify`; FILE@FROM:TO takes a part of one, with times in s. Periodic motion with several
-periods a run is best. RUN are fitted, --validate holds the fit to account, --test chooses nothing: it tells what the
-new model is worth, and what it contradicts is taken back. Without --validate each run is held against what the others
-predict; without --test the last of three runs or more tests, else the end of each. DIR receives diagnosis.json,
-report.html, the new robot file and the code generated from it.
+periods per run is best. The runs RUN are fitted. Effects must improve the validation runs too. The test runs show how
+good the new model is; they may remove findings, never add them. Without --validate, each run in turn is predicted from
+the others. Without --test, the last of three or more runs is the test run, else the end of each run. DIR receives
+diagnosis.json, report.html, the new robot file and the code generated from it.
 """
 
 from __future__ import annotations
@@ -30,14 +30,28 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, RUN, --validate, --test, --prior, --dry-run, --out."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("data", metavar="RUN", nargs="+", help="runs that are fitted")
-    parser.add_argument("--validate", metavar="RUN", nargs="+", default=[], help="runs that hold the fit to account")
+    parser.add_argument("data", metavar="RUN", nargs="+", help="runs to fit")
     parser.add_argument(
-        "--test", metavar="RUN", nargs="+", default=[], help="runs that choose nothing, but may contradict"
+        "--validate",
+        metavar="RUN",
+        nargs="+",
+        default=[],
+        help="validation runs; an effect must improve them too",
     )
-    parser.add_argument("--prior", metavar="SET", help="parameter set of the robot that is known beforehand")
-    parser.add_argument("--dry-run", action="store_true", help="only where they disagree; nothing is named or written")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: diagnosed/ROBOT")
+    parser.add_argument(
+        "--test",
+        metavar="RUN",
+        nargs="+",
+        default=[],
+        help="runs kept for the final test; they may remove findings, never add them",
+    )
+    parser.add_argument(
+        "--prior", metavar="SET", help="parameter set of the robot that is known, within its standard deviations"
+    )
+    parser.add_argument(
+        "--dry-run", action="store_true", help="only find where they disagree; name no effect, write no robot file"
+    )
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: diagnosed/ROBOT)")
 
 
 def run(arguments: argparse.Namespace) -> None:

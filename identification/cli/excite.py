@@ -1,9 +1,9 @@
 """Design a motion that shows a robot's parameters well, before the robot moves.
 
 The motion is a finite Fourier series of every joint within the limits of the robot file. DIR receives trajectory.csv
-with times, wanted positions qr1 .. and speeds qd1 .., which a controller or "counterpoise simulate --trajectory played"
-plays, and excitation.json and report.html with the standard deviation that identification will reach for each base
-parameter.
+with times, wanted positions qr1 .. and speeds qd1 .., for a controller or "counterpoise simulate --trajectory played".
+It also receives excitation.json and report.html, with the standard deviation that identification is expected to reach
+for each base parameter.
 """
 
 from __future__ import annotations
@@ -31,36 +31,55 @@ _MOST = 1e7
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, the motion, its limits, what is known and measured, the search."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: excitation/ROBOT")
-    parser.add_argument("--parameters", metavar="SET", default="twin", help="a set of the robot file, default: twin")
-    motion = parser.add_argument_group("motion")
-    motion.add_argument("--frequency", metavar="HZ", type=float, default=0.1, help="lowest frequency, default: 0.1")
-    motion.add_argument("--harmonics", metavar="N", type=int, default=5, help="number of its multiples, default: 5")
-    motion.add_argument("--periods", metavar="N", type=int, default=2, help="default: 2")
-    motion.add_argument(
-        "--rate", metavar="HZ", type=float, default=1000.0, help="of the run and its log, default: 1000"
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: excitation/ROBOT)")
+    parser.add_argument(
+        "--parameters", metavar="SET", default="twin", help="parameter set of the robot file (default: twin)"
     )
-    motion.add_argument("--speed", metavar="RAD/S", type=float, help="largest of any joint; default: the file's, or 1")
+    motion = parser.add_argument_group("motion")
+    motion.add_argument("--frequency", metavar="HZ", type=float, default=0.1, help="lowest frequency (default: 0.1)")
+    motion.add_argument("--harmonics", metavar="N", type=int, default=5, help="number of its multiples (default: 5)")
+    motion.add_argument("--periods", metavar="N", type=int, default=2, help="periods in the run (default: 2)")
     motion.add_argument(
-        "--acceleration", metavar="RAD/S2", type=float, help="largest of any joint; default: the file's, or 2"
+        "--rate", metavar="HZ", type=float, default=1000.0, help="sampling rate of the run and its log (default: 1000)"
+    )
+    motion.add_argument(
+        "--speed",
+        metavar="RAD/S",
+        type=float,
+        help="largest speed of any joint [rad/s, m/s] (default: the file's limit, else 1)",
+    )
+    motion.add_argument(
+        "--acceleration",
+        metavar="RAD/S2",
+        type=float,
+        help="largest acceleration of any joint [rad/s2, m/s2] (default: the file's limit, else 2)",
     )
     measured = parser.add_argument_group("what is measured")
     measured.add_argument(
-        "--noise", metavar="A", type=float, nargs="+", help="rms of the currents' noise, one or one a motor"
+        "--noise",
+        metavar="A",
+        type=float,
+        nargs="+",
+        help="rms of the noise, one value or one per motor [A; N m or N without torque constants]",
     )
     measured.add_argument(
         "--noise-part",
         metavar="R",
         type=float,
-        help="rms of what the model leaves, in parts of usual torques; default: 0.02 without --noise",
+        help="rms of the model's error, in parts of the rms torque of random motions (default: 0.02 without --noise)",
     )
-    measured.add_argument("--recipe", metavar="FILE", type=Path, help="filters; default: those of identify")
+    measured.add_argument(
+        "--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings (default: as for identify)"
+    )
     search = parser.add_argument_group("search")
     search.add_argument(
-        "--criterion", choices=("determinant", "condition"), default="determinant", help="default: determinant"
+        "--criterion",
+        choices=("determinant", "condition"),
+        default="determinant",
+        help="what makes a motion good (default: determinant)",
     )
-    search.add_argument("--evaluations", metavar="N", type=int, default=20000, help="motions tried, default: 20000")
-    search.add_argument("--seed", metavar="N", type=int, default=0, help="default: 0")
+    search.add_argument("--evaluations", metavar="N", type=int, default=20000, help="motions to try (default: 20000)")
+    search.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the search (default: 0)")
 
 
 def run(arguments: argparse.Namespace) -> None:

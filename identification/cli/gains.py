@@ -1,8 +1,9 @@
 """Identify the drive gains of all motors by total least squares, from runs without and with a known payload.
 
-Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. What is known of the payload, its
-mass at least, stands in the sidecars of the loaded runs or in --payload. A gain that the runs cannot show is refused by
+Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. The known values of the payload, at
+least its mass, are in the sidecars of the loaded runs or in --payload. A gain that the runs cannot show is refused by
 name.
+
 DIR receives results.json, report.html and the robot file with the gains and the parameters in it.
 """
 
@@ -27,13 +28,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --empty, --loaded, --payload, --out, the filters."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--empty", metavar="RUN", nargs="+", required=True, help="runs without the payload")
-    parser.add_argument("--loaded", metavar="RUN", nargs="+", required=True, help="runs with it")
-    parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", help="what is known of it [SI], such as M=175")
+    parser.add_argument("--loaded", metavar="RUN", nargs="+", required=True, help="runs with the payload")
     parser.add_argument(
-        "--payload-std", metavar="NAME=VALUE", nargs="+", default=[], help="standard deviations of known values"
+        "--payload",
+        metavar="NAME=VALUE",
+        nargs="+",
+        help="known values of the payload, such as M=175 [kg, kg m, kg m2]",
+    )
+    parser.add_argument(
+        "--payload-std",
+        metavar="NAME=VALUE",
+        nargs="+",
+        default=[],
+        help="standard deviations of these values, such as M=0.1 [kg, kg m, kg m2]",
     )
     parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_gains")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_gains)")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -2,8 +2,8 @@
 
 A run is a file with columns t, q1 .. qn (or qm1 .. qmn on the motors) and tau1 .. taun (or taum1 .. taumn, or currents
 i1 .. in); FILE@FROM:TO takes a part of it, with times in s. Filters come from the robot's recipe in recipes/, or from
---recipe, or from the options. DIR receives results.json,
-report.html and the robot file with the identified parameters in it.
+--recipe, or from the options. DIR receives results.json, report.html and the robot file with the identified parameters
+in it.
 """
 
 from __future__ import annotations
@@ -34,42 +34,71 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
     parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT)")
     filters = parser.add_argument_group("filters")
     filters.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the settings below")
-    filters.add_argument("--dynamics", metavar="HZ", type=float, help="highest frequency of the motion's dynamics")
     filters.add_argument(
-        "--cutoff", metavar="HZ", type=float, help="of the Butterworth filter, else 5 times --dynamics"
+        "--dynamics",
+        metavar="HZ",
+        type=float,
+        help="highest frequency of the motion's dynamics (default: the recipe's, else 2)",
     )
-    filters.add_argument("--order", metavar="N", type=int, help="of the Butterworth filter")
-    filters.add_argument("--factor", metavar="N", type=int, help="of the decimation, else to 5 times --dynamics")
     filters.add_argument(
-        "--standstill", metavar="SPEED", type=float, help="rad/s, m/s below which a joint's rows are left out"
+        "--cutoff",
+        metavar="HZ",
+        type=float,
+        help="cut-off of the Butterworth filter (default: the recipe's, else 5 times --dynamics)",
+    )
+    filters.add_argument(
+        "--order", metavar="N", type=int, help="order of the Butterworth filter (default: the recipe's, else 4)"
+    )
+    filters.add_argument(
+        "--factor",
+        metavar="N",
+        type=int,
+        help="factor of the decimation (default: the recipe's, else to 5 times --dynamics)",
+    )
+    filters.add_argument(
+        "--standstill",
+        metavar="SPEED",
+        type=float,
+        help="speed below which a joint's rows are left out [rad/s, m/s] (default: the recipe's, else 0.03, 0.005)",
     )
     filters.add_argument(
         "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
     )
     method = parser.add_argument_group("method")
-    method.add_argument("--weights", choices=("joint", "none"), help="weighted by joint, or ordinary least squares")
+    method.add_argument(
+        "--weights", choices=("joint", "none"), help="weights by joint, or none (default: the recipe's, else joint)"
+    )
     method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
-    method.add_argument("--bootstrap", metavar="N", type=int, help="std by a block bootstrap of N draws")
+    method.add_argument(
+        "--bootstrap", metavar="N", type=int, help="standard deviations by a block bootstrap of N draws"
+    )
     method.add_argument(
         "--essential",
         metavar="RATIO",
         type=float,
-        help="r_sigma of the essential parameters, held whatever the residual becomes",
+        help="largest allowed ratio of relative standard deviations; ignores the residual's growth",
     )
-    method.add_argument("--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="not estimated; Fv*, or bodies")
-    method.add_argument("--prior", metavar="SET", help="parameter set of the robot that --fix takes values from")
+    method.add_argument(
+        "--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="given parameters, such as Fv* or bodies"
+    )
+    method.add_argument("--prior", metavar="SET", help="parameter set of the robot from which --fix takes values")
     method.add_argument(
         "--consistent",
         action=argparse.BooleanOptionalAction,
         default=True,
-        help="also physically consistent parameters, kept near the bodies of --prior where it has standard parameters",
+        help="also estimate physically consistent parameters, near the bodies of --prior if it has standard parameters",
     )
-    method.add_argument("--prior-weight", metavar="W", type=float, default=0.03, help="of that nearness, default 0.03")
     method.add_argument(
-        "--payload", metavar="NAME=VALUE", nargs="*", help="runs carry a payload, of which this is known"
+        "--prior-weight", metavar="W", type=float, default=0.03, help="weight of these bodies (default: 0.03)"
+    )
+    method.add_argument(
+        "--payload",
+        metavar="NAME=VALUE",
+        nargs="*",
+        help="runs carry a payload with these known values, such as M=150 [kg, kg m, kg m2]",
     )
 
 

@@ -1,8 +1,8 @@
 """Identify the dynamic parameters of a robot by output error: simulated in open loop, its positions follow the runs.
 
-Runs are as in `counterpoise identify`, whose estimate from them is the first start. The simulation begins anew in each
-segment, at a state that is sought as well. DIR receives results.json, report.html, the robot file with the parameters
-in it, and the result of each start as it comes: the same command goes on where it was interrupted.
+Runs are as in `counterpoise identify`, whose estimate from them is the first start. The simulation restarts in each
+segment, at a state that is estimated too. DIR receives results.json, report.html, the robot file with the parameters in
+it, and the result of each start when it is done: after an interruption, the same command continues.
 """
 
 from __future__ import annotations
@@ -29,21 +29,43 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
     parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
     parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_output_error")
-    search = parser.add_argument_group("search")
-    search.add_argument("--method", metavar="NAME", default="gauss-newton", help="gauss-newton, nelder-mead, evolution")
-    search.add_argument("--segment", metavar="S", default="1", help="time of a simulation, or none; default: 1")
-    search.add_argument("--iterations", metavar="N", type=int, help="of each start at most")
-    search.add_argument("--seconds", metavar="S", type=float, help="of each start at most")
-    search.add_argument(
-        "--margin", metavar="KGM2", type=float, help="least eigenvalue of M(q); default: a tenth of the start's"
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_output_error)"
     )
-    search.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="not estimated")
+    search = parser.add_argument_group("search")
+    search.add_argument(
+        "--method",
+        metavar="NAME",
+        default="gauss-newton",
+        help="gauss-newton, nelder-mead or evolution (default: gauss-newton)",
+    )
+    search.add_argument("--segment", metavar="S", default="1", help="time of one simulation, or none (default: 1)")
+    search.add_argument("--iterations", metavar="N", type=int, help="largest number of iterations of each start")
+    search.add_argument("--seconds", metavar="S", type=float, help="longest time of each start")
+    search.add_argument(
+        "--margin",
+        metavar="KGM2",
+        type=float,
+        help="smallest allowed eigenvalue of M(q) [kg m2, kg] (default: a tenth of the start's)",
+    )
+    search.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="given parameters")
     search.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
     many = parser.add_argument_group("starts")
-    many.add_argument("--starts", metavar="N", type=int, default=1, help="default: 1, the inverse model's estimate")
-    many.add_argument("--spread", metavar="K", type=float, default=2.0, help="of the others, in its std; default: 2")
-    many.add_argument("--seed", metavar="N", type=int, default=0, help="of their draws; default: 0")
+    many.add_argument(
+        "--starts",
+        metavar="N",
+        type=int,
+        default=1,
+        help="number of starts; the first is the inverse model's estimate (default: 1)",
+    )
+    many.add_argument(
+        "--spread",
+        metavar="K",
+        type=float,
+        default=2.0,
+        help="spread of the other starts, in standard deviations of the first (default: 2)",
+    )
+    many.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the other starts (default: 0)")
     executors.configure(many)
 
 

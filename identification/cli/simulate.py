@@ -1,11 +1,11 @@
 """Simulate a robot under its controller and write the run as the controller would record it.
 
-The robot is a parameter set of its file: by default twin, or twin_flexible with --flexible. FILE is a CSV with motor
-positions and currents (joint positions and torques where the robot has no drives), which identify reads back; a
-YAML file of that name tells what was simulated. The same settings give the same bytes on one machine.
+The robot has the values of a parameter set of its file: by default twin, or twin_flexible with --flexible. FILE is a
+CSV with motor positions and currents (joint positions and torques if the robot has no drives), which identify reads. A
+YAML file beside it lists everything that was simulated. The same settings give the same bytes on one machine.
 
-Trajectories and what --set may change are in docs/simulate.md; a name that does not exist lists them. Numbers for
-motors are one, or one each in order.
+docs/simulate.md describes the trajectories and their settings for --set; an unknown name lists them. Options for
+motors take one value, or one value per motor in order.
 """
 
 from __future__ import annotations
@@ -31,49 +31,105 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, the model, the trajectory, the controller, what is measured."""
     parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--out", metavar="FILE", type=Path, help="default: simulated/ROBOT/TRAJECTORY_SEED.csv")
+    parser.add_argument(
+        "--out", metavar="FILE", type=Path, help="the run (default: simulated/ROBOT/TRAJECTORY_SEED.csv)"
+    )
     parser.add_argument("--flexible", action="store_true", help="with elastic drive trains")
-    parser.add_argument("--parameters", metavar="SET", help="a set of the robot file")
+    parser.add_argument(
+        "--parameters",
+        metavar="SET",
+        help="parameter set of the robot file (default: twin; twin_flexible with --flexible)",
+    )
     motion = parser.add_argument_group("motion")
-    motion.add_argument("--trajectory", metavar="NAME", default="fourier", help="default: fourier")
+    motion.add_argument("--trajectory", metavar="NAME", default="fourier", help="the motion (default: fourier)")
     motion.add_argument("--set", metavar="NAME=VALUE", nargs="+", default=[], help="settings of the trajectory")
-    motion.add_argument("--pose", metavar="Q", type=float, nargs="+", help="start or centre; default: amid the limits")
-    motion.add_argument("--duration", metavar="S", type=float, default=20.0, help="default: 20")
-    motion.add_argument("--seed", metavar="N", type=int, default=0, help="of the trajectory and the noise; default: 0")
-    motion.add_argument("--noise-seed", metavar="N", type=int, help="of the noise alone")
+    motion.add_argument(
+        "--pose", metavar="Q", type=float, nargs="+", help="start or centre [rad, m] (default: middle of the limits)"
+    )
+    motion.add_argument("--duration", metavar="S", type=float, default=20.0, help="time of the run (default: 20)")
+    motion.add_argument("--seed", metavar="N", type=int, default=0, help="seed of trajectory and noise (default: 0)")
+    motion.add_argument("--noise-seed", metavar="N", type=int, help="seed of the noise (default: that of --seed)")
     control = parser.add_argument_group("controller")
-    control.add_argument("--rate", metavar="HZ", type=float, default=1000.0, help="default: 1000")
-    control.add_argument("--bandwidth", metavar="HZ", type=float, default=6.0, help="of the speed loops, default: 6")
+    control.add_argument("--rate", metavar="HZ", type=float, default=1000.0, help="sampling rate (default: 1000)")
     control.add_argument(
-        "--largest", metavar="A", type=float, nargs="+", default=[float("inf")], help="current that is cut"
+        "--bandwidth", metavar="HZ", type=float, default=6.0, help="bandwidth of the speed loops (default: 6)"
+    )
+    control.add_argument(
+        "--largest",
+        metavar="A",
+        type=float,
+        nargs="+",
+        default=[float("inf")],
+        help="limit of the currents (default: none)",
     )
     log = parser.add_argument_group("what is measured")
-    log.add_argument("--log-rate", metavar="HZ", type=float, help="default: the controller's")
+    log.add_argument("--log-rate", metavar="HZ", type=float, help="rate of the log (default: as --rate)")
     log.add_argument(
         "--also",
         metavar="STEM",
         nargs="+",
         default=[],
-        help="qr: reference, qs: encoders of the links, temp: of the drives",
+        help="further columns; qr: reference, qs: encoders of the links, temp: temperatures of the drives",
     )
     log.add_argument(
-        "--resolution", metavar="RAD", type=float, nargs="+", default=[0.0], help="step of the motors' encoders"
+        "--resolution",
+        metavar="RAD",
+        type=float,
+        nargs="+",
+        default=[0.0],
+        help="step of the motors' encoders [rad, m] (default: 0)",
     )
-    log.add_argument("--noise", metavar="A", type=float, nargs="+", default=[0.0], help="rms of the currents' noise")
     log.add_argument(
-        "--wrench-noise", metavar="N", type=float, nargs="+", default=[0.0], help="rms of the forces' noise, [N m] too"
+        "--noise",
+        metavar="A",
+        type=float,
+        nargs="+",
+        default=[0.0],
+        help="rms of the noise [A; N m or N without torque constants] (default: 0)",
     )
-    log.add_argument("--delay", metavar="S", type=float, default=0.0, help="of the motors' positions")
-    log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="of the links' positions")
-    parser.add_argument("--payload", metavar="NAME=VALUE", nargs="+", help="a body on the tool, as M=150 MZ=-15")
-    drift = parser.add_argument_group("temperature, changes by the end (at warmth 1) in parts")
-    drift.add_argument("--friction-drift", metavar="R", type=float, default=0.0, help="of frictions, such as -0.2")
-    drift.add_argument("--torque-constant-drift", metavar="R", type=float, default=0.0, help="such as -0.05")
+    log.add_argument(
+        "--wrench-noise",
+        metavar="N",
+        type=float,
+        nargs="+",
+        default=[0.0],
+        help="rms of the wrench's noise: forces [N], then moments [N m] (default: 0)",
+    )
+    log.add_argument("--delay", metavar="S", type=float, default=0.0, help="delay of motor positions (default: 0)")
+    log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="delay of link positions (default: 0)")
+    parser.add_argument(
+        "--payload",
+        metavar="NAME=VALUE",
+        nargs="+",
+        help="a body on the tool with these values, such as M=150 MZ=-15 [kg, kg m, kg m2]",
+    )
+    drift = parser.add_argument_group("temperature")
     drift.add_argument(
-        "--warm-up", metavar="S", type=float, help="warmth is 1 - exp(-t/S); default: it grows evenly to 1 at the end"
+        "--friction-drift",
+        metavar="R",
+        type=float,
+        default=0.0,
+        help="relative change of friction at warmth 1, such as -0.2 (default: 0)",
     )
-    drift.add_argument("--temperature", metavar="K", type=float, default=293.15, help="at the start, default: 293.15")
-    drift.add_argument("--temperature-rise", metavar="K", type=float, default=30.0, help="at warmth 1, default: 30")
+    drift.add_argument(
+        "--torque-constant-drift",
+        metavar="R",
+        type=float,
+        default=0.0,
+        help="relative change of the torque constants at warmth 1, such as -0.05 (default: 0)",
+    )
+    drift.add_argument(
+        "--warm-up",
+        metavar="S",
+        type=float,
+        help="warmth is 1 - exp(-t/S) (default: it grows evenly to 1 at the end)",
+    )
+    drift.add_argument(
+        "--temperature", metavar="K", type=float, default=293.15, help="of the drives at the start (default: 293.15)"
+    )
+    drift.add_argument(
+        "--temperature-rise", metavar="K", type=float, default=30.0, help="rise at warmth 1 (default: 30)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -1,9 +1,9 @@
 """Identify the stiffness of drive trains: output blocked, steps of force on a rigid stop, or link-side encoders.
 
---locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one a pose, in which the tool
-presses on a rigid stop; they hold columns fx fy fz mx my mz of the wrench in the tool frame, any of them, and where
-they hold currents, torque constants are identified too. --link-encoders takes runs of a moving robot with columns qs;
-their latency is found and removed first. What the runs cannot show is refused by name. DIR receives results.json,
+--locked J takes runs in which the output of joint J is blocked. --pressed takes runs, one per pose, in which the tool
+presses on a rigid stop. They hold any of the columns fx fy fz mx my mz, the wrench in the tool frame; if they also hold
+currents, torque constants are identified too. --link-encoders takes runs of a moving robot with columns qs; their
+latency is found and removed first. Values that the runs cannot show are refused by name. DIR receives results.json,
 report.html and the robot file with the values in it.
 """
 
@@ -35,10 +35,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--prior",
         metavar="SET",
-        help="parameter set of the robot with its balancer, its rotors' inertias, or its viscous friction",
+        help="parameter set of the robot with known balancers, inertias of rotors or viscous friction",
     )
     parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="default: identified/ROBOT_stiffness")
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_stiffness)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:

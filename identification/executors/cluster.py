@@ -13,7 +13,7 @@ from identification.extras import needing
 
 OPTION = "--scheduler"
 METAVAR = "ADDRESS"
-HELP = "of a dask cluster that does the work, such as tcp://10.0.0.1:8786"
+HELP = "scheduler of a dask cluster that does the work, such as tcp://10.0.0.1:8786"
 
 #: Seconds in which the scheduler must answer, and how often a task may take its worker with it.
 _ANSWER, _DEATHS = 10, 3
