@@ -74,11 +74,16 @@ def test_the_drop_beside_chosen_columns_is_that_of_least_squares(columns: tuple[
     assert S[-1, -1] == pytest.approx(squares(fixed, y), rel=1e-9)
 
 
-def test_the_part_that_is_left_of_a_column(columns: tuple[Array, Array, Array]) -> None:
-    W, candidates, _ = columns
-    left = normal(columns).left
-    for i in range(C):
-        assert left[i] == pytest.approx(squares(W, candidates[:, i]) / np.sum(candidates[:, i] ** 2), rel=1e-8)
+@pytest.mark.parametrize(("part", "free", "known"), [(1e-1, False, False), (3e-3, True, False), (1e-4, True, True)])
+def test_what_little_is_left_of_a_column_tells_more_where_parameters_are_known(
+    columns: tuple[Array, Array, Array], part: float, free: bool, known: bool
+) -> None:
+    W, candidates, y = columns
+    out = candidates - W @ np.linalg.lstsq(W, candidates, rcond=None)[0]
+    within = W[:, [0] * C] / np.linalg.norm(W[:, 0]) + part * out / np.linalg.norm(out, axis=0)
+    nothing = Prior(np.zeros(P), np.zeros((P, P)))
+    assert [normal((W, within, y)).hides(P + i) for i in range(C)] == [free] * C
+    assert [normal((W, within, y), nothing).hides(P + i) for i in range(C)] == [known] * C
 
 
 def test_the_solution_its_covariance_and_misfit(columns: tuple[Array, Array, Array]) -> None:
@@ -163,7 +168,7 @@ def test_bounds_hold_and_what_is_explained_is_told(seed: int) -> None:
     draw = np.random.default_rng(seed)
     A, y = draw.normal(size=(60, 2)), draw.normal(size=60)
     lower, upper = np.zeros(2), np.array([np.inf, 0.1])
-    x, drop = bounded(A.T @ A, A.T @ y, lower, upper, np.sum(A**2, axis=0))
+    x, drop = bounded(A.T @ A, A.T @ y, lower, upper, np.zeros(2))
     assert np.all(x >= lower)
     assert np.all(x <= upper)
     assert drop == pytest.approx(float(y @ y - np.sum((y - A @ x) ** 2)), abs=1e-9)
@@ -176,6 +181,6 @@ def test_bounds_hold_and_what_is_explained_is_told(seed: int) -> None:
 
 
 def test_a_column_of_which_nothing_is_left_is_not_used() -> None:
-    x, drop = bounded(np.array([[1e-6]]), np.array([1.0]), np.array([-np.inf]), np.array([np.inf]), np.array([1.0]))
+    x, drop = bounded(np.array([[1e-6]]), np.array([1.0]), np.array([-np.inf]), np.array([np.inf]), np.array([1e-4]))
     assert x.tolist() == [0.0]
     assert drop == 0.0

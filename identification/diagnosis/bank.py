@@ -67,12 +67,12 @@ class Variant:
         known = [value for one in self.coefficients if (value := self.hypothesis.preset_value(one.name)) is not None]
         return np.array(known) if known and len(known) == len(self.columns) else None
 
-    def best(self, A: Array, b: Array, size: Array) -> tuple[Array, float]:
+    def best(self, A: Array, b: Array, least: Array) -> tuple[Array, float]:
         """Its coefficients by products A of its columns and b with the torque, ``bounded`` or preset, and by how much
-        they lower the sum of squares; ``size`` are the squares of the whole columns.
+        they lower the sum of squares; columns count of whose squares the ``least`` (k) is left.
         """
         if self.preset is None:
-            return bounded(A, b, *self.bounds, size)
+            return bounded(A, b, *self.bounds, least)
         return self.preset, max(lowered(A, b, self.preset), 0.0)
 
     def only(self, used: Sequence[int]) -> Variant:

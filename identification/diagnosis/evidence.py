@@ -36,8 +36,6 @@ _VALIDATED, _TRANSFERRED = 6.0, 0.25
 _FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
 #: A power that is none.
 _TINY = 1e-300
-#: Part of a column's square that the model must leave for it to be seen.
-_VISIBLE = 1e-4
 #: What shows an effect that makes no torque along the runs.
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
@@ -199,8 +197,7 @@ class Weighing:
     def beside(self, variant: Variant, others: Sequence[Variant]) -> tuple[Array, float]:
         """Coefficients of a variant beside others, within their bounds, and the drop of the sum of squares."""
         part = self.normal.part(variant.columns, columns_of(others))
-        size = np.diag(self.normal.gram)[list(variant.columns)]
-        return variant.best(part[:-1, :-1], part[:-1, -1], size)
+        return variant.best(part[:-1, :-1], part[:-1, -1], self.normal.least(variant.columns))
 
     def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
         """Drop of the sum of squares of what was not fitted."""
@@ -217,8 +214,7 @@ class Weighing:
 
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base
-        size = np.diag(self.normal.gram)[list(variant.columns)]
-        return variant.best(S[np.ix_(at, at)], S[at, -1], size)
+        return variant.best(S[np.ix_(at, at)], S[at, -1], self.normal.least(variant.columns))
 
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = self._asked_for(found, others)
@@ -318,8 +314,7 @@ class Weighing:
         """What a variant explains beside others without what noise of the positions makes it explain."""
         part = self.normal.part(variant.columns, columns_of(others))
         products = part[:-1, -1] - self.pretended(variant, others)
-        size = np.diag(self.normal.gram)[list(variant.columns)]
-        return variant.best(part[:-1, :-1], products, size)[1]
+        return variant.best(part[:-1, :-1], products, self.normal.least(variant.columns))[1]
 
     def pretended(self, variant: Variant, others: Sequence[Variant]) -> Array:
         """Of the products of a variant's columns beside others with the torque, what noise of the positions makes
@@ -343,11 +338,7 @@ class Weighing:
 
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""
-        return not all(map(self.hides, variant.columns))
-
-    def hides(self, number: int) -> bool:
-        """Whether the model takes up a column, by its number."""
-        return bool(self.normal.left[number - self.normal.base] < _VISIBLE)
+        return not all(map(self.normal.hides, variant.columns))
 
     def invisible(self) -> list[Hypothesis]:
         """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make

@@ -13,7 +13,7 @@ from generator.effects.library import library
 from generator.review.decimals import scientific
 from identification.diagnosis.bank import Variant
 from identification.diagnosis.evidence import Evidence, columns_of
-from identification.diagnosis.hypothesis import BODY, Hypothesis, Key, on_joints
+from identification.diagnosis.hypothesis import BODY, ELASTIC, Hypothesis, Key, on_joints
 from identification.diagnosis.likely import balances, pulls
 from identification.diagnosis.loop import Search
 from identification.diagnosis.may_act import maps_taken
@@ -36,6 +36,11 @@ _LEFT, _PULLED = 1.0, 0.15
 #: Size of a finding, in parts of the noise's rms, below which it is not firm where nothing repeats: the noise is then
 #: not known apart from the model. Where rows are too few to take what may act out of it as well.
 _APERIODIC, _SHORT = 0.5, 1.0
+#: Size, in parts of the noise's rms, below which a torque of the position is any.
+_FAINT = 0.3
+#: What is left of a swinging joint, in parts of the noise's rms, from which its law is not sure; and the standard
+#: deviation of a gap, in parts of it, from which there may be none.
+_SWUNG, _GAP = 1.0, 0.25
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -194,7 +199,8 @@ def findings(
     several = {number for number in pulled if pulled.count(number) > 1}
     moving = found.bank.robot.moving
     remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
-    told = _beside_any_torque([_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)])
+    told = [_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)]
+    told = _beside_any_torque([_swinging(one, left) for one in told])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
@@ -202,7 +208,9 @@ def _unused(found: Search, variant: Variant) -> dict[str, Value]:
     """Coefficients by name where none of them is in use: 0, of which nothing is known where the model takes them up."""
     whole = found.bank.add(variant.hypothesis, variant.shape) or variant
     hidden = {
-        c.name for c, number in zip(whole.coefficients, whole.columns, strict=True) if found.weighing.hides(number)
+        c.name
+        for c, number in zip(whole.coefficients, whole.columns, strict=True)
+        if found.weighing.normal.hides(number)
     }
     return {
         c.name: Value(0.0, math.inf if c.name in hidden and not c.refines else 0.0, c.unit)
@@ -240,13 +248,30 @@ def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
         remains > _PULLED or not set(one.joints).isdisjoint(several) or any(map(_vague, one.main))
     )
     any_torque |= balances(effect) and not one.determined
+    any_torque |= pulls(effect) and one.evidence.size < _FAINT
     if any_torque:
         whole = "motion over the joint's whole range, with another payload"
         other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE, sure=False)
-    if remains > _LEFT or (kind == BODY and _vague(one.main[0])):
+    if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
+        return replace(one, status=TENTATIVE)
+    return one
+
+
+def _swinging(one: Finding, left: Mapping[int, float]) -> Finding:
+    """Tentative where a drive train explains how a link swings and far more than noise is ``left`` all the same on a
+    joint that its torque reaches; and where its gap is hardly more than none.
+    """
+    if one.hypothesis.kind != ELASTIC:
+        return one
+    (main, *_) = one.main
+    if one.hypothesis.effect == "backlash" and (main.std or 0.0) > _GAP * abs(main.value or 0.0):
+        title, experiment = "elasticity of the drive train without a gap", "motion in which the load changes its sign"
+        other = _unnamed("joint_elasticity", title, one.joints, one.evidence, experiment)
+        return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
+    if any(left.get(number, 0.0) > _SWUNG for number in one.amplitude):
         return replace(one, status=TENTATIVE)
     return one
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.normal import Prior, inverse, lowered, told_apart, without
+from identification.diagnosis.normal import LEFT, Prior, inverse, lowered, told_apart, without
 
 Array = NDArray[np.float64]
 
@@ -35,23 +35,23 @@ class HeldOut:
         """
         gained = promised = 0.0
         for fewer, more in self._turns:
-            whole, size = self._part(more, variant, chosen)
+            whole, least = self._part(more, variant, chosen)
             part, _ = self._part(fewer, variant, chosen)
-            x, drop = variant.best(whole[:-1, :-1], whole[:-1, -1], size)
+            x, drop = variant.best(whole[:-1, :-1], whole[:-1, -1], least)
             gained += drop - _drop(part, x, variant.preset is not None)
             promised += float(coefficients @ (whole - part)[:-1, :-1] @ coefficients)
         return gained, promised
 
     def _part(self, runs: tuple[int, ...], variant: Variant, chosen: Sequence[int]) -> tuple[Array, Array]:
         """What is left beside ``chosen`` of the products of the variant's columns and the torque over some runs, fitted
-        by themselves; squares of the whole columns.
+        by themselves; and what of the squares of the whole columns must be.
         """
         beside, known, values = told_apart([*range(len(self._bank.base)), *chosen], self._bank.preset)
         at = [*known.tolist(), *variant.columns, self._bank.count]
         across, own = self._products(runs, beside.tolist(), at), self._products(runs, at, at)
         part = own - across.T @ self._inverse(runs, beside.tolist()) @ across
         left = without(part, np.arange(len(known)), values)[len(known) :, len(known) :]
-        return left, np.diag(own)[len(known) : -1]
+        return left, LEFT * np.diag(own)[len(known) : -1]
 
     def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
         key = (runs, tuple(columns))

@@ -157,17 +157,17 @@ def _between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
     """What differs between the periods of rows (... x N), of which the last may be a part."""
     if not period:
         return x
-    there = _by_period(kept, period)
-    mean = np.where(there, _by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
+    there = by_period(kept, period)
+    mean = np.where(there, by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
     return np.asarray(np.where(kept, x - np.tile(mean, len(there))[..., : x.shape[-1]], x))
 
 
 def _common(kept: NDArray[np.bool_], period: int) -> float:
     """Rows' worth of noise that is in what periods have in common."""
-    return float(_by_period(kept, period).any(axis=0).sum()) if period else 0.0
+    return float(by_period(kept, period).any(axis=0).sum()) if period else 0.0
 
 
-def _by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
+def by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
     """Rows (... x N) in periods (... x P x period), zero after the last."""
     count = -(-x.shape[-1] // period)
     padded = np.pad(x, (*((0, 0) for _ in x.shape[:-1]), (0, count * period - x.shape[-1])))

@@ -20,7 +20,9 @@ Places = NDArray[np.int64]
 #: Eigenvalues of W's scaled products below this part of the largest: directions that no row shows.
 _RANK = 1e-10
 #: Part of a column's square that must be left beside the chosen ones to be told from them.
-_LEFT = 1e-4
+LEFT = 1e-4
+#: The same of parameters that are known: what is left then is what their uncertainty allows, and no rounding.
+_KNOWN_LEFT = 1e-6
 #: Part of a precision that is rounding.
 _ROUNDING = 1e-10
 
@@ -112,11 +114,13 @@ class Normal:
         S = G[p:, p:] - G[p:, :p] @ self.inverse @ G[:p, p:]
         return np.asarray((S + S.T) / 2)
 
-    @cached_property
-    def left(self) -> Array:
-        """Part of each candidate column's square that W cannot explain."""
-        size = np.diag(self.gram)[self.base : -1]
-        return np.asarray(np.diag(self.schur)[:-1] / np.maximum(size, 1e-300))
+    def least(self, columns: Sequence[int]) -> Array:
+        """What must be left of the squares of candidate columns by number (k) for their coefficients to be told."""
+        return np.asarray((LEFT if self.prior is None else _KNOWN_LEFT) * np.diag(self.gram)[list(columns)])
+
+    def hides(self, column: int) -> bool:
+        """Whether W takes up a candidate's column, by its number."""
+        return bool(self.schur[column - self.base, column - self.base] < self.least([column])[0])
 
     def beside(self, chosen: Sequence[int]) -> Array:
         """The Schur complement after the columns ``chosen`` too; their own rows are zero."""
@@ -202,13 +206,13 @@ def lowered(A: Array, b: Array, x: Array) -> float:
     return float(2 * b @ x - x @ A @ x)
 
 
-def bounded(A: Array, b: Array, lower: Array, upper: Array, size: Array) -> tuple[Array, float]:
+def bounded(A: Array, b: Array, lower: Array, upper: Array, least: Array) -> tuple[Array, float]:
     """Coefficients that lower the sum of squares most, and by how much: max 2 b x - x A x.
 
-    Those that would be beyond their bounds are left out, zero: such values mean another effect. ``size`` are the
-    squares of the whole columns: those of which little is left are left out too.
+    A is k x k, all others k. Those that would be beyond their bounds are left out, zero: such values mean another
+    effect; and so are those of whose column's square not the ``least`` is left.
     """
-    free = np.diag(A) > _LEFT * size
+    free = np.diag(A) > least
     x = np.zeros(len(b))
     for _ in range(len(b) + 1):
         at = np.flatnonzero(free)

@@ -240,8 +240,8 @@ class Selection:
         for one, other in combinations(offered, 2):
             at = np.array([*one.columns, *other.columns]) - self.weighing.normal.base
             bounds = [np.concatenate(pair) for pair in zip(one.bounds, other.bounds, strict=True)]
-            size = np.diag(self.weighing.normal.gram)[[*one.columns, *other.columns]]
-            _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], size)
+            least = self.weighing.normal.least([*one.columns, *other.columns])
+            _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], least)
             if drop > best[0]:
                 best = (drop, [one, other])
         drop, pair = best

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from identification.diagnosis.contradiction import Contradicted, pulled
+from identification.diagnosis.drifting import drifting
 from identification.diagnosis.hypothesis import Key
 from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.loop import Search
@@ -53,13 +54,16 @@ def unexplained(
 ) -> Unexplained:
     """What a search leaves, of whose model ``last`` tells where its residual is.
 
-    In this order: large residuals; findings, by effect and joint, on whose amplitude the runs are ``disagreeing``;
-    where nothing was found what noise may hide; and parameters that have ``other`` values than are known.
+    In this order: large residuals; torques that drift; findings, by effect and joint, on whose amplitude the runs are
+    ``disagreeing``; where nothing was found what noise may hide; and parameters that have ``other`` values than are
+    known.
     """
     bounces, explained = _bounces(found), _explained(found)
     large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
-    doubtful = [] if large else _doubtful(found, last, disagreeing)
-    overlooked = {} if large or doubtful or found.choices else _overlooked(found, trial)
+    overlooked = {} if large else _drifting(found)
+    doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
+    if not (large or overlooked or doubtful or found.choices):
+        overlooked = _overlooked(found, trial)
     lacks = large or doubtful or [last.lack[k] for k in overlooked]
     where = _over_time(located(last, lacks), overlooked)
     reason = AMPLITUDES if doubtful else ""
@@ -120,6 +124,16 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
         if k not in most
     }
     return said
+
+
+def _drifting(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose torque drifts, in words."""
+    sizes = drifting(found, found.weights)
+    return {
+        k: f"the torque of joint {found.bank.robot.numbers[k]} drifts while its motion repeats, by {sizes[k]:.2g} "
+        "times what else differs between the periods"
+        for k in sorted(sizes, key=lambda k: -sizes[k])
+    }
 
 
 def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
