@@ -197,6 +197,8 @@ def _run(
     efforts: Sequence[str],
     resting: bool,
 ) -> Run:
+    """The run of a recording, checked, repaired, brought to the joints and to even times, as it truly was."""
+
     def where(row: int | None, column: str) -> Place:
         return recording.where(None if row is None else row + beginning.first, column)
 
@@ -212,26 +214,17 @@ def _run(
     for stem in ("qs", "qr"):
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
-    notes = [*recording.notes]
-    clean, of_positions = glitches.without(at, ticks, where)
-    if jitters(ticks, joint_positions(clean, robot, recording)):
-        ticks = ticks.steady
-        notes.append(f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken")
-        clean, of_positions = glitches.without(at, ticks, where)
+    ticks, at, of_positions = _without_jitter(at, ticks, robot, recording, where)
     coarse = resolution(effort, robot, recording)
     effort, of_efforts = glitches.without(effort, ticks, where)
-    q = corrections.true_positions(joint_positions(clean, robot, recording), robot)
+    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     stretches = checks.torques(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
-    notes += [*_told(stretches, effort, where), *of_positions, *of_efforts]
+    notes = [*recording.notes, *_told(stretches, effort, where), *of_positions, *of_efforts]
     unusable = checks.left_out(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
-    lost = ticks.lost
-    if ticks.uneven or lost.any():
-        uneven = ["times are uneven"] if ticks.uneven else []
-        gone = [f"{int(lost.sum())} of {len(lost)} samples are missing"] if lost.any() else []
-        how = " and ".join([*uneven, *gone])
+    if how := _uneven(ticks):
         notes.append(f"{where(None, 't')}: {how}; samples were interpolated to {ticks.rate:.6g} Hz")
         q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
         unusable = _left_out(ticks, unusable, len(tau))
@@ -254,6 +247,26 @@ def _run(
         coarse=coarse,
     )
     return replace(_corrected(run, robot), notes=tuple(notes))
+
+
+def _without_jitter(
+    at: Measured, ticks: Clock, robot: Robot, recording: Recording, where: checks.Where
+) -> tuple[Clock, Measured, list[str]]:
+    """The times, even where positions are smoother so; positions without glitches; and what is to be told."""
+    clean, notes = glitches.without(at, ticks, where)
+    if not jitters(ticks, joint_positions(clean, robot, recording)):
+        return ticks, clean, notes
+    clean, notes = glitches.without(at, ticks.steady, where)
+    jitter = f"{where(None, 't')}: times jitter; positions are smoother at even ones, which were taken"
+    return ticks.steady, clean, [jitter, *notes]
+
+
+def _uneven(ticks: Clock) -> str:
+    """What times are beside even and complete, in words; empty where they are both."""
+    lost = ticks.lost
+    uneven = ["times are uneven"] if ticks.uneven else []
+    gone = [f"{int(lost.sum())} of {len(lost)} samples are missing"] if lost.any() else []
+    return " and ".join([*uneven, *gone])
 
 
 def _corrected(run: Run, robot: Robot) -> Run:

@@ -103,5 +103,5 @@ def test_late_torques_of_short_runs_are_late_and_nothing_else(tmp_path: Path) ->
     train, test = (run.with_name(Path(name).name) for name in (TRAIN, TEST))
     found, _ = diagnosis(path, Request([str(train)], test=[str(test)]))
     (one,) = found.findings
-    assert one.key == ("torque_delay", 0)
+    assert one.hypothesis.key == ("torque_delay", 0)
     assert one.parameters["torque_delay"].value == pytest.approx(0.02, abs=0.004)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis import position_noise, rounding
 from identification.diagnosis.prepared import RATE, windowed
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import ORDER, colour, stretches
@@ -21,6 +22,8 @@ Array = NDArray[np.float64]
 _FREQUENCIES = 50
 #: Power of a torque, in parts of the model's, below which half of the amplitude is missing.
 _SHORT = 0.25
+#: Times as much as the errors of the positions make that they are taken to make: it is not known closely.
+_ERRORS = 2.0
 #: Part of the mean power density that is none, as of the spectra of what never was recorded.
 _NOTHING = 1e-9
 #: Part of the joints that lack it at one frequency: above the band noise may hide it on one of them.
@@ -40,7 +43,8 @@ def end(scenes: Sequence[Scene]) -> float:
     rate = scenes[0].sampled.run.rate / _factor(scenes[0])
     # A colour tells no lower ones apart.
     frequency = np.linspace(rate / 2 / ORDER, rate / 2, _FREQUENCIES)
-    power = np.quantile([_power(scenes, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
+    errors = [_of_positions(scene, number) for number, scene in enumerate(scenes)]
+    power = np.quantile([_power(scenes, errors, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
     short = power < _SHORT
     if len(scenes[0].tau) < _SEVERAL:
         short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR)
@@ -63,18 +67,29 @@ def _factor(scene: Scene) -> int:
     return max(round(scene.sampled.run.rate / RATE), 1)
 
 
-def _power(scenes: Sequence[Scene], k: int, frequency: Array, rate: float) -> Array:
+def _of_positions(scene: Scene, number: int) -> Array:
+    """Torques (n x N) [N m, N] as errors of the positions make them, by draw ``number``."""
+    run = scene.sampled.run
+    noise = np.maximum(position_noise.deviations(run.q), rounding.deviations(run, scene.robot))
+    return position_noise.torque_of(position_noise.drawn(scene, noise, number), scene)
+
+
+def _power(scenes: Sequence[Scene], errors: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:
     """The power density of a joint's recorded torque in parts of that by the model and what was found beside it, where
     the joint moves; 1 where it never does. Reversals are left out, as in the rows: a model's friction jumps there, and
     a real one need not.
     """
     recorded: list[Array] = []
     model: list[Array] = []
-    for scene in scenes:
+    noise: list[Array] = []
+    for scene, error in zip(scenes, errors, strict=True):
         factor = _factor(scene)
         kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
         recorded += stretches(windowed(scene.tau[k], factor), kept)
         model += stretches(windowed(scene.torque[k], factor), kept)
+        noise += stretches(windowed(error[k], factor), kept)
     asked = colour(model).spectrum(frequency, rate)
     nothing = _NOTHING * asked.mean()
+    # Accelerations that positions have by their errors alone no torque needs to make.
+    asked = np.maximum(asked - _ERRORS * colour(noise).spectrum(frequency, rate), 0.0)
     return np.asarray((colour(recorded).spectrum(frequency, rate) + nothing) / (asked + nothing))

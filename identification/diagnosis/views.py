@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.prepared import Prepared, joined
 from identification.diagnosis.reversals import since_reversal
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import Colour
 from identification.drive_train import coupling
+from identification.residuals import rms
 
 Array = NDArray[np.float64]
 
@@ -48,6 +49,18 @@ class View:
     share: float
 
 
+@dataclass(frozen=True)
+class _Rows:
+    """Residual ``e`` [N m, N] and speed ``qd`` of joint ``number`` in rows that count (N each), and the ``power`` of a
+    mean of noise times the rows in it.
+    """
+
+    number: int
+    e: Array
+    qd: Array
+    power: float
+
+
 def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array]]:
     """What the residual of coordinate k is looked at against, by name: unit and values (N rows)."""
     motion, robot = scene.motion, scene.robot
@@ -77,14 +90,14 @@ def views(
     e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
     if len(e) < _ROWS * BINS:
         return ()
-    power = _of_means(noise, [int(rows.sum()) for rows in kept])
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
-    forward = np.concatenate(
-        [run.decimated(scene.motion.qd[k])[rows] for run, scene, rows in zip(runs, scenes, kept, strict=True)]
+    seen = _Rows(
+        scenes[0].robot.moving[k].number,
+        e,
+        joined(runs, [run.decimated(scene.motion.qd) for run, scene in zip(runs, scenes, strict=True)], k),
+        _of_means(noise, [int(rows.sum()) for rows in kept]),
     )
-    number = scenes[0].robot.moving[k].number
-    tau = np.concatenate([run.tau[k, rows] for run, rows in zip(runs, kept, strict=True)])
-    usual = float(np.sqrt(np.mean(tau**2)))
+    usual = rms(joined(runs, [run.tau for run in runs], k))
     found: list[View] = []
     for name, (unit, _) in every[0].items():
         x = np.concatenate([mine[name][1][rows] for mine, rows in zip(every, kept, strict=True)])
@@ -92,33 +105,33 @@ def views(
         if np.ptp(x) <= least:
             continue
         sides = (-1, 1) if name in ("q by direction", "load") else (0,)
-        found += _view(number, name, unit, x, e, forward, sides, power)
+        found += _view(seen, name, unit, x, sides)
     return tuple(sorted(found, key=lambda one: (-one.share, one.variable, one.direction)))
 
 
-def _view(
-    number: int, name: str, unit: str, x: Array, e: Array, qd: Array, sides: Sequence[int], power: float
-) -> list[View]:
+def _view(seen: _Rows, name: str, unit: str, x: Array, sides: Sequence[int]) -> list[View]:
+    """Means over ``x`` (N), which is ``name``, for each direction of ``sides``, or for both together (0)."""
+    e = seen.e
     edges = np.linspace(x.min(), x.max(), BINS + 1)
     at = np.clip(np.digitize(x, edges) - 1, 0, BINS - 1)
     parts, explained, bins = [], 0.0, 0
     variance = float(e.var())
     for side in sides:
-        rows = np.ones(len(e), dtype=bool) if side == 0 else side * qd > 0
+        rows = np.ones(len(e), dtype=bool) if side == 0 else side * seen.qd > 0
         count = np.bincount(at[rows], minlength=BINS)
         total = np.bincount(at[rows], weights=e[rows] - e.mean(), minlength=BINS)
         used = count >= _ROWS
         mean = np.where(used, total / np.maximum(count, 1), 0.0)
-        band = np.where(used, 2 * np.sqrt(power / np.maximum(count, 1)), np.inf)
+        band = np.where(used, 2 * np.sqrt(seen.power / np.maximum(count, 1)), np.inf)
         explained += float(count[used] @ mean[used] ** 2)
         bins += int(used.sum())
         parts.append((side, used, mean + e.mean(), band, count))
     # What bins of coloured noise would explain by chance.
-    chance = power * max(bins - 1, 0)
+    chance = seen.power * max(bins - 1, 0)
     share = max(explained - chance, 0.0) / max(variance * len(e), 1e-300)
     centre = (edges[1:] + edges[:-1]) / 2
     return [
-        View(number, name, unit, side, centre[used], mean[used], band[used], count[used], share)
+        View(seen.number, name, unit, side, centre[used], mean[used], band[used], count[used], share)
         for side, used, mean, band, count in parts
     ]
 

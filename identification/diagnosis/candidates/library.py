@@ -109,37 +109,20 @@ def _told(k: int, scenes: Sequence[Scene]) -> bool:
 
 
 def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usual: bool) -> list[Hypothesis]:
+    """The effect on a joint, coordinate k; none where a shape has no value to begin with."""
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []
     if "warmth" in effect.needs and not _told(k, scenes):
         shapes.append(warm_up_times(scenes))
     tries = shapes[0].count if shapes else 1
     for shape in effect.shapes:
-        if not shape.tried:
-            continue
-        points = likely_orders(scenes, k, shape.several) if shape.several else _points(shape, shape.tried, k, scenes)
-        if not points and shape.default is not None:
-            continue
-        if not points:
+        points = _begun(shape, k, scenes)
+        if shape.tried and not points and shape.default is None:
             return []
-        tries *= shape.several or len(points)
-        unit = shape.unit_on(joint)
-        even = shape.relative == "position" or min(points) <= 0
-        low = LOWEST if shape.several else min(points)
-        found = ShapeRange(shape.name, unit, low, max(points), log=not even, points=points)
-        if shape.within:
-            low, high = _points(shape, shape.within, k, scenes)
-            found = replace(found, low=low, high=high, step=_STEP)
-        shapes.append(replace(found, whole=shape.whole, exact=shape.exact))
-    coefficients = tuple(
-        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
-        for one in effect.parameters
-    )
+        if points:
+            shapes.append(_range(shape, joint, k, scenes, points))
+            tries *= shape.several or len(points)
     from_the_start = "warmth" in effect.needs and _there(joint, scenes[0].robot) >= _RUBBING
-    if from_the_start:
-        coefficients += tuple(
-            Coefficient(f"{one.stem}_start{joint.number}", one.unit(joint), refines=True) for one in effect.parameters
-        )
     sought = {one.name for one in shapes}
     given = {
         one.name: float(one.default) for one in effect.shapes if one.name not in sought and one.default is not None
@@ -149,7 +132,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             effect.id,
             effect.title,
             joint.number,
-            coefficients,
+            _coefficients(effect, joint, from_the_start),
             columns.from_the_start if from_the_start else columns,
             shapes=tuple(shapes),
             given=given,
@@ -162,6 +145,37 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             usual=usual,
         )
     ]
+
+
+def _begun(shape: Shape, k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
+    """The values of a shape at which a search begins; none where it has no such."""
+    if not shape.tried:
+        return ()
+    return likely_orders(scenes, k, shape.several) if shape.several else _points(shape, shape.tried, k, scenes)
+
+
+def _range(shape: Shape, joint: Joint, k: int, scenes: Sequence[Scene], points: tuple[float, ...]) -> ShapeRange:
+    """What a search goes through from ``points``."""
+    even = shape.relative == "position" or min(points) <= 0
+    low = LOWEST if shape.several else min(points)
+    found = ShapeRange(shape.name, shape.unit_on(joint), low, max(points), log=not even, points=points)
+    if shape.within:
+        low, high = _points(shape, shape.within, k, scenes)
+        found = replace(found, low=low, high=high, step=_STEP)
+    return replace(found, whole=shape.whole, exact=shape.exact)
+
+
+def _coefficients(effect: Effect, joint: Joint, from_the_start: bool) -> tuple[Coefficient, ...]:
+    """Those of the effect, and of what it makes at the start, where that is another part of what the file tells."""
+    own = tuple(
+        Coefficient(f"{one.stem}{joint.number}", one.unit(joint), one.lower, one.upper, refines=one.refines)
+        for one in effect.parameters
+    )
+    if not from_the_start:
+        return own
+    return own + tuple(
+        Coefficient(f"{one.stem}_start{joint.number}", one.unit(joint), refines=True) for one in effect.parameters
+    )
 
 
 def _points(shape: Shape, values: Sequence[float], k: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
