@@ -14,6 +14,7 @@ from generator.robot.readers import read
 from identification import filtering
 from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.torque_band import end, notes
 from tests.diagnosed import CLEAN, Known, known
@@ -27,6 +28,8 @@ from tests.plant.trajectories.fourier import fourier
 
 ARM, CUTOFF = "three_axis", 10.0
 WAY = fourier(1, period=5.0, periods=2)
+#: Of a motor's encoder [rad].
+STEP = 1e-2
 
 
 @pytest.fixture(scope="module")
@@ -106,3 +109,23 @@ def test_a_filter_is_not_taken_for_an_elastic_drive_train(tmp_path: Path) -> Non
     found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
     assert not {"joint_elasticity", "backlash"} & {one.hypothesis.effect for one in found.findings}
     assert any("elasticity and backlash of drive trains are not looked for" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "effects"),
+    [([], []), ([Effect("joint_flexibility", 2, 1.1e-5)], [("joint_elasticity", 2)])],
+    ids=["rigid", "elastic"],
+)
+def test_coarse_encoders_hide_no_elastic_drive_train(
+    hidden: list[Effect], effects: list[tuple[str, int]], tmp_path: Path
+) -> None:
+    """What their steps ask for is known: it is neither a torque that is missing nor an elastic drive train."""
+    sources = [str(tmp_path / f"{seed}.csv") for seed in (1, 2)]
+    for seed, source in enumerate(sources, 1):
+        run = make_run(ROBOTS[ARM], fourier(seed, period=5.0, periods=4), hidden, seed=seed)
+        write_csv(replace(run, qm=STEP * np.round(run.qm / STEP)), Path(source))
+    path = tmp_path / "arm.yaml"
+    path.write_text(robot_file(ROBOTS[ARM]), encoding="utf-8")
+    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    assert [one.hypothesis.key for one in found.findings] == effects
+    assert found.verdict == (NAMED if effects else NOTHING)
