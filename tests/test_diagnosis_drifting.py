@@ -1,7 +1,8 @@
-"""A torque that drifts while its motion repeats is no noise."""
+"""A torque that drifts, or oscillates by itself, while its motion repeats is no noise."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -52,8 +53,19 @@ def test_a_drift_of_the_offset_is_unexplained(drift: Added, tmp_path: Path) -> N
     assert not any(one.status == "firm" for one in found.findings)
 
 
+@pytest.mark.parametrize("frequency", [1.337, 11.73])
+def test_an_oscillation_of_its_own_is_unexplained(frequency: float, tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, lambda t: 4.0 * np.sin(2 * np.pi * frequency * t + 1.0))
+    assert found.verdict == UNEXPLAINED
+    (note,) = (note for note in found.notes if "oscillation" in note)
+    match = re.search(r"of joint 1 is an oscillation of ([\d.]+) Hz that does not follow the motion", note)
+    assert match
+    assert float(match[1]) == pytest.approx(frequency, abs=0.05)
+    assert (found.after.joint, found.after.variable) == (1, "time")
+
+
 @pytest.mark.parametrize("seconds", [0.05, 0.3])
 def test_noise_that_stays_for_a_time_is_no_drift(seconds: float, tmp_path: Path) -> None:
     found = diagnosed(tmp_path, red(seconds, 2.0))
     assert (found.verdict, found.findings) == (NOTHING, ())
-    assert not any("drifts" in note for note in found.notes)
+    assert not any("drifts" in note or "oscillation" in note for note in found.notes)

@@ -10,7 +10,7 @@ import pytest
 
 from generator.robot.readers import read
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
-from identification.diagnosis.noise import _between_periods, _common
+from identification.diagnosis.noise import _common, between_periods
 from identification.observation import Motion, Regressors
 from tests.diagnosed_arm import ARM, TRUTH, diagnosis_of
 from tests.recorded import Array, Recorded, fourier
@@ -59,13 +59,13 @@ def test_runs_without_noise_lack_nothing(period: float, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("periods", [1.9, 2.6, 3.0])
-def test_noise_between_periods_keeps_its_freedom(periods: float) -> None:
+def test_noisebetween_periods_keeps_its_freedom(periods: float) -> None:
     """Squares over what is not common are the power of white noise, wherever the last period ends."""
     draw, period = np.random.default_rng(2), 200
     kept = np.arange(round(periods * period)) % 7 != 3
     every: list[Array] = []
     for _ in range(300):
-        e = _between_periods(draw.normal(size=len(kept)), kept, period)[kept]
+        e = between_periods(draw.normal(size=len(kept)), kept, period)[kept]
         every.append(e @ e / (kept.sum() - _common(kept, period)))
     assert np.mean(every) == pytest.approx(1.0, abs=4 * np.std(every) / np.sqrt(len(every)))
 

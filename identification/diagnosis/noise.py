@@ -109,11 +109,11 @@ def _left(
     lost = []
     for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
         kept = part.kept
-        e = _between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
+        e = between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
         left.append(stretches(e + rounded[r] if rounded else e, kept))
         whole = np.zeros(part.columns.shape)
         whole[:, kept] = x[:-1]
-        taken_away = _power(_between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
+        taken_away = _power(between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
         lost.append(taken_away + _common(kept, run.period))
     counts = [max(x.shape[1], 1) for x in white]
     each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
@@ -153,7 +153,7 @@ def _inside(gram: Array, base: int, most: int) -> Array:
     return np.asarray(result)
 
 
-def _between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
+def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
     """What differs between the periods of rows (... x N), of which the last may be a part."""
     if not period:
         return x

@@ -14,6 +14,7 @@ from identification.diagnosis.lack_of_fit import Lack
 from identification.diagnosis.loop import Search
 from identification.diagnosis.overlooked import untested, untold
 from identification.diagnosis.stated_elasticity import names_of_backlash, stated
+from identification.diagnosis.tones import tones
 from identification.diagnosis.trial import Trial
 from identification.diagnosis.where import Where, located
 from identification.residuals import rms
@@ -54,13 +55,13 @@ def unexplained(
 ) -> Unexplained:
     """What a search leaves, of whose model ``last`` tells where its residual is.
 
-    In this order: large residuals; torques that drift; findings, by effect and joint, on whose amplitude the runs are
-    ``disagreeing``; where nothing was found what noise may hide; and parameters that have ``other`` values than are
-    known.
+    In this order: large residuals; torques that drift or sway by themselves; findings, by effect and joint, on
+    whose amplitude the runs are ``disagreeing``; where nothing was found what noise may hide; and parameters that
+    have ``other`` values than are known.
     """
     bounces, explained = _bounces(found), _explained(found)
     large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
-    overlooked = {} if large else _drifting(found)
+    overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
     if not (large or overlooked or doubtful or found.choices):
         overlooked = _overlooked(found, trial)
@@ -133,6 +134,16 @@ def _drifting(found: Search) -> dict[int, str]:
         k: f"the torque of joint {found.bank.robot.numbers[k]} drifts while its motion repeats, by {sizes[k]:.2g} "
         "times what else differs between the periods"
         for k in sorted(sizes, key=lambda k: -sizes[k])
+    }
+
+
+def _swaying(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose torque oscillates by itself, in words."""
+    seen = tones(found, found.weights)
+    return {
+        k: f"{100 * seen[k].part:.0f} % of what differs between the periods of joint {found.bank.robot.numbers[k]} is "
+        f"an oscillation of {seen[k].frequency:.3g} Hz that does not follow the motion"
+        for k in sorted(seen, key=lambda k: -seen[k].part)
     }
 
 
