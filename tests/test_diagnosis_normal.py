@@ -81,9 +81,11 @@ def test_what_little_is_left_of_a_column_tells_more_where_parameters_are_known(
     W, candidates, y = columns
     out = candidates - W @ np.linalg.lstsq(W, candidates, rcond=None)[0]
     within = W[:, [0] * C] / np.linalg.norm(W[:, 0]) + part * out / np.linalg.norm(out, axis=0)
-    nothing = Prior(np.zeros(P), np.zeros((P, P)))
-    assert [normal((W, within, y)).hides(P + i) for i in range(C)] == [free] * C
-    assert [normal((W, within, y), nothing).hides(P + i) for i in range(C)] == [known] * C
+    hardly = np.diag(np.full(P, 1e-12))
+    one_of_them = np.where(np.arange(P) == 0, hardly, 0.0)
+    every, one = (Prior(np.zeros(P), precision) for precision in (hardly, one_of_them))
+    for prior_, expected in ((None, free), (one, free), (every, known)):
+        assert [normal((W, within, y), prior_).hides(P + i) for i in range(C)] == [expected] * C
 
 
 def test_the_solution_its_covariance_and_misfit(columns: tuple[Array, Array, Array]) -> None:

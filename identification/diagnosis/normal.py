@@ -21,8 +21,9 @@ Places = NDArray[np.int64]
 _RANK = 1e-10
 #: Part of a column's square that must be left beside the chosen ones to be told from them.
 LEFT = 1e-4
-#: The same of parameters that are known: what is left then is what their uncertainty allows, and no rounding.
-_KNOWN_LEFT = 1e-6
+#: The same where most parameters, more than this part of them, are known: what is left then is what their uncertainty
+#: allows, and no rounding.
+_KNOWN_LEFT, _MOSTLY = 1e-6, 0.5
 #: Part of a precision that is rounding.
 _ROUNDING = 1e-10
 
@@ -116,7 +117,8 @@ class Normal:
 
     def least(self, columns: Sequence[int]) -> Array:
         """What must be left of the squares of candidate columns by number (k) for their coefficients to be told."""
-        return np.asarray((LEFT if self.prior is None else _KNOWN_LEFT) * np.diag(self.gram)[list(columns)])
+        known = self.prior is not None and float(self.prior.known.mean()) > _MOSTLY
+        return np.asarray((_KNOWN_LEFT if known else LEFT) * np.diag(self.gram)[list(columns)])
 
     def hides(self, column: int) -> bool:
         """Whether W takes up a candidate's column, by its number."""
