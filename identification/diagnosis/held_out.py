@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.bank import Bank, Variant
-from identification.diagnosis.normal import LEFT, Prior, inverse, lowered, told_apart, without
+from identification.diagnosis.normal import Prior, inverse, least_part, lowered, told_apart, without
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ class HeldOut:
         across, own = self._products(runs, beside.tolist(), at), self._products(runs, at, at)
         part = own - across.T @ self._inverse(runs, beside.tolist()) @ across
         left = without(part, np.arange(len(known)), values)[len(known) :, len(known) :]
-        return left, LEFT * np.diag(own)[len(known) : -1]
+        return left, least_part(self._prior) * np.diag(own)[len(known) : -1]
 
     def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
         key = (runs, tuple(columns))

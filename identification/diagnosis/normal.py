@@ -20,7 +20,7 @@ Places = NDArray[np.int64]
 #: Eigenvalues of W's scaled products below this part of the largest: directions that no row shows.
 _RANK = 1e-10
 #: Part of a column's square that must be left beside the chosen ones to be told from them.
-LEFT = 1e-4
+_LEFT = 1e-4
 #: The same where most parameters, more than this part of them, are known: what is left then is what their uncertainty
 #: allows, and no rounding.
 _KNOWN_LEFT, _MOSTLY = 1e-6, 0.5
@@ -80,6 +80,11 @@ class Prior:
         return Prior(self.mean + direction * value, precision)
 
 
+def least_part(prior: Prior | None) -> float:
+    """The part of a column's square that must be left for its coefficient to be told."""
+    return _KNOWN_LEFT if prior is not None and float(prior.known.mean()) > _MOSTLY else _LEFT
+
+
 @dataclass(frozen=True)
 class Normal:
     """Products ``gram`` (c + 1 square) of ``base`` columns, candidates and torque, over ``rows`` rows.
@@ -117,8 +122,7 @@ class Normal:
 
     def least(self, columns: Sequence[int]) -> Array:
         """What must be left of the squares of candidate columns by number (k) for their coefficients to be told."""
-        known = self.prior is not None and float(self.prior.known.mean()) > _MOSTLY
-        return np.asarray((_KNOWN_LEFT if known else LEFT) * np.diag(self.gram)[list(columns)])
+        return np.asarray(least_part(self.prior) * np.diag(self.gram)[list(columns)])
 
     def hides(self, column: int) -> bool:
         """Whether W takes up a candidate's column, by its number."""
