@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis import position_noise, rounding, stated_elasticity
+from identification.diagnosis import rounding, stated_elasticity
 from identification.diagnosis.bank import Bank, Variant, base_rows, made
 from identification.diagnosis.perturbation import moved
 from identification.diagnosis.position_noise import drawn, torque_of
@@ -80,9 +80,7 @@ def redrawn(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> dict[int, Redr
     """By number, the runs whose positions are not exact, each with as much noise once more."""
     result = {}
     for r, (run, scene) in enumerate(zip(runs, scenes, strict=True)):
-        one = scene.sampled.run
-        # Rounding is noise like any other, but where a joint is so slow that its steps hide it from differences.
-        noise = np.maximum(position_noise.deviations(one.q), rounding.deviations(one, scene.robot))
+        noise = rounding.errors(scene.sampled.run, scene.robot)
         if noise.any():
             result[r] = Redrawn(run, scene, noise, r)
     return result

@@ -35,7 +35,7 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     e = np.concatenate([residuals[r] for r in alone])
     white = [bank.colours[r][k].white(maps[k][r], bank.runs[r].kept[k]) for r in alone]
     X = np.concatenate(white, axis=1)
-    each = groups([joint.number for joint in bank.robot.moving], k)
+    each = groups(bank.robot.numbers, k)
     found = [_follows(X[part], e, what, lack, len(each)) for what, part in each.items()]
     return max((one for one in found if one.p < CHANCE), key=lambda one: one.size, default=lack)
 

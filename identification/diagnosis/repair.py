@@ -178,7 +178,7 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
 
 def _with_ratio(text: str, robot: Robot, joint: int, factor: float) -> str:
     """Column ``joint`` of N times ``factor``, by its ratio and what the file's convention makes of the coupling."""
-    k = [one.number for one in robot.moving].index(joint)
+    k = robot.numbers.index(joint)
     text = _times(text, ("drives", "gear_ratios", k), f"*{factor:.9g}")
     entries = keys_of(text, ("drives", "coupling"))
     convention = "row"

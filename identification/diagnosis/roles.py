@@ -88,7 +88,7 @@ def _gap(run: Run) -> float:
 
 def _recorded(run: Run) -> float:
     """Time that the samples stand for [s], to a microsecond: 20 s at 1 kHz are 20000 samples, whatever the clock."""
-    return round(run.samples * run.period, 6)
+    return round(run.duration, 6)
 
 
 def _blocks(run: Run, end: float) -> list[tuple[float, float]]:

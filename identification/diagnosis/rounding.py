@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Robot
 from identification.dataset import Run
+from identification.diagnosis import position_noise
 from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import Prepared
 from identification.diagnosis.scene import Scene
@@ -35,6 +36,14 @@ def deviations(run: Run, robot: Robot) -> Array:
     of_joints, of_motors = steps(run.q), np.linalg.norm(np.linalg.inv(N) * steps(N @ run.q), axis=1)
     # Where joints are rounded themselves their sums take steps too.
     return np.asarray(np.where(of_joints > _FINER * of_motors, of_joints, of_motors) / sqrt(12))
+
+
+def errors(run: Run, robot: Robot) -> Array:
+    """Standard deviation (n) [rad, m] of all that is wrong with a run's positions, zero where they are exact.
+
+    Rounding is noise like any other, but where a joint is so slow that its steps hide it from differences.
+    """
+    return np.maximum(position_noise.deviations(run.q), deviations(run, robot))
 
 
 def rounding(run: Prepared, scene: Scene, number: int = 0) -> Array:

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis import position_noise, rounding
+from identification.diagnosis import rounding
+from identification.diagnosis.position_noise import drawn, torque_of
 from identification.diagnosis.prepared import RATE, windowed
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.whitening import ORDER, colour, stretches
@@ -69,9 +70,8 @@ def _factor(scene: Scene) -> int:
 
 def _of_positions(scene: Scene, number: int) -> Array:
     """Torques (n x N) [N m, N] as errors of the positions make them, by draw ``number``."""
-    run = scene.sampled.run
-    noise = np.maximum(position_noise.deviations(run.q), rounding.deviations(run, scene.robot))
-    return position_noise.torque_of(position_noise.drawn(scene, noise, number), scene)
+    noise = rounding.errors(scene.sampled.run, scene.robot)
+    return torque_of(drawn(scene, noise, number), scene)
 
 
 def _power(scenes: Sequence[Scene], errors: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:

@@ -63,7 +63,7 @@ class Where:
 def seen(found: Search, weights: Mapping[int, float]) -> Where:
     """What values of columns by number leave of each joint, without a verdict on where that is most."""
     bank = found.bank
-    numbers = [joint.number for joint in bank.robot.moving]
+    numbers = bank.robot.numbers
     everything = range(len(bank.runs))
     chosen = found.variants
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])

@@ -81,7 +81,7 @@ def _by_warmth(one: Addition) -> bool:
 
 def _by_time(joint: int, scenes: Sequence[Scene]) -> Addition:
     """A time constant of the drive of ``joint`` (number), as the warmth goes that the file tells by temperature."""
-    k = [one.number for one in scenes[0].robot.moving].index(joint)
+    k = scenes[0].robot.numbers.index(joint)
     told = [scene for scene in scenes if scene.warmth_is_stated(k)]
     return Addition(
         SIGNAL, "warm_up_time", (joint,), {"warm_up_time": following(k, told, [scene.warmth(k) for scene in told])}

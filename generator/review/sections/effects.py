@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import sympy
-
 from generator.effects.library import Instance
-from generator.review.decimals import constant, decimal
 from generator.review.formula import Name
 from generator.review.laws import observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
+from generator.review.stated import quantity
 from generator.review.words import minus, ranges, unit
 from generator.symbolic.model import Model
 
@@ -65,12 +63,11 @@ def _parameter(instance: Instance, k: int, index: str) -> list[Content]:
 def _values(instance: Instance) -> Markup:
     values = instance.site.values
     rows = [
-        (math(Name(shape.name)), _quantity(values[shape.name], shape.unit_on(instance.joint)), shape.meaning)
+        (
+            math(Name(shape.name)),
+            unit(minus(quantity(values[shape.name], shape.unit_on(instance.joint)))),
+            shape.meaning,
+        )
         for shape in instance.effect.shapes
     ]
     return table(("value", f"on joint {instance.joint.number}", "meaning"), rows)
-
-
-def _quantity(value: sympy.Expr, symbol: str) -> str:
-    number = minus(decimal(constant(value)))
-    return number if symbol == "1" else f"{number}\u00a0{unit(symbol)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from generator.review import stated
 from generator.review.markup import Content, Markup, element, join, table
-from generator.review.words import minus
+from generator.review.words import minus, unit
 from generator.symbolic.model import Model
 
 TITLE = "Signals"
@@ -16,6 +16,6 @@ def render(model: Model) -> Markup | None:
     if not told:
         return None
     heads: list[Content] = list(told[0])
-    rows = [[minus(cell) for cell in row] for row in told[1:]]
+    rows = [[unit(minus(cell)) for cell in row] for row in told[1:]]
     note = "For recorded motion; the generated functions take true positions, torques and currents."
     return join(element("p", note), table(heads, rows, class_="numbers"))

@@ -14,6 +14,7 @@ from identification.diagnosis.link_side import LinkSide, LinkSides, Train, rotor
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
 from identification.diagnosis.torque_band import end
+from identification.residuals import rms
 
 Array = NDArray[np.float64]
 
@@ -115,7 +116,7 @@ def _changes_sign(side: LinkSide) -> bool:
 
 def _gaps(side: LinkSide) -> tuple[float, float]:
     """The narrowest and the widest gap that is looked for: M e'' = -tau_link' t, so e = tau_link' t^3 / (6 M)."""
-    slope = float(np.sqrt(np.mean(side.scene.derivative(side.load) ** 2)))
+    slope = rms(side.scene.derivative(side.load))
     each = slope / (6 * float(np.mean(side.inertia)))
     return each * _QUICKEST**3, each * _SLOWEST**3
 

@@ -62,7 +62,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             ),
             columns,
             kind=BASE,
-            joints=tuple(joint.number for joint in robot.moving),
+            joints=robot.numbers,
             variable="q",
             would_show="known inertial parameters (--prior), and the first joint turned over its whole range",
             separating={

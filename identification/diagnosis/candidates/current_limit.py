@@ -19,6 +19,7 @@ from identification.corrections import NEVER
 from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.scene import Scene
 from identification.drive_train import constants, coupling, motor_torques
+from identification.residuals import rms
 
 Array = NDArray[np.float64]
 
@@ -77,7 +78,7 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     # Noise may be as slow as the motion is: it is all that the model leaves where nothing is clipped.
     noise = _current(scene, k, scene.tau - scene.torque)[~over]
     clear = _CLEAR * _NORMAL * np.median(np.abs(noise)) if noise.size else np.inf
-    if not over.any() or np.sqrt(np.mean(excess[over] ** 2)) < clear:
+    if not over.any() or rms(excess[over]) < clear:
         excess = np.zeros_like(excess)
     return np.outer(coupling(scene.robot)[k] * _torque_per_recorded(scene, k), excess)[None]
 

@@ -27,7 +27,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             COEFFICIENTS,
             _columns,
             kind=BODY,
-            joints=tuple(joint.number for joint in scenes[0].robot.moving),
+            joints=scenes[0].robot.numbers,
             variable="q",
             would_show="known inertial parameters (--prior), or a run with and one without the payload: in a free fit "
             "the parameters of the last bodies take it up",

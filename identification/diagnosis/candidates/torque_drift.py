@@ -22,6 +22,7 @@ from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis, 
 from identification.diagnosis.scene import Scene
 from identification.diagnosis.warming import following, warm_up_times
 from identification.drive_train import supplied
+from identification.residuals import rms
 
 Array = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             found.append(_hypothesis(k, joint, "drive's warmth", recorded=by_heat(robot, k)))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
-        usual = max(float(np.sqrt(np.mean(scene.motor_torque(k) ** 2))) for scene in scenes)
+        usual = max(rms(scene.motor_torque(k)) for scene in scenes)
         if usual > 0:
             found.append(_hypothesis(k, joint, "motor's heat", (_exactly("warm_torque", "N m", usual), time), True))
         if temperature := _temperature(k, scenes):

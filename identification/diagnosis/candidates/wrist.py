@@ -87,7 +87,7 @@ def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypot
 
 
 def _columns(joint: Joint, scene: Scene, shape: Mapping[str, float]) -> Array:
-    numbers = [one.number for one in scene.robot.moving]
+    numbers = scene.robot.numbers
     values = {"other": sympy.Integer(int(shape["other"])), "ratio": sympy.Float(shape["ratio"])}
     signals = [sympy.Symbol(f"{stem}{number}", real=True) for stem in ("q", "qd", "qdd") for number in numbers]
     motion = scene.motion
