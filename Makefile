@@ -122,12 +122,14 @@ clean: ## remove caches and build folders; keeps .venv and generated/
 distclean: clean ## clean, and remove .venv
 	rm -rf $(VENV)
 
-# The whole environment is made anew when the runtime lock changes, so that it never holds a stale package.
+# The whole environment is made anew when the runtime lock changes, so that it never holds a stale package. Removed, and
+# not cleared: where .venv is a link, the environment that it points to is of another checkout.
 $(RUNTIME):
 	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	    { echo 'error: Makefile:1:1: no Python 3.11, expected python3.11 on the PATH or make PYTHON=...' >&2; exit 2; }
 	@echo 'setting up $(VENV) from requirements.lock'
-	@"$(PYTHON)" -m venv --clear $(VENV)
+	@rm -rf $(VENV)
+	@"$(PYTHON)" -m venv $(VENV)
 	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@

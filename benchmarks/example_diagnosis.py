@@ -19,14 +19,14 @@ from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.readers import read
 from identification.cli.diagnose import summary, tested
-from identification.diagnosis.addition import Addition
+from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.hypothesis import EFFECT
-from identification.diagnosis.mending import Mended
-from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.played import together
-from identification.diagnosis.repair import repaired
+from identification.diagnosis.mending.addition import Addition
+from identification.diagnosis.mending.mended import Mended
+from identification.diagnosis.mending.repair import repaired
+from identification.diagnosis.noise.noise_floor import noise_floor
+from identification.diagnosis.runs.played import together
 from identification.report.diagnose.report import report
 from identification.report.page import REPORT
 from identification.robot_file import with_parameter_set

@@ -15,7 +15,7 @@ from generator.resources import robots
 from generator.robot.readers import read
 from identification.simulation.machine import Machine, compiled
 from tests.chains import every_effect, random_robot
-from tests.diagnosed import Known, known
+from tests.diagnosis.diagnosed import Known, known
 from tests.elastic_links import robot_text
 from tests.plant.robots import ROBOTS
 from tests.subject import Subject, subject

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.bank import Bank
-from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.whitening import Colour
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.whitening import Colour
 
 Array = NDArray[np.float64]
 

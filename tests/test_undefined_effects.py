@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.commands import command
-from tests.diagnosed_arm import ARM, recorded, torque
+from tests.diagnosis.diagnosed_arm import ARM, recorded, torque
 from tests.recorded import Recorded
 
 #: A gas balancer whose chamber ends where the arm still moves.

@@ -18,12 +18,12 @@ from benchmarks.diagnosis_study.case import KNOWN, Case
 from benchmarks.diagnosis_study.runs import FITTED, NAMES
 from generator.robot.readers import read
 from identification.dataset import load
-from identification.diagnosis.bank import Variant
-from identification.diagnosis.evidence import Weighing
-from identification.diagnosis.loop import Search, search
-from identification.diagnosis.prepared import prepared
-from identification.diagnosis.priors import prior_of
-from identification.diagnosis.whitening import Colour
+from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.priors import prior_of
+from identification.diagnosis.columns.whitening import Colour
+from identification.diagnosis.runs.prepared import prepared
+from identification.diagnosis.search.evidence import Weighing
+from identification.diagnosis.search.loop import Search, search
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from tests.plant.robot_file import PRIOR

@@ -20,11 +20,11 @@ from generator.resources import find_robot
 from identification.extras import needing
 
 if TYPE_CHECKING:
+    from identification.diagnosis.columns.hypothesis import Hypothesis
     from identification.diagnosis.diagnosis import Diagnosis
-    from identification.diagnosis.finding import Told
-    from identification.diagnosis.hypothesis import Hypothesis
-    from identification.diagnosis.mending import Mended
-    from identification.diagnosis.where import Where
+    from identification.diagnosis.mending.mended import Mended
+    from identification.diagnosis.verdict.finding import Told
+    from identification.diagnosis.verdict.where import Where
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -77,7 +77,7 @@ def tested(new: Mended | None) -> list[str]:
     """Lines on the untouched runs."""
     if new is None:
         return []
-    from identification.diagnosis.played import together
+    from identification.diagnosis.runs.played import together
 
     lines = [f"note: {note}" for note in new.notes]
     for kind, played in (("before", new.before), ("after", new.after)):

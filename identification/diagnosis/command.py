@@ -15,14 +15,14 @@ from generator.writing import replace, replacing
 from identification import recipe as recipes
 from identification.dataset import Run, load
 from identification.destination import spare_inputs
-from identification.diagnosis import effort_rounding, noise_floor, torque_band
+from identification.diagnosis.columns.priors import notes_of, preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
-from identification.diagnosis.mending import GENERATED, Mended, mended
+from identification.diagnosis.mending.mended import GENERATED, Mended, mended
+from identification.diagnosis.noise import effort_rounding, noise_floor, torque_band
 from identification.diagnosis.plausibility import doubts
-from identification.diagnosis.prepared import Prepared, prepared
-from identification.diagnosis.priors import notes_of, preferring, prior_of
 from identification.diagnosis.results import document
-from identification.diagnosis.roles import roles
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.roles import roles
 from identification.observation import Regressors
 from identification.results import written
 

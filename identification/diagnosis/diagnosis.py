@@ -9,22 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
-from identification.diagnosis import few_rows, odd_run, remarks
-from identification.diagnosis.confirmation import confirmed
-from identification.diagnosis.contradiction import Contradicted, contradicted, note
-from identification.diagnosis.finding import Finding, findings
-from identification.diagnosis.homogeneity import disagreements
-from identification.diagnosis.hypothesis import Hypothesis
-from identification.diagnosis.lack_of_fit import CHANCE
-from identification.diagnosis.loop import Search, search
-from identification.diagnosis.normal import Prior
-from identification.diagnosis.prepared import Prepared
-from identification.diagnosis.roles import Roles
-from identification.diagnosis.scaling import taken_up
-from identification.diagnosis.steps import Steps, steps
-from identification.diagnosis.trial import along
-from identification.diagnosis.unexplained import NOT_JUDGED, unexplained
-from identification.diagnosis.where import Where, led, located, seen
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.normal_equations import Prior
+from identification.diagnosis.noise.lack_of_fit import CHANCE
+from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.runs.roles import Roles
+from identification.diagnosis.search.loop import Search, search
+from identification.diagnosis.search.scaling import taken_up
+from identification.diagnosis.verdict import few_rows, odd_run, remarks
+from identification.diagnosis.verdict.confirmation import confirmed
+from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, note
+from identification.diagnosis.verdict.finding import Finding, findings
+from identification.diagnosis.verdict.homogeneity import disagreements
+from identification.diagnosis.verdict.testing import along
+from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
+from identification.diagnosis.verdict.waterfall import Steps, steps
+from identification.diagnosis.verdict.where import Where, led, located, seen
 from identification.observation import Regressors
 
 Array = NDArray[np.float64]

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.normal import Prior
-from identification.diagnosis.prepared import Prepared, joined
+from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.residuals import Residual, Residuals
 from identification.suspicion import directed, ordered, suspect
 

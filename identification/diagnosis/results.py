@@ -7,12 +7,12 @@ from typing import Any
 from generator.version import VERSION
 from identification import outcome
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
-from identification.diagnosis.finding import Finding
-from identification.diagnosis.lack_of_fit import Lack
-from identification.diagnosis.mending import GENERATED, Mended
-from identification.diagnosis.noise_floor import noise_floor
-from identification.diagnosis.played import together
-from identification.diagnosis.where import Where
+from identification.diagnosis.mending.mended import GENERATED, Mended
+from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.noise.noise_floor import noise_floor
+from identification.diagnosis.runs.played import together
+from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.verdict.where import Where
 
 
 def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:

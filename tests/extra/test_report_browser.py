@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.diagnosed_arm import case
+from tests.diagnosis.diagnosed_arm import case
 from tests.extra.browser import document, visit
 from tests.reports import pages
 

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from generator.discovery import modules
 from identification.diagnosis import candidates
-from identification.diagnosis.hypothesis import Hypothesis
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.runs.scene import Scene
 
 
 def hypotheses(scenes: Sequence[Scene]) -> tuple[Hypothesis, ...]:

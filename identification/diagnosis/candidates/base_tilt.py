@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from generator.derivation import derive
 from generator.robot.description import Robot
 from generator.symbolic.model import Model
-from identification.diagnosis.hypothesis import BASE, Coefficient, Hypothesis
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import BASE, Coefficient, Hypothesis
+from identification.diagnosis.runs.scene import Scene
 from identification.observation import generated_module
 from identification.sidecar import Payload
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_opening
 
 from identification.corrections import NEVER
-from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import constants, coupling, motor_torques
 from identification.residuals import rms
 

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
-from identification.diagnosis.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import LinkSide, LinkSides, Train, rotor_is_told
-from identification.diagnosis.scene import Scene
-from identification.diagnosis.stated_elasticity import stated
-from identification.diagnosis.swings import DAMPING, alike, liveliest, stiffnesses, watched
-from identification.diagnosis.torque_band import end
+from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.noise.torque_band import end
+from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.runs.swings import DAMPING, alike, liveliest, stiffnesses, watched
 
 Array = NDArray[np.float64]
 

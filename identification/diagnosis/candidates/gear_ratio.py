@@ -14,9 +14,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis
-from identification.diagnosis.perturbation import scaled, sensitivity
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis
+from identification.diagnosis.runs.perturbation import scaled, sensitivity
+from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -12,12 +12,12 @@ from generator.effects.effect import BALANCER, Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.corrections import by_heat
-from identification.diagnosis.effect_columns import NEEDS, EffectColumns
-from identification.diagnosis.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.link_side import link_side, rotor_inertia
-from identification.diagnosis.orders import LOWEST, likely_orders
-from identification.diagnosis.scene import Scene
-from identification.diagnosis.warming import warm_up_times
+from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.orders import LOWEST, likely_orders
+from identification.diagnosis.columns.warming import warm_up_times
+from identification.diagnosis.runs.link_side import link_side, rotor_inertia
+from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Joint
-from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.runs.scene import Scene
 from identification.link_encoders import RECIPE, of_runs
 from identification.outcome import Value
 

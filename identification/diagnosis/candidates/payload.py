@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.symbolic.bodies import INERTIAL
-from identification.diagnosis.hypothesis import BODY, Hypothesis
-from identification.diagnosis.payload_body import COEFFICIENTS, PARAMETERS
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
+from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS
+from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
 

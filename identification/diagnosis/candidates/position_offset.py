@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
-from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.perturbation import change_of, sensitivity
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.runs.perturbation import change_of, sensitivity
+from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
 

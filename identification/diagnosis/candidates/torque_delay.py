@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint
 from identification.corrections import earlier
-from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.lateness import LONGEST, Lateness, delay_of, latenesses, torques
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.lateness import LONGEST, Lateness, delay_of, latenesses, torques
+from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.outcome import Value
 

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint
 from identification.corrections import by_heat
-from identification.diagnosis.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.scene import Scene
-from identification.diagnosis.warming import following, warm_up_times
+from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.warming import following, warm_up_times
+from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.residuals import rms
 

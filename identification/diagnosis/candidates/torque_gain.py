@@ -10,8 +10,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.hypothesis import SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from generator.effects.coupled_rotor import EFFECT
 from generator.effects.effect import Site
 from generator.robot.description import FIXED, Joint, Robot
-from identification.diagnosis.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.scene import Scene
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
 

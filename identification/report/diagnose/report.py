@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from identification.diagnosis.diagnosis import KNOWN, Diagnosis
-from identification.diagnosis.mending import Mended
+from identification.diagnosis.mending.mended import Mended
 from identification.report.diagnose import sections
 from identification.report.diagnose.subject import Subject
 from identification.report.page import page

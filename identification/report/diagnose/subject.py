@@ -8,9 +8,9 @@ from functools import cached_property
 
 from generator.quantities import signals
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.mending import Mended
-from identification.diagnosis.played import Played
-from identification.diagnosis.untouched import Untouched
+from identification.diagnosis.mending.mended import Mended
+from identification.diagnosis.mending.untouched import Untouched
+from identification.diagnosis.runs.played import Played
 from identification.report.titles import titles
 
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
-from identification.diagnosis.contradiction import Contradicted
+from identification.diagnosis.columns.hypothesis import on_joints
 from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
-from identification.diagnosis.finding import FIRM, Finding, Told
-from identification.diagnosis.hypothesis import on_joints
-from identification.diagnosis.lack_of_fit import CHANCE
-from identification.diagnosis.played import together
-from identification.diagnosis.unexplained import AMPLITUDES, VALUES
-from identification.diagnosis.where import Where
+from identification.diagnosis.noise.lack_of_fit import CHANCE
+from identification.diagnosis.runs.played import together
+from identification.diagnosis.verdict.contradiction import Contradicted
+from identification.diagnosis.verdict.finding import FIRM, Finding, Told
+from identification.diagnosis.verdict.unexplained import AMPLITUDES, VALUES
+from identification.diagnosis.verdict.where import Where
 from identification.report.diagnose.subject import Subject
 from identification.report.numbers import plain
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
-from identification.diagnosis.finding import Finding
+from identification.diagnosis.verdict.finding import Finding
 from identification.report.diagnose.subject import Subject
 from identification.report.diagnose.words import capitalised, chance, values
 from identification.report.numbers import number

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.review.markup import Markup, element, join
-from identification.diagnosis.views import View
+from identification.diagnosis.verdict.views import View
 from identification.report.chart import COLOURS, INK, MEASURED, Trace, axis, band, chart, line
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.review.markup import Content, Markup, element, join, table
-from identification.diagnosis.bank import Variant
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.diagnosis import LOCATED
-from identification.diagnosis.evidence import Evidence
+from identification.diagnosis.search.evidence import Evidence
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject
 from identification.report.diagnose.words import chance

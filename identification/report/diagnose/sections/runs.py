@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from generator.review.markup import Markup, element, join
 from identification import outcome
-from identification.diagnosis.prepared import Prepared
+from identification.diagnosis.runs.prepared import Prepared
 from identification.report.diagnose.subject import Subject
 from identification.report.runs_table import runs_table
 from identification.report.titles import titles

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
-from identification.diagnosis.noise_floor import density
+from identification.diagnosis.noise.noise_floor import density
 from identification.report.chart import ESTIMATED, MEASURED, RESIDUAL, axis, chart, line, log_axis
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject

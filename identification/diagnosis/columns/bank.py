@@ -1,0 +1,307 @@
+"""Every column that may explain the runs: the base parameters', the hypotheses', the torque; and their products.
+
+Numbers of columns are global: the p base parameters first, then the hypotheses' as they are tried; the torque is apart,
+without that of the payload which a run is known to carry.
+All that selection asks for is in the Gram matrices of white rows, one a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import Robot
+from identification.diagnosis.columns import stated_load
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, Key
+from identification.diagnosis.columns.normal_equations import bounded, lowered
+from identification.diagnosis.columns.whitening import Colour
+from identification.diagnosis.runs import stated_elasticity
+from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Part of a column's largest value on any joint below which it is zero on a joint.
+_NOTHING = 1e-9
+#: Part of the largest torque that is none, per unit of a coefficient.
+_ROUNDING = 1e-12
+#: Torque per unit from which a motion has run away.
+_ENDLESS = 1e30
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A hypothesis with one shape, the numbers of its columns, and the coordinates on which it acts.
+
+    ``used`` are the coefficients that the columns belong to: all, or those that bounds leave.
+    """
+
+    hypothesis: Hypothesis
+    shape: Mapping[str, float]
+    columns: tuple[int, ...]
+    joints: tuple[int, ...]
+    used: tuple[int, ...] = ()
+
+    @property
+    def key(self) -> Key:
+        """That of its hypothesis."""
+        return self.hypothesis.key
+
+    @property
+    def coefficients(self) -> tuple[Coefficient, ...]:
+        """Those of the columns."""
+        return tuple(self.hypothesis.coefficients[i] for i in self.used)
+
+    @property
+    def bounds(self) -> tuple[Array, Array]:
+        """Least and largest values of the coefficients (k each), infinite where free."""
+        lower = np.array([-np.inf if c.lower is None else c.lower for c in self.coefficients])
+        upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
+        return lower, upper
+
+    @property
+    def preset(self) -> Array | None:
+        """Its coefficients (k) where another fit than that of the columns tells them all; None where not."""
+        known = [value for one in self.coefficients if (value := self.hypothesis.preset_value(one.name)) is not None]
+        return np.array(known) if known and len(known) == len(self.columns) else None
+
+    def best(self, A: Array, b: Array, least: Array) -> tuple[Array, float]:
+        """Its coefficients by products A of its columns and b with the torque, ``bounded`` or preset, and by how much
+        they lower the sum of squares; columns count of whose squares the ``least`` (k) is left.
+        """
+        if self.preset is None:
+            return bounded(A, b, *self.bounds, least)
+        return self.preset, max(lowered(A, b, self.preset), 0.0)
+
+    def only(self, used: Sequence[int]) -> Variant:
+        """With some of its columns, by their places among them."""
+        return Variant(
+            self.hypothesis,
+            self.shape,
+            tuple(self.columns[i] for i in used),
+            self.joints,
+            tuple(self.used[i] for i in used),
+        )
+
+
+@dataclass
+class _Joint:
+    """Raw rows of one joint of one run: column numbers, rows (k x N), torque (N), kept rows, white rows once known."""
+
+    numbers: list[int]
+    rows: list[Array]
+    tau: Array
+    kept: NDArray[np.bool_]
+    white: Array = field(default_factory=lambda: np.empty((0, 0)))
+
+
+class Bank:
+    """Columns of several runs; ``scenes`` and ``runs`` in the same order.
+
+    ``nowhere`` are hypotheses by effect and joint that make no torque along the runs, and ``preset`` coefficients that
+    another fit than that of the columns tells, by the column's number.
+    """
+
+    def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
+        self.runs, self.scenes = tuple(runs), tuple(scenes)
+        regressors = scenes[0].regressors
+        self.base: tuple[str, ...] = (*regressors.names, *stated_elasticity.names(self.robot))
+        self.variants: list[Variant] = []
+        self._made: dict[tuple[object, ...], Variant | None] = {}
+        self._offered: set[tuple[object, ...]] = set()
+        self.nowhere: dict[tuple[str, int], Hypothesis] = {}
+        self.preset: dict[int, float] = {}
+        self.count = len(self.base)
+        self._joints: list[list[_Joint]] = []
+        self._colours: list[list[Colour]] = []
+        self.grams: list[Array] = []
+        for run, scene in zip(runs, scenes, strict=True):
+            tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
+            self._joints.append(
+                [
+                    _Joint([*rows], [*rows.values()], tau[k], run.kept[k])
+                    for k, rows in enumerate(base_rows(run.decimated, scene))
+                ]
+            )
+
+    @property
+    def robot(self) -> Robot:
+        """The robot that the runs are of."""
+        return self.scenes[0].robot
+
+    @property
+    def dof(self) -> int:
+        """n."""
+        return len(self._joints[0])
+
+    @property
+    def colours(self) -> tuple[tuple[Colour, ...], ...]:
+        """Of the noise of each run's joints; empty before ``whiten``."""
+        return tuple(tuple(one) for one in self._colours)
+
+    def values(self, solution: Array) -> dict[str, float]:
+        """Base parameters by name of a ``solution`` that begins with them, and what the file's elastic drive trains
+        have.
+        """
+        return stated_elasticity.moved(self.scenes[0].values, dict(zip(self.base, solution.tolist(), strict=False)))
+
+    def rows(self, run: int) -> Array:
+        """How many rows each joint of a run has (n)."""
+        return np.array([int(one.kept.sum()) for one in self._joints[run]])
+
+    @property
+    def shown(self) -> tuple[int, ...]:
+        """Coordinates of which some run has rows."""
+        rows = np.sum([self.rows(r) for r in range(len(self.runs))], axis=0)
+        return tuple(np.flatnonzero(rows).tolist())
+
+    def add(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool = True) -> Variant | None:
+        """Columns of a hypothesis with a shape, which is one of the ``variants`` if ``offered``; None where that is
+        impossible along a run or acts nowhere. What there is already is not made again.
+        """
+        key = (hypothesis.effect, hypothesis.joint, *sorted(shape.items()))
+        if key not in self._made:
+            self._made[key] = self._columns(hypothesis, shape, offered)
+        variant = self._made[key]
+        if offered and variant is not None and key not in self._offered:
+            self._offered.add(key)
+            self.variants.append(variant)
+        return variant
+
+    def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool) -> Variant | None:
+        per_run = []
+        for scene in self.scenes:
+            columns = made(hypothesis, scene, shape)
+            if columns is None:
+                return None
+            per_run.append(columns)
+        largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
+        if largest <= _ROUNDING * max(float(np.abs(run.tau).max(initial=0.0)) for run in self.runs):
+            if offered:
+                self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
+            return None
+        acts = [
+            j for j in range(self.dof) if max(np.abs(columns[:, j]).max() for columns in per_run) > _NOTHING * largest
+        ]
+        numbers = tuple(range(self.count, self.count + len(hypothesis.coefficients)))
+        self.count += len(numbers)
+        for number, one in zip(numbers, hypothesis.coefficients, strict=True):
+            if (value := hypothesis.preset_value(one.name)) is not None:
+                self.preset[number] = value
+        for r, (run, columns) in enumerate(zip(self.runs, per_run, strict=True)):
+            if self._colours:
+                self.grams[r] = _grown(self.grams[r], len(numbers))
+            for j in acts:
+                self._extend(r, j, numbers, run.decimated(columns[:, j]))
+        return Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
+
+    def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:
+        one = self._joints[run][joint]
+        one.numbers += numbers
+        one.rows += list(rows)
+        if self._colours:
+            white = self._colours[run][joint].white(rows, one.kept)
+            one.white = np.concatenate([one.white[:-1], white, one.white[-1:]])
+            at, new = np.array([*one.numbers, self.count]), np.array(numbers)
+            products = white @ one.white.T
+            old = len(at) - 1 - len(new)
+            self.grams[run][np.ix_(new, at)] += products
+            others = np.array([*range(old), len(at) - 1])
+            self.grams[run][np.ix_(at[others], new)] += products[:, others].T
+
+    def raw(self, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
+        """Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint, as recorded."""
+        one = self._joints[run][joint]
+        return one.numbers, np.asarray(one.rows), one.tau, one.kept
+
+    def columns(self, run: int, joint: int, numbers: Sequence[int]) -> Array:
+        """Some columns (k x N) of a joint, as recorded."""
+        one = self._joints[run][joint]
+        rows = [one.rows[one.numbers.index(number)] for number in numbers]
+        return np.stack(rows) if rows else np.empty((0, len(one.tau)))
+
+    def white(self, run: int, joint: int) -> tuple[list[int], Array]:
+        """Column numbers and white kept rows (k + 1 x N) of a joint, the torque the last."""
+        one = self._joints[run][joint]
+        return one.numbers, one.white
+
+    def power(self, weights: Mapping[int, float], joint: int, runs: Sequence[int]) -> float:
+        """Sum of squares of what columns by number, times their ``weights``, make on a joint in some runs, white."""
+        result = 0.0
+        for r in runs:
+            numbers, white = self.white(r, joint)
+            at = np.flatnonzero(np.isin(numbers, [*weights]))
+            torque = np.array([weights[numbers[i]] for i in at.tolist()]) @ white[at]
+            result += float(torque @ torque)
+        return result
+
+    def whiten(self, colours: Sequence[Sequence[Colour]]) -> None:
+        """Make all rows white, by the colour of each run's joints."""
+        self._colours = [list(one) for one in colours]
+        for joints, mine in zip(self._joints, colours, strict=True):
+            for joint, colour in zip(joints, mine, strict=True):
+                joint.white = colour.white(np.asarray([*joint.rows, joint.tau]), joint.kept)
+        self.grams = [self._gram(r) for r in range(len(self.runs))]
+
+    def residual(self, run: int, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
+        """What ``values`` of columns by number leave of a joint's torque: white kept rows, or all rows as recorded."""
+        one = self._joints[run][joint]
+        rows = one.white if white else np.asarray([*one.rows, one.tau])
+        weights = np.array([values.get(number, 0.0) for number in one.numbers])
+        return np.asarray(rows[-1] - weights @ rows[:-1])
+
+    def left(self, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
+        """The same of all runs, one after the other: kept rows, white or as recorded."""
+        rows = [self.residual(r, joint, values, white) for r in range(len(self.runs))]
+        if not white:
+            rows = [each[run.kept[joint]] for run, each in zip(self.runs, rows, strict=True)]
+        return np.concatenate(rows)
+
+    def _gram(self, run: int) -> Array:
+        """Products of all columns and the torque, the last one (count + 1 square)."""
+        gram = np.zeros((self.count + 1, self.count + 1))
+        for joint in self._joints[run]:
+            at = np.array([*joint.numbers, self.count])
+            gram[np.ix_(at, at)] += joint.white @ joint.white.T
+        return gram
+
+
+def made(hypothesis: Hypothesis, scene: Scene, shape: Mapping[str, float]) -> Array | None:
+    """Columns (k x n x N) of a hypothesis with a shape along a scene; None where the motion makes that impossible."""
+    # It shows in numbers that are not finite.
+    with np.errstate(all="ignore"):
+        columns = hypothesis.columns(scene, shape)
+    return columns if np.all(np.abs(columns) < _ENDLESS) else None
+
+
+def base_rows(decimated: Callable[[Array], Array], scene: Scene) -> list[dict[int, Array]]:
+    """Of each joint, the rows (N) of the base columns that act on it, ``decimated``, by number: the base parameters,
+    then the file's elastic drive trains.
+    """
+    regressors = scene.regressors
+    base, loaded = regressors.base(scene.motion), stated_load.columns(scene)
+    place = {name: number for number, name in enumerate(regressors.names)}
+    result = []
+    for names, columns in zip(regressors.structure, base, strict=True):
+        rows = dict(zip(map(place.__getitem__, names), decimated(columns), strict=True))
+        rows |= {place[name]: decimated(loaded[name]) for name in loaded.keys() & set(names)}
+        result.append(rows)
+    if stated_elasticity.names(scene.robot):
+        for number, column in enumerate(stated_elasticity.columns(scene), len(place)):
+            for rows, row in zip(result, column, strict=True):
+                if row.any():
+                    rows[number] = decimated(row)
+    return result
+
+
+def _grown(gram: Array, count: int) -> Array:
+    """With ``count`` more columns before the last one, zero."""
+    size = len(gram) - 1
+    result = np.zeros((size + count + 1, size + count + 1))
+    result[:size, :size] = gram[:-1, :-1]
+    result[:size, -1] = result[-1, :size] = gram[:-1, -1]
+    result[-1, -1] = gram[-1, -1]
+    return result

@@ -1,0 +1,145 @@
+"""Torque per unit of an effect's parameters along a run, from the effect's own equations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import casadi
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from generator.effects.effect import Effect, Site
+from generator.robot.description import Joint, Robot
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: What columns may be made of here.
+NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
+#: Steps a second in which states are integrated.
+_STEPS = 250.0
+#: Positions over a joint's limits at which lengths must be positive, and by how much [m].
+_STEPS_OVER, _ROOM = 200, 1e-4
+#: Slope times step below which (e^x - 1)/x is 1.
+_LINEAR = 1e-9
+#: What the rates of states are made of, by the names that they are printed with.
+_CASADI = {"Abs": casadi.fabs, "direction": casadi.sign, "exp": casadi.exp, "sqrt": casadi.sqrt, "tanh": casadi.tanh}
+
+
+class EffectColumns:
+    """``effect`` on ``joint``, coordinate ``k``; called with a scene and a shape it gives its columns (p x n x N).
+
+    The drives are as warm as the robot's file says, or by ``warm_up_time`` [s] of the shape.
+    """
+
+    def __init__(self, effect: Effect, joint: Joint, k: int, robot: Robot) -> None:
+        self._k, self._numbers = k, [one.number for one in robot.moving]
+        values = {shape.name: sympy.Symbol(f"shape_{shape.name}", positive=True) for shape in effect.shapes}
+        if "neutral" in values or "phi" in values:
+            values |= {n: sympy.Symbol(f"shape_{n}", real=True) for n in ("neutral", "phi") if n in values}
+        self._names = list(values)
+        self._site = Site(joint, values, _ratios(robot, k) if "motor" in effect.needs else {})
+        self._effect = effect
+        self._function: Callable[..., Any] | None = None
+        self._step: Any = None
+        self._by_count: dict[int, Any] = {}
+
+    def from_the_start(self, scene: Scene, shape: Mapping[str, float]) -> Array:
+        """Columns (2 p x n x N), and once more those of drives that are warm all along: what a file's values, which are
+        of another warmth than that at the start, lack everywhere.
+        """
+        return np.concatenate([self(scene, shape), self(scene, shape, warm=True)])
+
+    def __call__(self, scene: Scene, shape: Mapping[str, float], warm: bool = False) -> Array:
+        """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
+        limits in the robot's file.
+        """
+        if self._function is None:
+            self._prepare()
+        assert self._function is not None
+        values = [shape[name] for name in self._names]
+        states = [] if self._step is None else self._states(scene, values)
+        signals = self._signals(scene, shape.get("warm_up_time"), warm)
+        motion = scene.motion
+        result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
+        if self._positive is not None and np.min(self._positive(*values, self._anywhere(motion.q[self._k]))) < _ROOM:
+            return np.full_like(result, np.nan)
+        with np.errstate(invalid="ignore", over="ignore"):
+            found = self._function(*values, *signals, *states)
+        for (p, j), torque in zip(self._places, found, strict=True):
+            result[p, j] = torque
+        return result
+
+    def _prepare(self) -> None:
+        at, effect = self._site, self._effect
+        columns = effect.columns(at)
+        self._places = [(p, self._numbers.index(j)) for p, column in enumerate(columns) for j in column]
+        torques = [torque for column in columns for torque in column.values()]
+        inputs = [
+            *(at.values[name] for name in self._names),
+            *(sympy.Symbol(f"{stem}{number}", real=True) for stem in ("q", "qd", "qdd") for number in self._numbers),
+            at.load,
+            at.warmth,
+        ]
+        states = [at.state(one.stem) for one in effect.states]
+        self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
+        self._positive = None
+        if effect.positive is not None:
+            least = next(iter(effect.positive(at).values()))
+            self._positive = sympy.lambdify([*(at.values[name] for name in self._names), at.q], least, "numpy")
+        if effect.rates is not None:
+            self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
+
+    def _anywhere(self, q: Array) -> Array:
+        """Positions of a run, and all that the robot's file allows."""
+        lower, upper = self._site.joint.lower, self._site.joint.upper
+        if lower is None or upper is None:
+            return q
+        return np.append(q, np.linspace(float(lower), float(upper), _STEPS_OVER))
+
+    def _signals(self, scene: Scene, warm_up_time: float | None, warm: bool) -> list[Array]:
+        motion = scene.motion
+        known = "warmth" in self._effect.needs and not warm
+        warmth = scene.warmth(self._k, warm_up_time) if known else np.ones(1)
+        load = scene.load[self._k] if "load" in self._effect.needs else np.zeros(1)
+        return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
+
+    def _states(self, scene: Scene, values: list[float]) -> list[Array]:
+        """The effect's state, at first that of a long motion the same way."""
+        stride = max(1, int(1 / (scene.period * _STEPS)))
+        speed = scene.motion.qd[self._k, ::stride]
+        count = len(speed)
+        # What moved before the record began has come to its end.
+        start = float(np.sign(speed[0]))
+        given = np.array([*values, stride * scene.period])[:, None]
+        if count not in self._by_count:
+            self._by_count[count] = self._step.mapaccum("states", count)
+        _, z = self._by_count[count](start, speed[None], np.tile(given, count))
+        return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, z.full()[0])]
+
+
+def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Any:
+    """A casadi function of (z, speed, [values; h]): z a step h later, and now.
+
+    Exact where the rate f is linear in z: z + h f phi(h f'), phi = (e^x - 1)/x.
+    """
+    slope = sympy.diff(rate, state).subs(sympy.Derivative(sympy.sign(state), state), 0)
+    slope = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
+    # Printed as Python sign is a choice, which symbols do not make.
+    both = [one.replace(sympy.sign, sympy.Function("direction")) for one in (rate, slope)]
+    z, v, given = casadi.SX.sym("z"), casadi.SX.sym("v"), casadi.SX.sym("given", len(values) + 1)
+    *own, h = casadi.vertsplit(given)
+    f, of_z = sympy.lambdify([*values, speed, state], both, [_CASADI], cse=True)(*own, v, z)
+    # At zero a power of |z| has no slope; a step there is Euler's.
+    x = casadi.if_else(z == 0, 0, h * of_z)
+    linear = casadi.fabs(x) <= _LINEAR
+    phi = casadi.if_else(linear, 1, casadi.expm1(x) / casadi.if_else(linear, 1, x))
+    return casadi.Function("step", [z, v, given], [z + h * f * phi, z])
+
+
+def _ratios(robot: Robot, k: int) -> dict[int, sympy.Rational]:
+    assert robot.drives is not None
+    pairs = zip(robot.moving, robot.drives.coupling[k], strict=True)
+    return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}

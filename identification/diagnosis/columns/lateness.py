@@ -1,0 +1,190 @@
+"""How late torques are recorded: the rows of each motor fitted by themselves at every delay.
+
+What swings is another torque a quarter of its period later, and a model fitted without the delay has too little of it:
+neither tells the delay. Fitted at the right one a motor's rows leave least, whatever it swings by. What is known of
+parameters beforehand is not asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from identification.colour import inflation
+from identification.diagnosis.columns.bank import base_rows
+from identification.diagnosis.runs.prepared import window, windowed
+from identification.diagnosis.runs.scene import Scene
+from identification.drive_train import coupling, supplied
+from identification.outcome import Value
+
+Array = NDArray[np.float64]
+
+#: Longest delay [s] either way that a drive's sampling explains, and the part of the shortest run that it may be.
+LONGEST, _OF_RUN = 0.1, 0.05
+#: Delays that are tried are so far apart [s], and one is told to such a part of that.
+_STEP, _TOLD = 1e-3, 0.1
+#: What a delay must leave of the sum of squares to be told by it.
+_LESS = 0.8
+#: Of a delay of several motors: how many must tell it, what it leaves of the squares of each that does, and its least
+#: part of what delays of their own would explain.
+_SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
+#: Difference of cost that is chance, in parts of the square root of the rows.
+_CHANCE = 4.0
+#: Least rows for each base parameter, and least singular value of scaled columns.
+_ROWS, _RANK = 5, 1e-6
+#: Part of a torque's square that is rounding.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Lateness:
+    """Of one motor's ``rows``: ``values`` (p x D) of the base parameters ``names``, and the sums of squares ``left``
+    (D), where its torque is late by ``delays`` [s] (D). What the best one leaves tells of it as white rows would of
+    ``colour`` times the variance.
+    """
+
+    delays: Array
+    names: tuple[str, ...]
+    values: Array
+    left: Array
+    rows: int
+    colour: float
+
+    @property
+    def cost(self) -> Array:
+        """Twice the negative logarithm of the likelihood (D), but for a constant: the noise's power is not known."""
+        return np.asarray(self.rows * np.log(self.left))
+
+    def at(self, delay: float) -> dict[str, float]:
+        """Base parameters by name, where the torque is late by ``delay`` [s]."""
+        pairs = zip(self.names, self.values, strict=True)
+        return {name: float(np.interp(delay, self.delays, row)) for name, row in pairs}
+
+
+def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
+    """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does, or it is not
+    one of several motors.
+    """
+    known = [one for one in among if one is not None]
+    if not known:
+        return None
+    delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
+    least = _nearest(delays - start, cost, sum(one.rows for one in known))
+    now = np.array([np.interp(start, delays, one.cost) for one in known])
+    gains = now - [one.cost[least] for one in known]
+    most = np.sum(now - [one.cost.min() for one in known])
+    telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
+    enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most)
+    if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
+        return None
+    # Squares bend as those of a sine do; their logarithm has a sharper tip.
+    squares = np.array([one.rows * one.left[least - 1 : least + 2] / one.left[least] for one in known])
+    (before, _, after), bends, step = squares.sum(axis=0), np.diff(squares, 2)[:, 0], delays[1] - delays[0]
+    if not bends.sum() > 0:
+        return None
+    delay = delays[least] + step * (before - after) / (2 * bends.sum())
+    variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
+    return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
+
+
+def _nearest(beyond: Array, cost: Array, rows: int) -> int:
+    """Of the delays that leave least nearby, and whose ``cost`` is the least but for chance, the place of the shortest.
+
+    Those that are a period of a swing apart see other noise: what they cost differs by it. Of few rows all would be
+    chance; half of the least that a delay must leave is none.
+    """
+    chance = min(_CHANCE * np.sqrt(rows), -np.log(_LESS) / 2 * rows)
+    inner = np.flatnonzero((cost[1:-1] <= cost[:-2]) & (cost[1:-1] <= cost[2:])) + 1
+    among = [k for k in inner.tolist() if cost[k] - cost.min() < chance]
+    return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
+
+
+def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
+    """Of each motor along the runs; None where rows are too few."""
+    last = int(min(LONGEST, _OF_RUN * min(scene.motion.samples * scene.period for scene in scenes)) / _STEP)
+    delays: Array = _STEP * np.arange(-last, last + 1, dtype=float)
+    runs = [_Run(scene, delays) for scene in scenes]
+    return [_fitted(delays, runs, k) for k in range(len(scenes[0].robot.moving))]
+
+
+def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float], motors: Sequence[int]) -> Array:
+    """Torques along the motion (n x N) [N m, N], before each motor's of ``delays`` [s] (n): of some ``motors`` by the
+    fit of their ``late`` rows at it, of the others and of those without such rows by the model.
+    """
+    tau = scene.torque.copy()
+    for k in motors:
+        if (one := late[k]) is not None:
+            own = scene.torque_of({**scene.values, **one.at(delays[k])}, scene.motion)
+            tau += supplied(scene.robot, k, own - scene.model_torque)
+    return tau
+
+
+def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:
+    names = runs[0].names(k)
+    if not names:
+        return None
+    W, Y = (np.concatenate(parts, axis=1) for parts in zip(*(run.rows(k) for run in runs), strict=True))
+    count = W.shape[1]
+    if count < _ROWS * len(W) or not Y.any():
+        return None
+    size = np.linalg.norm(W, axis=1)
+    size[size == 0] = 1.0
+    left, values, right = np.linalg.svd(W / size[:, None], full_matrices=False)
+    seen = values > _RANK * values.max()
+    parts = right[seen] @ Y.T
+    solution = (left[:, seen] / values[seen]) @ parts / size[:, None]
+    power = np.sum(Y**2, axis=1)
+    squares = np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max())
+    best = int(np.argmin(squares))
+    colour = inflation(Y[best] - parts[:, best] @ right[seen])
+    return Lateness(delays, names, solution, squares, count, colour)
+
+
+class _Run:
+    """Rows of a run beside its torque taken earlier by every one of ``delays``."""
+
+    def __init__(self, scene: Scene, delays: Array) -> None:
+        self._scene, factor = scene, scene.sampled.filters.factor
+        self._base = base_rows(partial(windowed, factor=factor), scene)
+        shifts = delays / scene.period
+        out = windowed(scene.sampled.left_out.astype(float), factor) > 0
+        at = factor * np.arange(1, out.shape[1] + 1)
+        inside = (at + shifts[0] >= factor) & (at + shifts[-1] < scene.motion.samples - factor)
+        self._kept = ~out & inside
+        self._at = at, shifts
+        #: Of the joints' torques in each motor's (n x n).
+        self._share = np.linalg.inv(coupling(scene.robot).T)
+        # What acts beside the model is along the motion, which is not late.
+        self._beside = windowed(scene.carried(scene.motion) + scene.torque - scene.model_torque, factor)
+
+    def names(self, k: int) -> tuple[str, ...]:
+        """Of the base parameters of a motor's rows."""
+        return tuple(self._scene.regressors.names[number] for number in self._numbers(k))
+
+    def rows(self, k: int) -> tuple[Array, Array]:
+        """Kept rows of the base columns of motor k (p x N) and of its torque by each delay (D x N) [N m, N]."""
+        at, shifts = self._at
+        kept = self._kept[self._driven(k)].all(axis=0)
+        none = np.zeros(len(at))
+        W = np.array(
+            [
+                sum(self._share[k, j] * self._base[j].get(number, none) for j in self._driven(k))
+                for number in self._numbers(k)
+            ]
+        )
+        tau = np.convolve(self._share[k] @ self._scene.sampled.tau, window(self._scene.sampled.filters.factor), "same")
+        earlier = CubicSpline(np.arange(len(tau)), tau)(at[kept] + shifts[:, None])
+        return W[:, kept], earlier - (self._share[k] @ self._beside)[kept]
+
+    def _driven(self, k: int) -> list[int]:
+        return np.flatnonzero(self._share[k]).tolist()
+
+    def _numbers(self, k: int) -> list[int]:
+        """Of the base parameters that its torque depends on, without the file's drive trains."""
+        count = len(self._scene.regressors.names)
+        return sorted({number for j in self._driven(k) for number in self._base[j] if number < count})

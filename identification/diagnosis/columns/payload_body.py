@@ -1,0 +1,28 @@
+"""What the runs tell of a payload: its mass, first moments, and inertia about the origin of the tool's frame.
+
+Ten inertial parameters are often more than a run tells. What its weight and its swing show first are M, MX, MY and MZ;
+of its inertia first one number I, the same about all axes, and what differs from that only where the runs ask for it:
+far from the flange no body is round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from identification.diagnosis.columns.hypothesis import Coefficient
+
+#: Those of a payload [SI].
+COEFFICIENTS = (
+    Coefficient("M", "kg", 0.0),
+    Coefficient("MX", "kg m"),
+    Coefficient("MY", "kg m"),
+    Coefficient("MZ", "kg m"),
+    Coefficient("I", "kg m2", 0.0),
+    *(Coefficient(name, "kg m2", refines=True) for name in ("XX-I", "YY-I", "XY", "XZ", "YZ")),
+)
+
+#: Those that are not called as the one inertial parameter, in the tool frame, of which they are so much.
+_OTHERS = {"I": ("XX", "YY", "ZZ"), "XX-I": ("XX",), "YY-I": ("YY",)}
+
+#: Inertial parameters, in the tool frame, of each of which a coefficient is so much, by the coefficient's name.
+PARAMETERS: Mapping[str, tuple[str, ...]] = {one.name: _OTHERS.get(one.name, (one.name,)) for one in COEFFICIENTS}

@@ -1,0 +1,37 @@
+"""How fast drives get warm where the robot's file does not say: time constants that runs can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.columns.hypothesis import ShapeRange
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
+_SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
+#: How many are held against another warmth.
+_TIMES = 60
+
+
+def warm_up_times(scenes: Sequence[Scene]) -> ShapeRange:
+    """The time constant T [s] of a warmth 1 - exp(-t/T) since the recordings began."""
+    duration = max(float(scene.sampled.run.elapsed[-1]) for scene in scenes)
+    shortest = max(_SHORTEST * duration, _QUICK)
+    return ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * duration, 2 * shortest))
+
+
+def following(k: int, scenes: Sequence[Scene], warmths: Sequence[Array]) -> float:
+    """The time constant T [s] by which the drive of coordinate ``k`` gets warm most as ``warmths`` (N each) say."""
+
+    def off(T: float) -> float:
+        pairs = zip(scenes, warmths, strict=True)
+        return float(sum(np.sum((scene.warmth(k, T) - other) ** 2) for scene, other in pairs))
+
+    time = warm_up_times(scenes)
+    tried: list[float] = np.geomspace(time.low, time.high, _TIMES).tolist()
+    return min(tried, key=off)

@@ -1,0 +1,161 @@
+"""From what was found to a robot file that holds it: written, refitted, regenerated, played against untouched runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from generator.generation import Stage, silent
+from generator.robot.description import Robot
+from generator.writing import replace
+from identification import recipe as recipes
+from identification.diagnosis.columns.hypothesis import BODY, ELASTIC
+from identification.diagnosis.columns.normal_equations import Prior
+from identification.diagnosis.columns.priors import preferring, prior_of
+from identification.diagnosis.diagnosis import Diagnosis
+from identification.diagnosis.mending.addition import Addition, addition, measured
+from identification.diagnosis.mending.changes import difference, groupings_difference
+from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
+from identification.diagnosis.mending.flexible_set import flexible_set
+from identification.diagnosis.mending.refit import SET, Refit, refit, with_payload
+from identification.diagnosis.mending.repair import repaired
+from identification.diagnosis.mending.untouched import Untouched, objections, untouched
+from identification.diagnosis.mending.writable import loaded, writable
+from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.verdict.finding import Finding
+from identification.observation import Regressors
+from identification.robot_file import with_parameter_set
+from identification.sampling import Sampled
+
+#: Folder of the regenerated code, beside the new robot file.
+GENERATED = "generated"
+_TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mended:
+    """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
+
+    ``before`` and ``after`` are the test runs as the old and the new model play them, ``tried`` what that says of each
+    joint, by its number; ``file_difference`` and ``groupings_difference`` are unified diffs.
+    """
+
+    text: str
+    robot: Robot
+    additions: tuple[Addition, ...]
+    fit: Refit
+    before: tuple[Played, ...]
+    after: tuple[Played, ...]
+    tried: Mapping[int, Untouched]
+    file_difference: str
+    groupings_difference: str
+    generated: Path
+    notes: tuple[str, ...]
+
+
+def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage: Stage = silent) -> Mended:
+    """The robot file ``path`` with the findings of a diagnosis in it, written to ``folder``, its code beside it.
+
+    With a ``prior`` set the old model plays with that set and the new parameters stay near it; without, both are
+    fitted to the runs that the diagnosis fitted and validated with.
+
+    Raises InputError where ``folder`` cannot be written.
+    """
+    name = f"{found.robot.name}.yaml"
+    old_text = path.read_text(encoding="utf-8-sig")
+    bank, aside = found.search.bank, measured(found.search.offered)
+    wanted = [*map(_addition, found.findings)]
+    additions, unwritten = writable(old_text, name, [*wanted, *aside], found.roles, bank.scenes)
+    new = repaired(old_text, name, additions)
+    written = [finding for finding, one in zip(found.findings, wanted, strict=True) if one in additions]
+    old_regressors = bank.scenes[0].regressors
+    regressors = Regressors(preferring(new.robot, prior))
+    with stage("fitting the parameters with what was found"):
+        known = None if prior is None else _prior(prior, regressors, written)
+        said, unused = _description(written), _unused(written)
+        fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, unused)
+        if prior is None:
+            values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
+        else:
+            mean = prior_of(old_regressors.model, prior).mean.tolist()
+            values = dict(zip(old_regressors.names, mean, strict=True))
+    text, sets = _with_sets(new.text, fit, additions)
+    replace(folder, {name: text.encode()})
+    player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
+    with stage("playing the untouched runs"):
+        before = _played(found.roles.test, Player(old_regressors), values)
+        after = _played(found.roles.test, player, fit.written)
+        pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
+        before, after = (tuple(played) for played in zip(*pairs, strict=True))
+    elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
+    tried = untouched(bank, before, after)
+    stated_aside = [one.evidence for one in aside if one in additions]
+    told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes, *objections(tried, elastic)]
+    return Mended(
+        text=text,
+        robot=new.robot,
+        additions=tuple(additions),
+        fit=fit,
+        before=before,
+        after=after,
+        tried=tried,
+        file_difference=difference(old_text, text, name),
+        groupings_difference=groupings_difference(old_regressors.model, regressors.model),
+        generated=Path(GENERATED, found.robot.name),
+        notes=tuple(dict.fromkeys(told)),
+    )
+
+
+def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
+    """The file with the new parameters, once more for elastic drive trains where some are; and what is to be told."""
+    text = with_parameter_set(text, fit.parameter_set)
+    model, found = fit.regressors.model, {key: value for one in additions for key, value in one.parameters.items()}
+    # A set of an earlier diagnosis would be of other parameters.
+    if not found and FLEXIBLE not in model.robot.parameter_sets:
+        return text, []
+    return with_parameter_set(text, flexible_set(model, fit.parameter_set, found)), [_TWO_SETS]
+
+
+def _addition(one: Finding) -> Addition:
+    values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
+    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
+
+
+def _unused(found: Sequence[Finding]) -> list[str]:
+    """Coefficients that would refine what was found, for which the runs do not ask."""
+    return [
+        c.name for one in found for c in one.hypothesis.coefficients if c.refines and not one.parameters[c.name].std
+    ]
+
+
+def _description(found: Sequence[Finding]) -> str:
+    titles = ", ".join(dict.fromkeys(one.hypothesis.title for one in found))
+    return f"base parameters with {titles}" if titles else "base parameters, nothing missing"
+
+
+def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior:
+    """What the set says of the new model's base parameters, with a payload that was found."""
+    prior = prior_of(regressors.model, name)
+    for one in found:
+        if one.hypothesis.kind == BODY:
+            values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
+            prior = with_payload(prior, regressors, values, {key: one.parameters[key].std for key in values})
+    return prior
+
+
+def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
+    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
+    robot = regressors.model.robot
+    for run in loaded(sources, robot):
+        yield prepared(run, recipes.recipe_of(robot.name), regressors)
+
+
+def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
+    return [one.sampled for one in _prepared(sources, regressors)]
+
+
+def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
+    return tuple(play(one, player, values) for one in _prepared(sources, player.regressors))

@@ -1,0 +1,199 @@
+"""The parameters of the repaired robot: all base parameters anew from the fitted runs, near what was known of them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import ParameterSet, ParameterValue
+from generator.symbolic.bodies import INERTIAL
+from identification.colour import inflation
+from identification.diagnosis.columns.normal_equations import Normal, Prior
+from identification.diagnosis.columns.payload_body import PARAMETERS
+from identification.factors import Factor, added
+from identification.least_squares import Problem, Solution
+from identification.observation import Motion, Regressors
+from identification.observed import Observed
+from identification.own_load import under_own_load
+from identification.sampling import Sampled
+
+Array = NDArray[np.float64]
+
+#: Name of the set in the robot file.
+SET = "diagnosed"
+#: Times that the rows are weighed by what the last fit left of them.
+_PASSES = 6
+#: Least residual [N m, N] by which rows are weighed: its square is a number.
+_TINY = 1e-150
+#: Samples at which a payload is compared with base parameters.
+_SAMPLES = 80
+
+
+@dataclass(frozen=True)
+class Refit:
+    """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
+
+    What the runs do not show has an infinite standard deviation, a value that only serves their torques, and no place
+    in the set. ``regressors`` are those with the load that the parameters make.
+    """
+
+    values: Mapping[str, float]
+    std: Mapping[str, float]
+    parameter_set: ParameterSet
+    regressors: Regressors
+    notes: tuple[str, ...]
+
+    @property
+    def written(self) -> dict[str, float]:
+        """The base parameters as the set tells them, 0 where it leaves them out: what the robot file plays with."""
+        told = self.parameter_set.values
+        return {name: told[name].value if name in told else 0.0 for name in self.values}
+
+
+def refit(
+    runs: Sequence[Sampled],
+    regressors: Regressors,
+    prior: Prior | None = None,
+    description: str = "",
+    zero: Collection[str] = (),
+) -> Refit:
+    """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
+
+    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``zero`` are base
+    parameters that are none.
+    """
+    known = {
+        one.run.payload.names()[stem]: value
+        for one in runs
+        if one.run.payload is not None
+        for stem, value in one.run.payload.known.items()
+    }
+    payloads = [name for one in runs if one.run.payload is not None for name in one.run.payload.names().values()]
+    sought = [name not in zero for name in regressors.names]
+    known |= {name: 0.0 for name, one in zip(regressors.names, sought, strict=True) if not one}
+    free = tuple(dict.fromkeys(name for name in (*regressors.names, *payloads) if name not in known))
+    near = None if prior is None else prior.only(np.flatnonzero(sought))
+
+    def fit(factors: tuple[Factor, ...]) -> Solution:
+        solution = Problem(factors, free, known, weighted=True).solve()
+        return solution if near is None else _near(near, factors, solution)
+
+    regressors, notes = under_own_load(runs, regressors, fit)
+    observed = [Observed(one, regressors) for one in runs]
+    factors = added([factor for one in observed for factor in one.factors])
+    solution = _coloured(fit(factors), factors, observed)
+    values = {name: solution.values[name] for name in regressors.names}
+    std = {name: solution.std(name) for name in regressors.names}
+    hidden = [name for name in regressors.names if name in solution.hidden]
+    if hidden:
+        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")
+    names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
+    how = "least squares" if prior is None else "least squares near what was known"
+    written = ParameterSet(
+        SET,
+        description or "base parameters with what the diagnosis found",
+        f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
+        _values(regressors, values, std, solution),
+    )
+    return Refit(values, std, written, regressors, tuple(notes))
+
+
+def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, float], std: Mapping[str, float]) -> Prior:
+    """What is known of the base parameters once the last body carries a payload, and how well.
+
+    ``payload`` holds coefficients of ``payload_body`` [SI].
+    """
+    to_base = _payload_in_base(regressors)
+    for name, value in payload.items():
+        direction = np.sum([to_base[:, INERTIAL.index(stem)] for stem in PARAMETERS[name]], axis=0)
+        prior = prior.shifted(direction, value, std.get(name, 0.0))
+    return prior
+
+
+def _payload_in_base(regressors: Regressors) -> Array:
+    """Base parameters per inertial parameter of a body in the tool frame (p x 10), by their torques."""
+    shape = (regressors.model.dof, _SAMPLES)
+    rng = np.random.default_rng(1)
+    motion = Motion(*(rng.uniform(-1.5, 1.5, shape) for _ in range(3)))
+    place = {name: k for k, name in enumerate(regressors.names)}
+    W = np.zeros((*shape, len(place)))
+    for row, names, columns in zip(W, regressors.structure, regressors.base(motion), strict=True):
+        row[:, [place[name] for name in names]] = columns.T
+    body = np.stack([columns.T for columns in regressors.payload(motion)])
+    solution = np.linalg.lstsq(W.reshape(-1, len(place)), body.reshape(-1, len(INERTIAL)), rcond=None)[0]
+    return np.asarray(solution, dtype=float)
+
+
+def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
+    """The solution with the prior's rows, each joint's rows weighed by what is left of them.
+
+    Where the runs contradict what was known, that was known less well by as much (Birge's ratio).
+    """
+    whole = prior.beside([0.0] * (len(start.names) - len(prior.mean)))
+    given = {name: value for name, value in start.values.items() if name not in start.names}
+    result, sigma = start, dict(start.sigma)
+    shown = [one for one in factors if one.rows]
+    width = 1.0
+    for _ in range(_PASSES):
+        gram = np.zeros((len(start.names) + 1,) * 2)
+        for one in shown:
+            R = one.on(start.names)
+            R[:, -1] -= one.on(tuple(given))[:, :-1] @ np.array(list(given.values()))
+            gram += R.T @ R / sigma[one.joint] ** 2
+        rows = sum(one.rows for one in shown)
+        known = Prior(whole.mean, whole.precision / width)
+        chi, covariance = Normal(gram, len(start.names), rows, known).solution([])
+        away = chi - whole.mean
+        spread = float(away @ whole.precision @ away) + float(np.sum(whole.precision * covariance))
+        width = max(spread / max(int(whole.known.sum()), 1), 1.0)
+        values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
+        sigma = sigma | {one.joint: max(one.residual(values) / np.sqrt(one.rows), _TINY) for one in shown}
+        unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)
+        hidden = tuple(name for name in start.hidden if name in unknown)
+        result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
+    return result
+
+
+def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[Observed]) -> Solution:
+    """The solution with the covariance that errors as coloured as the residuals leave, joint by joint."""
+    C, colours = solution.covariance, _colours(solution.values, observed)
+    more = np.zeros_like(C)
+    for one in factors:
+        R = one.on(solution.names)[:, :-1] / solution.sigma[one.joint]
+        more += (colours[one.joint] - 1) * R.T @ R
+    return replace(solution, covariance=C + C @ more @ C)
+
+
+def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[int, float]:
+    """By how much the colour of each joint's residuals inflates variances, each run's own by its power."""
+    power: dict[int, float] = defaultdict(float)
+    coloured: dict[int, float] = defaultdict(float)
+    for run in observed:
+        errors: dict[int, list[Array]] = defaultdict(list)
+        for one in run.rows():
+            errors[one.joint].append(one.Y - one.W @ [values[name] for name in one.names])
+        for joint, parts in errors.items():
+            e = np.concatenate(parts)
+            power[joint] += float(e @ e)
+            coloured[joint] += float(e @ e) * inflation(e)
+    return {joint: coloured[joint] / size if size else 1.0 for joint, size in power.items()}
+
+
+def _values(
+    regressors: Regressors,
+    values: Mapping[str, float],
+    std: Mapping[str, float],
+    solution: Solution,
+) -> dict[str, ParameterValue]:
+    result = {}
+    for parameter in regressors.model.parameters:
+        name = parameter.name
+        if name in values and name not in solution.hidden:
+            relative = 100 * std[name] / abs(values[name]) if values[name] else None
+            result[name] = ParameterValue(values[name], parameter.unit, relative)
+    return result

@@ -1,0 +1,82 @@
+"""What the runs that were not fitted say of the old and the new model, and how far both are from the noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.noise.noise_floor import noise_floor
+from identification.diagnosis.runs.played import Played, together
+from identification.residuals import Residual
+
+#: Least gap to the noise, in squares of the residual, of which a share is told.
+_GAP = 0.25
+#: How much more of a joint a model must leave to be worse; and how much more than noise, to lack something, in its rms.
+_WORSE, _LACKING = 1.05, 2.0
+
+
+@dataclass(frozen=True)
+class Untouched:
+    """A joint of the untouched runs: residual of the model before and of the one after, rms of noise [N m, N]."""
+
+    before: Residual
+    after: Residual
+    floor: float
+
+    @property
+    def relative_floor(self) -> float:
+        """What noise alone would leave, in % of the torque's spread."""
+        return 100 * self.floor * float(np.sqrt(self.before.rows)) / self.before.spread if self.before.spread else 0.0
+
+    @property
+    def closed(self) -> float | None:
+        """The share of the gap between ``before`` and the noise that is closed, in squares of parts of the torque's
+        spread, which a gain changes too; None without a gap.
+        """
+        before, after = (one.relative_to_mean**2 for one in (self.before, self.after))
+        gap = before - self.relative_floor**2
+        return (before - after) / gap if gap > _GAP * before else None
+
+
+def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> dict[int, Untouched]:
+    """By the joint's number, all runs together; joints without rows are left out, and those of which ``bank`` has none.
+
+    The noise is that of the runs in ``bank``, at the rate of these rows.
+    """
+    old, new = together(before).per_joint, together(after).per_joint
+    return {
+        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, after[0].rate))
+        for k, joint in enumerate(bank.robot.moving)
+        if old[k].rows and new[k].rows and k in bank.shown
+    }
+
+
+def objections(tried: Mapping[int, Untouched], elastic: bool = False) -> list[str]:
+    """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
+
+    A share is that of the torque's spread. Of a robot with ``elastic`` joints a rigid model leaves more than noise,
+    on the other joints too, which the links' inertia couples with them.
+    """
+    worse = [
+        f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
+        for number, one in tried.items()
+        if one.after.relative_to_mean > _WORSE * one.before.relative_to_mean
+    ]
+    lacking = [
+        f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
+        for number, one in tried.items()
+        if not elastic and one.after.relative_to_mean > _LACKING * one.relative_floor
+    ]
+    notes = []
+    if worse:
+        notes.append(f"the new model explains the untouched runs less well on {', '.join(worse)}")
+    if lacking:
+        where = ", ".join(lacking)
+        notes.append(
+            f"the untouched runs keep far more than noise on {where}: the model lacks more than was found, or they show"
+            " what the others did not"
+        )
+    return notes

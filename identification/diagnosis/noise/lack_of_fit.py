@@ -1,0 +1,151 @@
+"""How much of a joint's residual no noise explains: between repetitions, or beyond the noise's power; and events.
+
+Where a motion repeats, what the periods of the residual have in common is what the model lacks, and what differs is
+noise (an F test). Along runs that do not repeat the residual's power is compared with that of the noise, which is
+weaker: the noise was measured on the same rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+from scipy.stats import chi2, f
+
+from identification.diagnosis.runs.prepared import Prepared
+
+Array = NDArray[np.float64]
+
+#: Chance below which more than noise is left.
+CHANCE = 1e-4
+#: Size from which it is told from noise; where nothing repeats, nor follows the motion, the noise is not known apart
+#: from the model.
+_SMALL, _APERIODIC = 0.2, 0.5
+#: Rows of a burst that is looked for.
+_BURST = 10
+#: Degrees of freedom between periods from which they are compared.
+_COMPARED = 50
+#: By how much an event must stand out of the rest of the residual, in parts of its mean power.
+_OUTSTANDING = 12.0
+#: By how much an event's power is above that of what may come late at the time.
+_BEYOND = 4.0
+
+
+@dataclass(frozen=True)
+class Lack:
+    """Of a joint: the part ``size`` of the noise's rms that the model leaves unexplained, ratio and p-value.
+
+    ``ratio`` is 1 when the model is right. ``repeats`` tells whether periods were compared; ``follows`` what of the
+    motion it follows, where that was compared with the rest. ``burst`` is the time [s] and run of an event that happens
+    once, None without one.
+    """
+
+    joint: int
+    ratio: float
+    p: float
+    size: float
+    repeats: bool
+    burst: tuple[str, float] | None = None
+    follows: str = ""
+
+    @property
+    def part(self) -> float:
+        """The size in parts of that from which it is told from noise; 0 where it may be chance."""
+        known = self.repeats or self.follows
+        return self.size / (_SMALL if known else _APERIODIC) if self.p < CHANCE else 0.0
+
+    @property
+    def told(self) -> bool:
+        """Whether it is told from noise."""
+        return self.part > 1
+
+    @property
+    def hardly(self) -> bool:
+        """Whether it is beyond chance, and told from noise if only that were known apart from the model."""
+        return self.p < CHANCE and self.size > _SMALL and not self.told
+
+
+def lack_of_fit(
+    runs: Sequence[Prepared],
+    residuals: Sequence[Array],
+    k: int,
+    number: int,
+    late: Sequence[Array] | None = None,
+    rounded: float = 0.0,
+) -> Lack:
+    """Of the residuals of coordinate k, joint ``number``: kept rows, one a run; noise in them is white with power 1.
+
+    ``late`` are the same rows of what may come a little late: swings that were found of elastic drive trains, and jumps
+    of the torque between two samples. What they leave then is no event of its own. ``rounded`` is the part of the
+    noise's power that periods have in common, since it is rounding of positions and efforts.
+    """
+    common, differing, phases, freedom, repeats = 0.0, 0.0, 0, 0, 0.0
+    for run, e in zip(runs, residuals, strict=True):
+        if not run.period:
+            continue
+        phase = np.flatnonzero(run.kept[k]) % run.period
+        count = np.bincount(phase, minlength=run.period)
+        mean = np.bincount(phase, weights=e, minlength=run.period) / np.maximum(count, 1)
+        twice = count > 1
+        common += float(count[twice] @ mean[twice] ** 2)
+        inside = twice[phase]
+        differing += float(((e - mean[phase])[inside] ** 2).sum())
+        phases += int(twice.sum())
+        freedom += int(inside.sum()) - int(twice.sum())
+        repeats += float(count[twice].sum())
+    burst = _burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
+    if not phases or freedom <= _COMPARED:
+        return _powerful(residuals, number, burst)
+    ratio = (common / phases) / max(differing / freedom + rounded, 1e-300)
+    size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
+    compared = Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
+    others = [e for run, e in zip(runs, residuals, strict=True) if not run.period]
+    return max(compared, _powerful(others, number, burst), key=lambda one: one.part)
+
+
+def _powerful(residuals: Sequence[Array], number: int, burst: tuple[str, float] | None) -> Lack:
+    """Of the power of white residuals against that of the noise."""
+    rows = sum(len(e) for e in residuals)
+    power = sum(float(e @ e) for e in residuals)
+    ratio = power / max(rows, 1)
+    p = float(chi2.sf(power, rows)) if rows else 1.0
+    return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, burst)
+
+
+def _burst(
+    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]
+) -> tuple[str, float] | None:
+    """Where the residual is far above the noise, above what may be ``late`` then, and above itself a period before or
+    after, for a short time, once in all runs; not where a joint is unsettled.
+    """
+    found: list[tuple[float, str, float]] = []
+    rows = sum(map(len, residuals))
+    for run, e, known in zip(runs, residuals, late, strict=True):
+        if len(e) < 5 * _BURST:
+            continue
+        unsettled = run.unsettled[k][run.kept[k]]
+        power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
+        place = np.flatnonzero(run.kept[k])[_BURST // 2 :][: len(power)]
+        least = np.maximum(least, _a_period_away(power, place, run.period))
+        power[power < _BEYOND * least] = 0.0
+        if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
+            continue
+        i = int(np.argmax(power))
+        found.append((float(power[i]), run.sampled.run.name, float(run.t[place[i]])))
+    if not found:
+        return None
+    power_, name, t = max(found)
+    return (name, t) if chi2.logsf(power_, _BURST) < np.log(1e-12 / max(rows, 1)) else None
+
+
+def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
+    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before or after; zero without one."""
+    if not period:
+        return np.zeros_like(power)
+    rows = np.zeros(place[-1] + 1 + 2 * period)
+    rows[place + period] = power
+    near = maximum_filter1d(rows, _BURST)
+    return np.asarray(np.maximum(near[place], near[place + 2 * period]))

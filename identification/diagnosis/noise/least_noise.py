@@ -1,0 +1,24 @@
+"""The least that counts as noise: no model is truer, nor are filters and differences, though a simulation has none."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.runs.prepared import Prepared
+
+Array = NDArray[np.float64]
+
+#: Its rms, in parts of the joint's torque.
+_PART = 1e-5
+
+
+def least(run: Prepared, number: int) -> Array:
+    """White torques (n x rows) [N m, N] of that size, draw ``number``: periods have them in common, as noise that they
+    do not have would be.
+    """
+    size = _PART * np.sqrt(np.mean(run.tau**2, axis=-1, keepdims=True))
+    drawn = np.random.default_rng(number).normal(size=run.tau.shape)
+    return np.asarray(sqrt(max(run.times, 1.0)) * size * drawn)

@@ -1,0 +1,188 @@
+"""The noise of each joint in each run: what is left when everything that may act has been taken away.
+
+Base parameters and all hypotheses together explain more than the truth can, so that what they leave is noise and not a
+missing effect; those that hold the record's own noise stay away, and columns of positions that are not exact explain no
+more than they would of exact ones. Where a motion repeats, what its periods have in common is taken away too: only what
+differs between them is noise, whatever the model lacks. Both take noise with them, more of it where they are rich: what
+is left at a frequency is divided by its part that is free there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
+
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
+from identification.diagnosis.noise.errors_in_variables import Redrawn
+from identification.diagnosis.noise.may_act import Rows, allowed, with_maps, with_noise, without_record
+
+Array = NDArray[np.float64]
+_Scalar = TypeVar("_Scalar", np.float64, np.bool_)
+
+#: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
+_RANK = 1e-7
+#: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
+_PART, _LEAST = 256, 0.1
+#: Rows of noise of the usual power that every run is taken to have beside its own.
+_DOUBT = 200
+#: Times that the colour is estimated again, each from rows made white by the last.
+_AGAIN = 1
+#: Power of the noise that columns leave from which that of positions is looked at, and beyond which it is none: columns
+#: do not take that much.
+_NOISY, _ABSURD = 0.05, 30.0
+
+
+def colours(
+    bank: Bank,
+    rounded: Sequence[Array] = (),
+    maps: Sequence[Sequence[Array]] = (),
+    redrawn: Mapping[int, Redrawn] | None = None,
+) -> list[list[Colour]]:
+    """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell.
+
+    ``rounded`` (n x rows each) counts as noise too, though periods may have it in common. ``maps`` are, by joint and
+    run, rows (m x rows) of what may act beside all hypotheses, if there are any. Runs whose positions are noisy are
+    ``redrawn``, by number.
+    """
+    every = [
+        _of_joint(bank, k, [one[k] for one in rounded], maps[k] if maps else (), redrawn or {}) for k in range(bank.dof)
+    ]
+    return [[colours[r] for colours in every] for r in range(len(bank.runs))]
+
+
+def _of_joint(
+    bank: Bank, joint: int, rounded: Sequence[Array], maps: Sequence[Array], redrawn: Mapping[int, Redrawn]
+) -> list[Colour]:
+    """The colour of a joint's noise in each run."""
+    plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
+    found = _joint(with_maps(plain, bank, maps), bank, rounded)
+    torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
+    power = sum(float(np.sum(x**2)) for x in torques) / max(sum(x.size for x in torques), 1)
+    if not _NOISY < power < _ABSURD:
+        return found
+    noisy = with_noise(plain, bank, joint, redrawn)
+    return _joint(with_maps(noisy, bank, maps), bank, rounded)
+
+
+def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
+    """The colour of a joint's noise in each run."""
+    left, free, _ = _left(parts, bank, None, rounded)
+    for _ in range(_AGAIN):
+        left, free, each = _left(parts, bank, _colour(left, free), rounded)
+    known = _colour(left, free)
+    return [_scaled(known, parts, freedom) for parts, freedom in zip(left, each, strict=True)]
+
+
+def _colour(left: list[list[Array]], free: Array) -> Colour:
+    """The colour of noise of which stretches of each run hold the part ``free``."""
+    return recoloured(colour([part for parts in left for part in parts]), free)
+
+
+def _left(
+    parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
+) -> tuple[list[list[Array]], Array, list[float]]:
+    """Stretches of noise of each run, and the part of its power that is left in them: by frequency, and run by run."""
+    numbers = sorted({number for part in parts for number in part.numbers})
+    place = {number: i for i, number in enumerate(numbers)}
+    places = [np.array([place[number] for number in part.numbers], dtype=int) for part in parts]
+    gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
+    pretended = np.zeros(len(numbers))
+    white = []
+    for at, part in zip(places, parts, strict=True):
+        white.append(_white(known, np.concatenate([part.columns, part.tau[None]]), part.kept))
+        gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
+        if part.noise is not None:
+            noise = _white(known, part.noise, part.kept)
+            pretended[at] -= noise[:-1] @ noise[-1]
+    rows = sum(x.shape[1] for x in white)
+    taken, most = sum(number < len(bank.base) for number in numbers), allowed(rows)
+    model = sum(0 <= number < len(bank.base) for number in numbers)
+    inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
+    weights = inside @ (gram[:-1, -1] - pretended)
+    left: list[list[Array]] = []
+    lost = []
+    for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
+        kept = part.kept
+        e = between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
+        left.append(stretches(e + rounded[r] if rounded else e, kept))
+        whole = np.zeros(part.columns.shape)
+        whole[:, kept] = x[:-1]
+        taken_away = _power(between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
+        lost.append(taken_away + _common(kept, run.period))
+    counts = [max(x.shape[1], 1) for x in white]
+    each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
+    return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / max(rows, 1), _LEAST), each
+
+
+def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
+    """Kept rows (k x N), white where the colour of their noise is known."""
+    return x[:, kept] if known is None else known.white(x, kept)
+
+
+def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
+    """The colour with the power of one run's noise, as far as its rows tell it."""
+    squares, rows = 0.0, 0
+    for part in parts:
+        white = known.white(part[None], np.ones(len(part), dtype=bool))[0]
+        squares, rows = squares + float(white @ white), rows + len(part)
+    power = (squares / freedom + _DOUBT) / (rows + _DOUBT)
+    return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
+
+
+def _inside(gram: Array, base: int, most: int) -> Array:
+    """What makes products of columns with a torque weights of columns that explain it: their inverse in the directions
+    that are taken away: all of the first ``base`` columns, and ``most`` of the others.
+    """
+    B = inverse(gram[:base, :base])
+    T = np.concatenate([-B @ gram[:base, base:], np.eye(len(gram) - base)])
+    S = gram[base:, base:] + gram[base:, :base] @ T[:base]
+    size = np.sqrt(np.maximum(np.diag(gram)[base:], 1e-300))
+    scaled = S / np.outer(size, size)
+    values, vectors = np.linalg.eigh((scaled + scaled.T) / 2)
+    seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
+    seen = seen[max(len(seen) - most, 0) :]
+    T = T @ (vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
+    result = T @ T.T
+    result[:base, :base] += B
+    return np.asarray(result)
+
+
+def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
+    """What differs between the periods of rows (... x N), of which the last may be a part."""
+    if not period:
+        return x
+    there = by_period(kept, period)
+    mean = np.where(there, by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
+    return np.asarray(np.where(kept, x - np.tile(mean, len(there))[..., : x.shape[-1]], x))
+
+
+def _common(kept: NDArray[np.bool_], period: int) -> float:
+    """Rows' worth of noise that is in what periods have in common."""
+    return float(by_period(kept, period).any(axis=0).sum()) if period else 0.0
+
+
+def by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
+    """Rows (... x N) in periods (... x P x period), zero after the last."""
+    count = -(-x.shape[-1] // period)
+    padded = np.pad(x, (*((0, 0) for _ in x.shape[:-1]), (0, count * period - x.shape[-1])))
+    return np.asarray(padded.reshape(*x.shape[:-1], count, period), dtype=x.dtype)
+
+
+def _power(x: Array, inside: Array) -> Array:
+    """Power, by frequency, of white noise in what columns (k x N) explain."""
+    parts = -(-x.shape[1] // _PART)
+    whole = np.pad(x, ((0, 0), (0, parts * _PART - x.shape[1]))).reshape(len(x), parts, _PART)
+    X = np.fft.rfft(whole).reshape(len(x), -1)
+    power = np.einsum("ks,ks->s", X.conj(), inside @ X).real
+    return np.asarray(power.reshape(parts, -1).sum(axis=0))
+
+
+def _smooth(power: Array) -> Array:
+    """As fine as a colour tells frequencies apart."""
+    return np.asarray(uniform_filter1d(power, len(power) // ORDER, mode="mirror"))

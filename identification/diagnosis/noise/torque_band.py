@@ -1,0 +1,95 @@
+"""Where the band of the recorded torques ends, which the torques that the positions ask for go beyond.
+
+Torques that were filtered lack what is quick, and coarse positions ask for accelerations that never were. A link on a
+spring or in a gap follows as a filter does: either would be taken for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.columns.whitening import ORDER, colour, stretches
+from identification.diagnosis.noise import rounding
+from identification.diagnosis.runs.position_noise import drawn, torque_of
+from identification.diagnosis.runs.prepared import RATE, windowed
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Frequencies that are looked at, up to half the rate of the rows.
+_FREQUENCIES = 50
+#: Power of a torque, in parts of the model's, below which half of the amplitude is missing.
+_SHORT = 0.25
+#: Times as much as the errors of the positions make that they are taken to make: it is not known closely.
+_ERRORS = 2.0
+#: Part of the mean power density that is none, as of the spectra of what never was recorded.
+_NOTHING = 1e-9
+#: Part of the joints that lack it at one frequency: above the band noise may hide it on one of them.
+_MOST = 0.75
+#: Least joints of which most are not one or two that swing; and of fewer, the power at the rows' highest frequencies
+#: that a rotor makes by itself.
+_SEVERAL, _ROTOR = 3, 0.05
+
+
+def end(scenes: Sequence[Scene]) -> float:
+    """The frequency [Hz] at which most joints' torques are no longer those of the positions; infinite where there is
+    none within the rows' band.
+
+    A drive train that swings lacks torque about a frequency of its own, and beyond it has its rotor's alone. That is of
+    one joint; a log's filter and its steps are of all, and leave less than a rotor of what is quick.
+    """
+    rate = scenes[0].sampled.run.rate / _factor(scenes[0])
+    # A colour tells no lower ones apart.
+    frequency = np.linspace(rate / 2 / ORDER, rate / 2, _FREQUENCIES)
+    errors = [_of_positions(scene, number) for number, scene in enumerate(scenes)]
+    power = np.quantile([_power(scenes, errors, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
+    short = power < _SHORT
+    if len(scenes[0].tau) < _SEVERAL:
+        short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR)
+    return float(frequency[np.argmax(short)]) if short.any() else np.inf
+
+
+def notes(scenes: Sequence[Scene]) -> list[str]:
+    """What is to be told where the band ends."""
+    frequency = end(scenes)
+    if np.isinf(frequency):
+        return []
+    return [
+        f"from about {frequency:.0f} Hz on the recorded torques are far less than the recorded positions ask for: "
+        "torques were filtered, or positions are coarse; elasticity and backlash of drive trains are not looked for"
+    ]
+
+
+def _factor(scene: Scene) -> int:
+    """Samples a row, as in a diagnosis; whatever divides a period."""
+    return max(round(scene.sampled.run.rate / RATE), 1)
+
+
+def _of_positions(scene: Scene, number: int) -> Array:
+    """Torques (n x N) [N m, N] as errors of the positions make them, by draw ``number``."""
+    noise = rounding.errors(scene.sampled.run, scene.robot)
+    return torque_of(drawn(scene, noise, number), scene)
+
+
+def _power(scenes: Sequence[Scene], errors: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:
+    """The power density of a joint's recorded torque in parts of that by the model and what was found beside it, where
+    the joint moves; 1 where it never does. Reversals are left out, as in the rows: a model's friction jumps there, and
+    a real one need not.
+    """
+    recorded: list[Array] = []
+    model: list[Array] = []
+    noise: list[Array] = []
+    for scene, error in zip(scenes, errors, strict=True):
+        factor = _factor(scene)
+        kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
+        recorded += stretches(windowed(scene.tau[k], factor), kept)
+        model += stretches(windowed(scene.torque[k], factor), kept)
+        noise += stretches(windowed(error[k], factor), kept)
+    asked = colour(model).spectrum(frequency, rate)
+    nothing = _NOTHING * asked.mean()
+    # Accelerations that positions have by their errors alone no torque needs to make.
+    asked = np.maximum(asked - _ERRORS * colour(noise).spectrum(frequency, rate), 0.0)
+    return np.asarray((colour(recorded).spectrum(frequency, rate) + nothing) / (asked + nothing))

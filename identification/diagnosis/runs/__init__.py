@@ -1,0 +1,1 @@
+"""One run as the diagnosis sees it: beside the model, in rows, with the drive trains that its log has."""

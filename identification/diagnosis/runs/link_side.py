@@ -1,0 +1,231 @@
+"""The robot on the link side of one joint's drive train, where the log has the motor's motion.
+
+With q_l = q + e the link's position and q the motor's over the gear, what the motor must supply changes by
+(dtau_link/dq) e + (dtau_link/dqd) e' + (dtau_link/dqdd) e'' (report eq. 7, 8). The drive train's own inertia and
+friction turn with the motor and do not see e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, TypeAlias
+
+import casadi
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.robot.description import Robot
+from generator.symbolic.model import Model
+from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
+from identification.diagnosis.runs.scene import Scene
+from identification.observation import Motion
+
+Array = NDArray[np.float64]
+#: A number, or an array of as many as are played at once.
+Value: TypeAlias = Any
+
+#: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
+_SMALL = 1e-4
+#: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
+_SHARE = 0.5
+
+
+@dataclass(frozen=True)
+class Train:
+    """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``gap`` its play [rad, m], and ``damping`` the ratio
+    d / (2 sqrt(k M)) of the link on it, the motor held. Arrays are many of them.
+    """
+
+    stiffness: Value
+    damping: Value
+    gap: Value = 0.0
+
+
+@dataclass(frozen=True)
+class LinkSide:
+    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg].
+
+    ``load`` (N) [N m, N] is what the drive train transmits; ``by_position``, ``by_speed`` and ``by_acceleration`` are
+    the torques of all but the drive train (n x N) per unit of the joint's own.
+    """
+
+    scene: Scene
+    k: int
+    rotor: float
+    load: Array
+    by_position: Array
+    by_speed: Array
+    by_acceleration: Array
+
+    @property
+    def inertia(self) -> Array:
+        """Of the links about the joint (N) [kg m2, kg]."""
+        result: Array = self.by_acceleration[self.k]
+        return result
+
+    @property
+    def drag(self) -> Array:
+        """Change of the load per unit of the joint's speed (N) [N m s/rad, N s/m]: an inertia that grows slows a link
+        down.
+        """
+        result: Array = self.by_speed[self.k]
+        return result
+
+    def with_rotor(self, rotor: float) -> LinkSide:
+        """The same with another share of the whole inertia on the motor's side."""
+        load = self.load - (rotor - self.rotor) * self.scene.motion.qdd[self.k]
+        by_acceleration = self.by_acceleration.copy()
+        by_acceleration[self.k] -= rotor - self.rotor
+        return replace(self, rotor=rotor, load=load, by_acceleration=by_acceleration)
+
+    def steps(self, train: Train, end: int) -> Iterator[Value]:
+        """Acceleration of the joint's link against the motor, sample by sample up to ``end``."""
+        own = self._own(train)
+        e, v = self._start(train)
+        links = (x[:end].tolist() for x in (self.load, self.inertia, self.drag))
+        for link in zip(*links, strict=True):
+            e, v, (_, _, acceleration) = _step(e, v, link, own)
+            yield acceleration
+
+    def deflection(self, train: Train) -> Motion:
+        """The link's motion against the motor's on a drive train of plain numbers."""
+        given = np.tile(np.array(self._own(train))[:, None], self.scene.motion.samples)
+        steps = _many_steps(self.scene.motion.samples)
+        _, played = steps(list(self._start(train)), np.stack([self.load, self.inertia, self.drag]), given)
+        return alone(self.scene.motion, self.k, np.asarray(played))
+
+    def _own(self, train: Train) -> tuple[Value, Value, Value, Value]:
+        """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
+        d = 2 * train.damping * np.sqrt(train.stiffness * float(np.mean(self.inertia)))
+        return train.stiffness, d, train.gap / 2, self.scene.period
+
+    def _start(self, train: Train) -> tuple[Value, Value]:
+        """The log does not tell how the link swings when it begins: it hangs still on its spring."""
+        k, half = train.stiffness, train.gap / 2
+        e = -(half * np.sign(self.load[0]) + self.load[0] / k)
+        return e, (self.load[0] - self.load[1]) / (self.scene.period * k)
+
+    def torque_per(self, deflection: Motion) -> Array:
+        """Change of the motors' torques (n x N) by a small deflection of the joint's link."""
+        k = self.k
+        per = (self.by_position, self.by_speed, self.by_acceleration)
+        parts = [rate * signal[k] for rate, signal in zip(per, deflection.signals, strict=True)]
+        return np.asarray(sum(parts))
+
+
+def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:
+    """Past the drive train of coordinate ``k``, whose inertia on the joint side is ``rotor`` [kg m2, kg]."""
+    values, motion = without_drive_train(scene, k, rotor), scene.motion
+
+    def torque_on(moved: Motion) -> Array:
+        return scene.torque_of(values, moved)
+
+    still = torque_on(motion)
+    by_position, by_speed = (
+        sensitivity(torque_on, motion, alone(motion, k, change)) / _SMALL
+        for change in ((_SMALL, 0.0, 0.0), (0.0, _SMALL, 0.0))
+    )
+    return LinkSide(scene, k, rotor, still[k], by_position, by_speed, torque_on(quicker(motion, k)) - still)
+
+
+class LinkSides:
+    """Those of one coordinate along several scenes, which are found once: the ``first`` is."""
+
+    def __init__(self, first: LinkSide) -> None:
+        self._k = first.k
+        self._made = {id(first.scene): first}
+
+    def along(self, scene: Scene, rotor: float) -> LinkSide:
+        """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
+        # A scene that is kept by its link side keeps its identity.
+        made = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, rotor))
+        return made if made.rotor == rotor else made.with_rotor(rotor)
+
+
+def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
+    """Deflection e and its speed v a sample later; and position, speed and acceleration now, of a ``link`` (its load,
+    inertia M and drag c): M e'' + (c + d) e' + k z = -load, z what e is beyond the gap, d nothing within it.
+
+    To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
+    those between samples, damping is centred: the frequency of a swing is right to the second order.
+    """
+    load, M, drag = link
+    k, d, half, h = own
+    beyond = e - (abs(e + half) - abs(e - half)) / 2
+    c = (drag + (abs(e) > half) * d) * (h / (2 * M))
+    after = (v * (1 - c) - (load + k * beyond) * (h / M)) / (1 + c)
+    return e + h * after, after, (e, (v + after) / 2, (after - v) / h)
+
+
+@cache
+def _many_steps(count: int) -> casadi.Function:
+    """``count`` steps one after the other: of the first (e, v), the link's three and what a train has of its own."""
+    state, link, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("link", 3), ("own", 4)))
+    e, v, seen = _step(state[0], state[1], casadi.vertsplit(link), casadi.vertsplit(own))
+    step = casadi.Function("step", [state, link, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
+    return step.mapaccum("steps", count)
+
+
+def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
+    """The scene's values with those of the joint's own drive-train effects taken out, ``rotor`` from where it is
+    grouped.
+    """
+    model = scene.regressors.model
+    own = _of_motor(model, model.robot.moving[k].number)
+    inertia = f"Ia{model.robot.moving[k].number}"
+    result = dict(scene.values)
+    for name, terms in model.grouping.numeric().items():
+        if set(terms) <= own:
+            result[name] = 0.0
+        elif inertia in own & set(terms):
+            result[name] = result.get(name, 0.0) - terms[inertia] * rotor
+    return result
+
+
+def rotor_is_fitted(scene: Scene, k: int) -> bool:
+    """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell."""
+    return f"Ia{scene.robot.moving[k].number}" in scene.values
+
+
+def rotor_is_told(scene: Scene, k: int) -> bool:
+    """Whether the fit or a parameter set of the robot's file has the inertia of the joint's drive train."""
+    return _told_rotor(scene, k) is not None
+
+
+def rotor_inertia(scene: Scene, k: int) -> float:
+    """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
+    half of the base parameter that it is grouped in, 0 where the model has none.
+    """
+    if (known := _told_rotor(scene, k)) is not None:
+        return known
+    model = scene.regressors.model
+    name = f"Ia{model.robot.moving[k].number}"
+    for title, terms in model.grouping.numeric().items():
+        if name in terms:
+            return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
+    return 0.0
+
+
+def _told_rotor(scene: Scene, k: int) -> float | None:
+    robot = scene.robot
+    number = robot.moving[k].number
+    fitted = scene.values.get(f"Ia{number}")
+    return told(robot, f"Ia{number}", f"Iam{number}") if fitted is None else fitted
+
+
+def told(robot: Robot, *names: str) -> float | None:
+    """What the first parameter set of the robot's file says that has one of the ``names``; None where none has."""
+    values = (one.values[name].value for one in robot.parameter_sets.values() for name in names if name in one.values)
+    return next(values, None)
+
+
+def _of_motor(model: Model, number: int) -> frozenset[str]:
+    """Parameters whose torque turns with the motor of a joint, or with another joint's that turns with it."""
+    names: set[str] = set()
+    for instance in model.effects:
+        columns = instance.columns()
+        if not instance.effect.on_link and any(number in column for column in columns):
+            names |= set(instance.names)
+    return frozenset(names)

@@ -1,0 +1,178 @@
+"""A run as the diagnosis looks at it: decimated less than an identification does, without rows near standstill."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+from scipy.ndimage import maximum_filter1d
+
+from generator.errors import InputError
+from identification.dataset import Run
+from identification.diagnosis.runs.periods import period_of
+from identification.diagnosis.runs.stated_elasticity import stated
+from identification.filtering import flat_derivative
+from identification.observation import Jump, Regressors, followed
+from identification.recipe import Recipe, possible_factor
+from identification.run_filters import fast_enough, filters_of
+from identification.sampling import Sampled, sampled
+
+Array = NDArray[np.float64]
+
+#: Rows a second that are looked at; the motion's filter passes up to as many hertz.
+RATE = 50.0
+#: Speed below which a joint stands, in parts of its own rms.
+_SLOW = 0.04
+#: Such a part below which a joint crawls: presliding and stiction, which no law of friction tells to the end.
+_CRAWLING = 0.12
+#: Time [s] in which a joint may remember what was before the record.
+_MEMORY = 1.0
+#: Time [s] in which the swings of an elastic drive train fade, of which the log does not tell how they began, and the
+#: largest part of a run.
+_SWINGING, _FADING = 1.5, 0.2
+#: Time before and after standing still [s] in which friction is not yet what it will be.
+_SETTLING = 0.03
+#: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
+_STILL = 2e-3
+#: Shortest run, or part of one, that anything can be told from [s].
+SHORTEST = 1.0
+#: Periods that rows hold from which they are compared: a run of two loses some rows at its ends.
+_TWICE = 1.8
+#: Factors of decimation that are tried for one that divides the period, in parts of the wanted one.
+_NEAR = 0.35
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
+
+    ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
+    ``period`` is that of the motion in rows, 0 where it is no whole number of them or the rows hold no two of it;
+    ``repeats`` is that in samples, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the
+    rows that are left out, of ``sampled`` too; all rows of a joint that is held are.
+    """
+
+    sampled: Sampled
+    t: Array
+    tau: Array
+    kept: NDArray[np.bool_]
+    unsettled: NDArray[np.bool_]
+    period: int
+    slow: Array
+    repeats: int
+
+    @property
+    def times(self) -> float:
+        """How often the run has a row of each phase of the motion, in the mean; 0 where periods are not compared."""
+        return len(self.t) / self.period if self.period else 0.0
+
+    @property
+    def rate(self) -> float:
+        """Rows a second."""
+        return self.sampled.filters.rate / self.sampled.filters.factor
+
+    @property
+    def unlike(self) -> str:
+        """Why no periods of the run are compared; empty where they are."""
+        if self.period:
+            return ""
+        if not self.repeats:
+            return "does not repeat"
+        factor = self.sampled.filters.factor
+        why = f"of which one in {factor} is looked at" if self.repeats % factor else "too late for its rows to hold two"
+        return f"repeats after {self.repeats} samples, {why}: periods are not compared"
+
+    def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
+        """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
+        standing = _unsettled(_at_rest(self.sampled.motion.qd, jumps), self.sampled.run.rate)
+        sampled = replace(self.sampled, left_out=self.sampled.left_out | standing)
+        kept = self.kept & (windowed(standing.astype(float), sampled.filters.factor) == 0)
+        return replace(self, sampled=sampled, kept=kept)
+
+    def decimated(self, x: Array) -> Array:
+        """Signals at the recorded rate (... x M) as rows (... x N): means under a Hann window two rows wide.
+
+        The window ends: what happens while a joint stands does not ring into the rows that are kept.
+        """
+        return windowed(x, self.sampled.filters.factor)
+
+
+def joined(runs: Sequence[Prepared], signals: Sequence[Array], k: int) -> Array:
+    """Rows of coordinate k that count (N), one run after the other; ``signals`` are n x rows, one a run."""
+    return np.concatenate([rows[k, run.kept[k]] for run, rows in zip(runs, signals, strict=True)])
+
+
+def _at_rest(qd: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
+    """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms."""
+    result = np.zeros(qd.shape, dtype=bool)
+    for joint, speed in followed(jumps, qd):
+        result[joint] |= np.abs(speed) < _SLOW * np.sqrt(np.mean(np.square(speed)))
+    return result
+
+
+def _unsettled(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
+    """With the samples before and after in which friction is not yet what it will be."""
+    return np.stack([maximum_filter1d(row, 2 * round(_SETTLING * rate) + 1) for row in standing])
+
+
+def windowed(x: Array, factor: int) -> Array:
+    """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
+    count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
+    result = signal.upfirdn(window(factor), x, 1, factor, axis=-1)
+    return np.asarray(result[..., 2 : 2 + count])
+
+
+def window(factor: int) -> Array:
+    """Weights (2 factor + 1) of a row's samples."""
+    weights = signal.windows.hann(2 * factor + 3)[1:-1]
+    return np.asarray(weights / weights.sum())
+
+
+def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
+    """The run by the diagnosis' filters, which replace those of ``recipe``.
+
+    Raises InputError for a run that is too short, has too few samples, is sampled too slowly, or with a payload of
+    which something is sought.
+    """
+    fast_enough(run, recipe)
+    if run.payload is not None and run.payload.sought:
+        problem = f"{', '.join(run.payload.sought)} of payload {run.payload.name} are sought"
+        raise InputError(
+            run.place, problem, "all ten in the sidecar, or none: a payload that is not known is looked for"
+        )
+    if run.duration < SHORTEST:
+        raise InputError(
+            run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
+        )
+    period = period_of(run.q, run.period)
+    wanted = run.rate / RATE
+    factor = possible_factor(wanted) if wanted > 1 else 1
+    if period:
+        divisors = [r for r in range(1, period + 1) if period % r == 0 and abs(r / wanted - 1) <= _NEAR]
+        possible = [r for r in divisors if possible_factor(r) == r]
+        factor = min(possible, key=lambda r: abs(r - wanted), default=factor)
+    changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
+    filtering = replace(changed, dropped_first=None, dropped_last=None)
+    filters_of(run, filtering)
+    one = sampled(run, filtering, regressors, flat_derivative)
+    speed = one.motion.qd
+    usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
+    slow = _SLOW * usual
+    standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
+    standing |= _at_rest(speed, regressors.signs)
+    if swinging := stated(regressors.model.robot):
+        fading = min(_SWINGING, _FADING * run.duration) * run.rate
+        standing[[one.k for one in swinging], : round(fading)] = True
+    if run.unusable is not None:
+        standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
+    standing = _unsettled(standing, run.rate)
+    tau = windowed(one.tau, factor)
+    kept = windowed(standing.astype(float), factor) == 0
+    t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
+    crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
+    unsettled = crawling | (t < run.start + _MEMORY)
+    rows = period // factor if period % factor == 0 and tau.shape[-1] >= _TWICE * (period // factor) else 0
+    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow, period)

@@ -1,0 +1,138 @@
+"""Which elastic drive train makes a link swing as the log has it: many are played at once.
+
+A lightly damped swing answers to one stiffness alone, and what crosses a gap to one gap: a coarse grid of shapes would
+miss both. What is compared is the largest part of a swing's torque, the inertia of the joint's own link, with what the
+model leaves of the joint's torque.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, rotor_inertia
+from identification.diagnosis.runs.prepared import windowed
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Time [s] that is played, of the run in which the joint is fastest, and the most samples.
+_PLAYED, _SAMPLES = 12.0, 12000
+#: Frequencies [Hz] of a link on its drive train, the motor held, and their largest part of the samples' rate, which the
+#: integration can follow.
+_LOWEST, _HIGHEST, _PART = 3.0, 100.0, 0.125
+#: Damping ratios.
+DAMPING = (0.01, 0.4)
+#: Values about the best of a grid among which it is refined.
+_FINER = 7
+#: Rows over which the windows reach through which swings are compared.
+_WIDTHS = (1, 4)
+#: Least rows for each column of the base parameters, and least singular value of scaled columns.
+_ROWS, _RANK = 3, 1e-6
+
+
+def watched(scenes: Sequence[Scene], k: int) -> bool:
+    """Whether a link has an encoder of its own, which tells an elastic drive train without any torque."""
+    return any(f"qs{scenes[0].robot.moving[k].number}" in scene.sampled.run.others for scene in scenes)
+
+
+def liveliest(scenes: Sequence[Scene], k: int) -> LinkSide | None:
+    """The joint's link side in the run in which it is fastest; None where the model's link has no inertia, or samples
+    that follow no swing.
+    """
+    scene = max(scenes, key=lambda one: float(np.mean(one.motion.qd[k] ** 2)))
+    side = link_side(scene, k, rotor_inertia(scene, k))
+    quick = _PART / scene.period > _LOWEST
+    return side if quick and np.min(side.inertia) > 0 and np.any(side.load) else None
+
+
+def stiffnesses(side: LinkSide) -> tuple[float, float]:
+    """The softest and the stiffest drive train that is looked for [N m/rad, N/m]."""
+    highest = min(_HIGHEST, _PART / side.scene.period)
+    inertia = float(np.mean(side.inertia))
+    low, high = (inertia * (2 * np.pi * f) ** 2 for f in (_LOWEST, highest))
+    return float(low), float(high)
+
+
+def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> list[tuple[float, ...]]:
+    """The rotor of one of the link's ``sides``, stiffness, damping and gap, each from its grid in geometric steps, that
+    are most like the log, then between the steps: once by all that the rows show and once by what is slow in it.
+
+    Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
+    """
+    best: dict[int, tuple[float, tuple[float, ...]]] = {}
+    for side in sides:
+        coarse = _Played(side, grids)
+        for width in _WIDTHS:
+            rows = _Rows(side, width)
+            near = [_about(x, grid) for x, grid in zip(coarse.most_alike(rows)[1], grids, strict=True)]
+            cosine, combination = _Played(side, near).most_alike(rows)
+            if width not in best or cosine > best[width][0]:
+                best[width] = cosine, (side.rotor, *combination)
+    return list(dict.fromkeys(combination for _, combination in best.values()))
+
+
+def _about(x: float, grid: Array) -> Array:
+    """Values from one step of a grid below x to one above it."""
+    if len(grid) == 1:
+        return grid
+    step = grid[1] / grid[0]
+    return np.geomspace(max(x / step, grid[0]), min(x * step, grid[-1]), _FINER)
+
+
+def _samples(scene: Scene) -> int:
+    return min(scene.motion.samples, round(_PLAYED / scene.period), _SAMPLES)
+
+
+class _Rows:
+    """What the rows of a joint show through windows ``width`` rows wide, without those in which it stands and without
+    what other base parameters would explain.
+    """
+
+    def __init__(self, side: LinkSide, width: int) -> None:
+        scene, k = side.scene, side.k
+        self._width, count = width * scene.sampled.filters.factor, _samples(scene)
+        self._kept = windowed(scene.sampled.left_out[k, :count].astype(float), self._width) == 0
+        base = windowed(scene.regressors.base(scene.motion.part(0, count))[k], self._width)[:, self._kept]
+        # Few rows are explained by anything.
+        self._base = _directions(base if base.shape[1] > _ROWS * len(base) else base[:0])
+        self._left = self._seen((scene.tau - scene.model_torque)[k, :count])
+
+    def _seen(self, torque: Array) -> Array:
+        rows = windowed(torque, self._width)[..., self._kept]
+        return np.asarray(rows - (rows @ self._base.T) @ self._base)
+
+    def cosines(self, torques: Array) -> Array:
+        """Of torques (K x N) with the residual (K); not a number where a torque is none, or has no end."""
+        seen = self._seen(torques)
+        size = np.linalg.norm(seen, axis=1)
+        return np.asarray(np.where(np.isfinite(size), seen @ self._left / size, np.nan))
+
+
+def _directions(rows: Array) -> Array:
+    """Orthonormal rows that make the same space."""
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    _, values, directions = np.linalg.svd(rows / np.where(size > 0, size, 1.0), full_matrices=False)
+    return np.asarray(directions[values > _RANK])
+
+
+class _Played:
+    """The swings of every combination of stiffnesses, damping ratios and gaps."""
+
+    def __init__(self, side: LinkSide, grids: Sequence[Array]) -> None:
+        self._combinations = np.stack([x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij")])
+        count = _samples(side.scene)
+        # A drive train too stiff for the samples runs away; it is like nothing.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            played = np.array(list(side.steps(Train(*self._combinations), count)))
+            self._torques = side.inertia[:count] * played.T
+
+    def most_alike(self, rows: _Rows) -> tuple[float, tuple[float, ...]]:
+        """The largest cosine of a swing with the residual, and the combination that swings so."""
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            cosines = rows.cosines(self._torques)
+        known = np.where(np.isfinite(cosines), cosines, -np.inf)
+        most = int(np.argmax(known))
+        return float(known[most]), tuple(self._combinations[:, most].tolist())

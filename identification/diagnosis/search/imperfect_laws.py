@@ -1,0 +1,62 @@
+"""What the laws of effects that were found may leave although they are the right ones: laws are never exact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.search.likely import balances, common
+
+#: What lets the link come after the motor, or the log after both.
+_BEHIND = ("joint_elasticity", "backlash", "torque_delay")
+#: What a joint has one of, as of balancers: a robot file says no more, and the second tells what the first one leaves.
+_ONE_OF = ("joint_elasticity", "backlash")
+#: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
+#: nearly the same, and where they are alike: friction of the speed, or behind the motor.
+_ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
+#: The same part of a balancer for a second one.
+_SECOND = 0.5
+_OF_SPEED = ("qd", "time since reversal")
+#: Variables over which an effect of one of them shows as well.
+_SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
+
+
+def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float]) -> float:
+    """What the laws of ``others``, which explain ``drops`` of the sum of squares, may lack and a variant on the same
+    joints would explain; infinite where it cannot be beside one of them.
+    """
+    least, mine = 0.0, variant.hypothesis
+    if common(variant):
+        return least
+    there = {each.name for one in others for each in one.coefficients}
+    if not there.issuperset(mine.beyond):
+        return inf
+    for one, drop in zip(others, drops, strict=True):
+        theirs = one.hypothesis
+        if _exclude(mine, theirs):
+            return inf
+        if balances(mine.effect) and balances(theirs.effect):
+            least = max(least, _SECOND * drop)
+        elif set(one.joints) & set(variant.joints) and not common(one):
+            least = max(least, _part(mine, theirs) * drop)
+    return least
+
+
+def _exclude(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether a joint has one of them alone."""
+    both = (one.effect, other.effect)
+    return one.joint == other.joint and (all(map(balances, both)) or set(both) <= set(_ONE_OF))
+
+
+def _part(one: Hypothesis, other: Hypothesis) -> float:
+    """Part of what ``other`` explains that its law may lack and ``one`` would explain."""
+    # Each is told by rows of its own, not by what the other leaves.
+    if one.preset and other.preset:
+        return 0.0
+    # What a delay of the whole robot explains is not of one joint.
+    behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
+    if behind or {one.variable, other.variable} <= set(_OF_SPEED):
+        return _ALIKE
+    return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE

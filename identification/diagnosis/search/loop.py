@@ -1,0 +1,199 @@
+"""From runs to the effects that are missing: prepare, whiten, select, and once more with the model that was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.columns.acting import Acting
+from identification.diagnosis.columns.bank import Bank, Variant
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.maps import maps
+from identification.diagnosis.columns.normal_equations import Normal, Prior
+from identification.diagnosis.columns.whitening import Colour, colour, stretches
+from identification.diagnosis.noise.effort_rounding import effort_rounding
+from identification.diagnosis.noise.errors_in_variables import redrawn
+from identification.diagnosis.noise.least_noise import least
+from identification.diagnosis.noise.measured import colours
+from identification.diagnosis.noise.rounding import rounding
+from identification.diagnosis.runs import stated_elasticity
+from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.evidence import Weighing, columns_of
+from identification.diagnosis.search.selection import Choice, Selection
+from identification.diagnosis.search.settling import settled, swinging
+from identification.observation import Regressors
+
+Array = NDArray[np.float64]
+
+#: Times that columns which depend on the model are made anew with what was found.
+_PASSES = 3
+#: Times that the model is fitted before, where columns of it depend on its values.
+_FITS = 5
+
+
+@dataclass(frozen=True)
+class Search:
+    """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
+
+    ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N], with the
+    least that counts as noise; ``maps`` are those of the motion, by joint and run, none where all runs repeat.
+    """
+
+    bank: Bank
+    weighing: Weighing
+    choices: tuple[Choice, ...]
+    values: Mapping[str, float]
+    covariance: Array
+    offered: tuple[Hypothesis, ...]
+    train: tuple[int, ...]
+    validate: tuple[int, ...]
+    rounded: tuple[Array, ...]
+    maps: Sequence[Sequence[Array]] = ()
+
+    @property
+    def repeats(self) -> bool:
+        """Whether a run repeats, so that its noise is known apart from the model."""
+        return any(run.period for run in self.bank.runs)
+
+    @property
+    def variants(self) -> list[Variant]:
+        """What was chosen."""
+        return [one.evidence.variant for one in self.choices]
+
+    @property
+    def start(self) -> dict[int, float]:
+        """Values of the base columns without the choices, by number, fitted to all runs."""
+        return self._fitted(())
+
+    @property
+    def weights(self) -> dict[int, float]:
+        """Values of all columns in use, by number, fitted to all runs: a motion that the fitted runs do not have must
+        not look like something that the model lacks.
+        """
+        return self._fitted(self.variants)
+
+    def keeping(self, choices: Sequence[Choice]) -> Search:
+        """The same with fewer choices; columns stay as the last search made them, with all that was found in place."""
+        solution, covariance = self.weighing.fitted([one.evidence.variant for one in choices])
+        values = self.bank.values(solution)
+        return replace(self, choices=tuple(choices), values=values, covariance=covariance)
+
+    def _fitted(self, variants: Sequence[Variant]) -> dict[int, float]:
+        solution, _ = self.weighing.fitted(variants, True)
+        return dict(zip([*range(len(self.bank.base)), *columns_of(variants)], solution.tolist(), strict=True))
+
+
+def search(
+    runs: Sequence[Prepared],
+    train: Sequence[int],
+    validate: Sequence[int],
+    regressors: Regressors,
+    prior: Prior | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+    dry: bool = False,
+) -> Search:
+    """The effects missing in the model of ``regressors``, from the runs number ``train``, held against ``validate``.
+
+    None is looked for in a ``dry`` search.
+    """
+    if more := stated_elasticity.names(regressors.model.robot):
+        p = len(regressors.names)
+        unknown = Prior(np.zeros(p), np.zeros((p, p)))
+        prior = (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
+    values = first_values(runs, train, regressors, prior)
+    chosen: list[Variant] = []
+    acting = Acting()
+
+    for turn in range(_PASSES):
+        progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
+        clear = [run.without_standstill(acting.jumps) for run in runs]
+        scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
+        bank = Bank(clear, scenes)
+        offered = hypotheses([scenes[r] for r in train])
+        for one in offered:
+            for shape in one.variants:
+                bank.add(one, shape)
+        chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
+        progress("measuring the noise")
+        rounded = tuple(
+            rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
+            for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
+        )
+        noisy = redrawn(clear, scenes)
+        may_follow = maps(clear, scenes)
+        bank.whiten(colours(bank, rounded, may_follow, noisy))
+        weighing = Weighing(bank, train, validate, prior, noisy)
+        progress("weighing the evidence")
+        choices = [] if dry else Selection(weighing).search(chosen)
+        chosen = [one.evidence.variant for one in choices]
+        solution, covariance = weighing.fitted(chosen)
+        values = bank.values(solution)
+        before, acting = acting, Acting.found(bank, chosen, solution)
+        depends = acting.again or (regressors.reads_load and bool(acting.variants))
+        if acting.jumps == before.jumps and (not depends or acting.near(before)):
+            break
+        if swinging(chosen) and turn + 1 < _PASSES:
+            progress("settling how drive trains swing")
+            chosen, values, acting = settled(weighing, chosen)
+    found = tuple(choices)
+    return Search(
+        bank, weighing, found, values, covariance, tuple(offered), tuple(train), tuple(validate), rounded, may_follow
+    )
+
+
+def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:
+    """The variant of the last turn among the columns of this one."""
+    for variant in bank.variants:
+        same = variant.key == old.key
+        if same and dict(variant.shape) == dict(old.shape):
+            return variant
+    for one in offered:
+        same = one.key == old.key
+        if same and one.variants[0].keys() == old.shape.keys():
+            return bank.add(one, {**old.shape, **one.given})
+    return None
+
+
+def first_values(
+    runs: Sequence[Prepared], train: Sequence[int], regressors: Regressors, prior: Prior | None
+) -> dict[str, float]:
+    """Base parameters of the model without anything new, each joint weighted by its own residual."""
+    values: dict[str, float] = {}
+    for _ in range(_FITS if _depends(regressors) else 1):
+        bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
+        values = bank.values(_weighted(bank, train, prior))
+    return values
+
+
+def _depends(regressors: Regressors) -> bool:
+    """Whether columns of the model depend on its values: they read a load, or what elastic drive trains do is linear
+    near their values alone.
+    """
+    return regressors.reads_load or bool(stated_elasticity.names(regressors.model.robot))
+
+
+def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
+    """Values of the base columns (p), each joint weighted by its own residual."""
+    deviations = np.ones(bank.dof)
+    solution = np.zeros(len(bank.base))
+    for _ in range(3):
+        bank.whiten([[_flat(one) for one in deviations] for _ in bank.runs])
+        normal = Normal(np.sum([bank.grams[r] for r in train], axis=0), len(bank.base), 1, prior)
+        solution, _ = normal.solution([])
+        weights = dict(enumerate(solution.tolist()))
+        for joint in range(bank.dof):
+            parts = []
+            for r in train:
+                kept = bank.raw(r, joint)[3]
+                parts += stretches(bank.residual(r, joint, weights, white=False), kept)
+            deviations[joint] = colour(parts, order=0).deviations[0]
+    return solution
+
+
+def _flat(deviation: float) -> Colour:
+    return Colour((np.ones(1),), (float(deviation),))

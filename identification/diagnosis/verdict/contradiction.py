@@ -1,0 +1,84 @@
+"""Values that were known beforehand and that the runs contradict.
+
+An effect of a joint may have another value than it once had; where a body has, that may stand for what is missing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.effects.library import effects_of
+from generator.review.decimals import scientific
+from generator.review.words import listed
+from identification.diagnosis.columns.normal_equations import Prior, inverse
+from identification.diagnosis.search.loop import Search
+
+#: Standard deviations of what was known beyond which a value is another one, and how many are told by name.
+_FAR, _NAMED = 5.0, 6
+#: Torque of a difference that is little, in parts of the noise's rms.
+_LITTLE = 0.2
+
+
+@dataclass(frozen=True)
+class Contradicted:
+    """A base parameter, by its ``place``, that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI];
+    ``body`` tells whether it is of bodies and of no effect alone.
+    """
+
+    name: str
+    place: int
+    found: float
+    known: float
+    std: float
+    body: bool
+
+    @property
+    def text(self) -> str:
+        """``Fv1 14.1, not 7 +- 0.35``."""
+        return f"{self.name} {scientific(self.found, 3)}, not {scientific(self.known, 3)} +- {scientific(self.std, 2)}"
+
+
+def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]:
+    """The base parameters that are farther from what was known than that and the runs leave uncertain, the farthest
+    first.
+    """
+    if prior is None:
+        return ()
+    names = found.bank.base[: len(prior.mean)]
+    before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
+    values = np.array([found.values[name] for name in names])
+    far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
+    effects = {name for one in effects_of(found.bank.robot) for name in one.names}
+    return tuple(
+        Contradicted(
+            names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects
+        )
+        for i in np.argsort(-far).tolist()
+        if far[i] > _FAR
+    )
+
+
+def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
+    """The coordinate on which other values of bodies than the known ones make most torque beside the noise that no
+    other parameter stands for; None where it is little.
+    """
+    weighing, joints = found.weighing, range(found.bank.dof)
+    weights = {one.place: one.found - one.known for one in ones if one.body}
+    others = np.setdiff1d(np.arange(len(found.bank.base)), [*weights])
+    power = weighing.powers(weights, others, joints)
+    size = np.sqrt([power[k] / max(weighing.rows[k], 1) for k in joints])
+    most = int(np.argmax(size))
+    return most if size[most] > _LITTLE else None
+
+
+def note(ones: Sequence[Contradicted]) -> list[str]:
+    """What is to be told of them."""
+    if not ones:
+        return []
+    told = [one.text for one in ones[:_NAMED]]
+    more = len(ones) - len(told)
+    rest = [f"{more} more"] if more else []
+    return [f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"]

@@ -1,0 +1,109 @@
+"""What is to be told of a diagnosis beside its findings: in words, one sentence each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from generator.review.words import listed
+from identification.diagnosis.columns.hypothesis import on_joints
+from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.runs.stated_elasticity import TOGETHER, stated
+from identification.diagnosis.search.loop import Search
+from identification.diagnosis.search.selection import Choice
+from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.verdict.testing import Trial, comparable
+from identification.diagnosis.verdict.unexplained import Unexplained
+
+#: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
+_ELASTIC, _SURE = 0.5, 4.0
+
+
+def of_tests(found: Search, trial: Trial | None, test: Sequence[Prepared]) -> Iterator[str]:
+    """Of joints that move in runs that test alone, and of runs that test and cannot show what was found."""
+    moving = found.bank.robot.moving
+    unseen = [k for k in range(len(moving)) if k not in found.bank.shown and any(run.kept[k].any() for run in test)]
+    if unseen:
+        where = on_joints(moving[k].number for k in unseen)
+        yield f"no run that is fitted tells of {where}, on which those that test have rows"
+    unlike = [run.sampled.run for run in test if not comparable(run, found)]
+    for one in unlike:
+        yield (
+            f"{one.file} is logged at {one.rate:.4g} Hz, the fitted runs are not: their noise is not its own, and it "
+            "does not check the findings"
+        )
+    if test and trial is None and len(unlike) < len(test):
+        yield "the runs that test cannot show what was found: they do not check the findings"
+
+
+def of_elasticity(found: Search) -> list[str]:
+    """Of drive trains that the file says are elastic."""
+    trains = stated(found.bank.robot)
+    if not trains:
+        return []
+    where = on_joints(one.number for one in trains)
+    notes = [
+        f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
+        "stiffnesses; the rigid inverse dynamics, which plays the untouched runs, does not know it"
+    ]
+    if TOGETHER in found.values:
+        at = found.bank.base.index(TOGETHER)
+        part, std = found.values[TOGETHER], float(np.sqrt(found.covariance[at, at]))
+        if part + _SURE * std < _ELASTIC:
+            shown = 100 * max(part, 0.0)
+            notes.append(f"the runs show {shown:.0f} % of that torque: these drive trains are stiffer than stated")
+    return notes
+
+
+def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
+    """Of runs whose periods are not compared; ``small`` tells that a finding may be too small to be firm by it."""
+    unlike: dict[str, list[str]] = {}
+    for run in runs:
+        if run.unlike:
+            unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
+    more = ", and what is small beside it is not firm" if small else ""
+    return [
+        f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well{more}"
+        for why, names in unlike.items()
+    ]
+
+
+def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[str]:
+    """Of findings whose amplitude does not hold, and of those that runs that test took back (``gone``)."""
+    for one in found:
+        if one.disagreement:
+            yield f"{one.hypothesis.named} {one.disagreement}: it drifts, or something else makes it"
+    for each in gone:
+        hypothesis = each.evidence.variant.hypothesis
+        yield f"{hypothesis.named} is taken back: the runs that test contradict it, or what it stood beside"
+
+
+def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]:
+    """Of what the last model leaves on each joint: what it follows, or why it counts as explained."""
+    if left.lacks:
+        follows = (f"what is left on joint {one.joint} follows {one.follows}" for one in left.lacks if one.follows)
+        return list(dict.fromkeys(follows))
+    return _hardly(lacks) + (_little([one for one in lacks if one.joint not in left.bouncing]) if named else [])
+
+
+def _hardly(lacks: Sequence[Lack]) -> list[str]:
+    """What is told of joints of ``lacks`` that keep more than chance, though not more than noise that is not known may
+    be.
+    """
+    where = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.hardly]
+    if not where:
+        return []
+    return [f"more than chance is left, {listed(where)}: too small to be told from noise without a motion that repeats"]
+
+
+def _little(lacks: Sequence[Lack]) -> list[str]:
+    """What is told of joints of ``lacks`` that keep more than noise, though little beside what was explained there."""
+    sizes = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.told]
+    if not sizes:
+        return []
+    return [
+        f"more than noise is left, little beside what was explained there: {listed(sizes)}; a diagnosis of the new "
+        "robot file may show what it is"
+    ]

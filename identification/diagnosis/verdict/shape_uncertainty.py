@@ -1,0 +1,106 @@
+"""Uncertainty of coefficients when the shapes are uncertain too: shapes become columns, by how the torque changes.
+
+It knows the noise, not what is wrong in the torque of a shape; two values that should be one tell of that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import hypot, log
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.search.loop import Search
+from identification.diagnosis.search.refinement import neighbour
+from identification.outcome import Value
+
+Array = NDArray[np.float64]
+
+#: Part of a parameter that the rows must show for it to be known at all.
+_SEEN = 0.99
+
+
+def deviations(
+    found: Search, columns: Sequence[int], solution: Array
+) -> tuple[Array, Mapping[int, Mapping[str, float]]]:
+    """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by choice.
+
+    ``solution`` holds both. What the runs do not show is infinite. A searched shape counts as one more parameter,
+    linear about its value.
+    """
+    base = len(found.bank.base)
+    value = dict(zip(columns, solution[base:].tolist(), strict=True))
+    steps: list[tuple[int, str, dict[int, float]]] = []
+    # Columns of torque at the values found: a compliance and a stiffness differ by sixteen digits in their own units.
+    units = [1.0] * base + [abs(one) or 1.0 for one in value.values()]
+    for choice in found.choices:
+        variant = choice.evidence.variant
+        for shape in variant.hypothesis.shapes:
+            moved = neighbour(found.weighing, variant, shape) if shape.free else None
+            if moved is None:
+                continue
+            step = moved.shape[shape.name] - variant.shape[shape.name]
+            change: dict[int, float] = {
+                number: sign * value[own] / step
+                for own, other in zip(variant.columns, moved.columns, strict=True)
+                for number, sign in ((other, 1.0), (own, -1.0))
+            }
+            steps.append((id(choice), shape.name, change))
+            units.append(abs(variant.shape[shape.name]) or 1.0)
+    normal = found.weighing.normal
+    chosen = [*range(base), *columns]
+    T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
+    T[chosen, range(len(chosen))] = 1.0
+    for k, (_, _, change) in enumerate(steps):
+        for number, weight in change.items():
+            T[number, len(chosen) + k] += weight
+    T *= units
+    A = T.T @ normal.whole @ T
+    fitted_apart = [one.hypothesis.preset.get(each.name) for one in found.variants for each in one.coefficients]
+    preset = {i: (one.std / units[i]) ** 2 for i, one in enumerate(fitted_apart, base) if one is not None}
+    std = np.sqrt(variances(A, preset)) * units
+    shapes: dict[int, dict[str, float]] = {}
+    for k, (which, name, _) in enumerate(steps):
+        shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
+    return std[: len(chosen)], shapes
+
+
+def variances(A: Array, preset: Mapping[int, float]) -> Array:
+    """Of coefficients with products ``A`` of their columns, over the noise's power; infinite where no row shows one.
+
+    Those that are ``preset`` have these variances of their own, by another fit: their errors are in the others', beside
+    the noise.
+    """
+    known = np.array(sorted(preset), dtype=int)
+    fitted = np.setdiff1d(np.arange(len(A)), known)
+    own = A[np.ix_(fitted, fitted)]
+    C, error = inverse(own), np.array([preset[i] for i in known.tolist()])
+    moved = C @ A[np.ix_(fitted, known)]
+    result = np.empty(len(A))
+    result[known] = error
+    result[fitted] = np.maximum(np.diag(C), 0.0) + moved**2 @ error
+    # What no row shows has no row in the pseudo-inverse's products: nothing is known of it.
+    result[fitted[np.diag(C @ own) <= _SEEN]] = np.inf
+    return result
+
+
+def apart(
+    hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
+) -> tuple[dict[str, Value], dict[str, float]]:
+    """Coefficients, and standard deviations of the ``shape``, of which those that are told twice are as uncertain as
+    the two are apart, at least, where that is more than both deviations explain.
+    """
+    coefficients, deviation = dict(values), dict(std)
+    for name, (other, power) in hypothesis.twice.items():
+        one = coefficients[name]
+        if one.value and one.value > 0 and other in deviation:
+            part = abs(log(one.value) - power * log(shape[other]))
+            if part <= hypot(one.std / one.value, deviation[other] / shape[other]):
+                continue
+            coefficients[name] = replace(one, std=max(one.std, part * one.value))
+            deviation[other] = max(deviation[other], part * shape[other])
+    return coefficients, deviation

@@ -1,0 +1,155 @@
+"""What stays unexplained: joints on which a model with all findings leaves more than noise, or runs contradict it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from identification.diagnosis.columns.hypothesis import Key
+from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.runs.stated_elasticity import names_of_backlash, stated
+from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.contradiction import Contradicted, pulled
+from identification.diagnosis.verdict.drifting import drifting
+from identification.diagnosis.verdict.overlooked import untested, untold
+from identification.diagnosis.verdict.testing import Trial
+from identification.diagnosis.verdict.tones import tones
+from identification.diagnosis.verdict.where import Where, located
+from identification.residuals import rms
+
+#: Why something stays unexplained where a residual does not say so.
+VALUES, AMPLITUDES = "values", "amplitudes"
+
+#: What may stay unexplained, in parts of what was explained on the joint.
+_PART = 0.3
+
+
+@dataclass(frozen=True)
+class Unexplained:
+    """Joints that lack something (``lacks``), and ``where`` that is most, None where it was not asked.
+
+    ``reason`` is what alone says so: other ``VALUES`` than are known, or ``AMPLITUDES`` that do not hold; else empty.
+    ``bouncing`` are the joints, by number, whose backlash the file states. ``notes`` tell what else speaks for it.
+    """
+
+    lacks: tuple[Lack, ...]
+    where: Where | None
+    reason: str = ""
+    bouncing: tuple[int, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def missing(self) -> bool:
+        """Whether anything stays unexplained."""
+        return bool(self.lacks) or self.reason == VALUES
+
+
+#: Of a diagnosis that only locates.
+NOT_JUDGED = Unexplained((), None)
+
+
+def unexplained(
+    found: Search, trial: Trial | None, last: Where, disagreeing: Collection[Key], other: Sequence[Contradicted]
+) -> Unexplained:
+    """What a search leaves, of whose model ``last`` tells where its residual is.
+
+    In this order: large residuals; torques that drift or sway by themselves; findings, by effect and joint, on
+    whose amplitude the runs are ``disagreeing``; where nothing was found what noise may hide; and parameters that
+    have ``other`` values than are known.
+    """
+    bounces, explained = _bounces(found), _explained(found)
+    large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
+    overlooked = {} if large else _drifting(found) | _swaying(found)
+    doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
+    if not (large or overlooked or doubtful or found.choices):
+        overlooked = _overlooked(found, trial)
+    lacks = large or doubtful or [last.lack[k] for k in overlooked]
+    where = _over_time(located(last, lacks), overlooked)
+    reason = AMPLITUDES if doubtful else ""
+    pulling = None if lacks or found.choices else pulled(found, other)
+    if pulling is not None:
+        where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
+        reason = VALUES
+    return Unexplained(tuple(lacks), where, reason, tuple(bounces), tuple(overlooked.values()))
+
+
+def _bounces(found: Search) -> dict[int, float]:
+    """By the joint's number, the rms of the file's backlash beside the noise's, of which no file tells all: how a link
+    bounces the smallest error changes.
+    """
+    bank, result = found.bank, {}
+    for one in stated(bank.robot):
+        if one.gap:
+            numbers = [bank.base.index(name) for name in names_of_backlash(one.number)]
+            weights = {number: found.weights[number] for number in numbers}
+            result[one.number] = rms(bank.left(one.k, {}) - bank.left(one.k, weights))
+    return result
+
+
+def _explained(found: Search) -> dict[int, float]:
+    """By the joint's number, the rms beside the noise's of what was found there."""
+    bank, result = found.bank, {}
+    for k, joint in enumerate(bank.robot.moving):
+        first, last = bank.left(k, found.start), bank.left(k, found.weights)
+        result[joint.number] = float(np.sqrt(max(float(first @ first - last @ last), 0.0) / max(len(first), 1)))
+    return result
+
+
+def _large(lack: Lack, explained: float, bounces: float) -> bool:
+    """Whether what a joint's model lacks is more than noise, and not small beside what was ``explained`` there, or
+    beside what the file explains by a link that ``bounces``.
+    """
+    return lack.burst is not None or (lack.told and lack.size > _PART * float(np.hypot(explained, bounces)))
+
+
+def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:
+    """Of the joints on which findings act of whose amplitude the runs disagree."""
+    return [last.lack[k] for one in found.variants if one.key in disagreeing for k in one.joints]
+
+
+def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
+    """By coordinate, the worst first, why something is missing though nothing was found, in words."""
+    numbers = found.bank.robot.numbers
+    most = untold(found, found.start)
+    tested = {} if trial is None else untested(found, trial)
+    said = {
+        k: f"most of how the torque of joint {numbers[k]} varies follows from nothing, too slowly for noise"
+        for k in sorted(most, key=lambda k: -most[k])
+    }
+    said |= {
+        k: f"the runs that test keep {tested[k]:.2g} times the noise on joint {numbers[k]}, the others do not: what is "
+        "missing there changes from run to run, or with time"
+        for k in sorted(tested, key=lambda k: -tested[k])
+        if k not in most
+    }
+    return said
+
+
+def _drifting(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose torque drifts, in words."""
+    sizes = drifting(found, found.weights)
+    return {
+        k: f"the torque of joint {found.bank.robot.numbers[k]} drifts while its motion repeats, by {sizes[k]:.2g} "
+        "times what else differs between the periods"
+        for k in sorted(sizes, key=lambda k: -sizes[k])
+    }
+
+
+def _swaying(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose torque oscillates by itself, in words."""
+    seen = tones(found, found.weights)
+    return {
+        k: f"{100 * seen[k].part:.0f} % of what differs between the periods of joint {found.bank.robot.numbers[k]} is "
+        f"an oscillation of {seen[k].frequency:.3g} Hz that does not follow the motion"
+        for k in sorted(seen, key=lambda k: -seen[k].part)
+    }
+
+
+def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
+    """Where the runs say what was ``overlooked`` they do not say over which variable."""
+    if not overlooked:
+        return after
+    first = after.lack[next(iter(overlooked))].joint
+    return replace(after, joint=first, variable="time", region="changes with time or from run to run", shares={})

@@ -1,0 +1,146 @@
+"""Where model and measurement disagree: on which joint, over which variable, in which region of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from identification.diagnosis.columns.hypothesis import ELASTIC
+from identification.diagnosis.noise.lack_of_fit import Lack, lack_of_fit
+from identification.diagnosis.search.evidence import columns_of
+from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.verdict.follows_motion import following
+from identification.diagnosis.verdict.views import View, strongest, views
+
+Array = NDArray[np.float64]
+
+#: Part of the residual's variance that a variable must order to be a signature.
+_ORDERED = 0.05
+#: Part of what the strongest variable orders that the variable of a finding must order.
+_LEADS = 0.25
+#: Part of a sample's period within which the samples do not tell when a torque jumped.
+_HALF_SAMPLE = 0.5
+#: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
+#: motor's phase other orders cancel.
+_SHOWN = ("q", "q by direction", "qd", "qdd", "load")
+
+
+@dataclass(frozen=True)
+class Where:
+    """Where model and measurement disagree most: ``joint`` (number, 0 if nowhere), ``variable``, its region in words.
+
+    ``shares`` are the parts of that joint's residual that each variable orders. ``lack`` is each joint's.
+    """
+
+    joint: int
+    variable: str
+    region: str
+    shares: Mapping[str, float]
+    lack: tuple[Lack, ...]
+    views: Mapping[int, tuple[View, ...]]
+
+    @property
+    def words(self) -> str:
+        """``at q 0.3 to 0.4 rad``: the variable that orders the residual, and the region of it; empty without one."""
+        if not self.variable:
+            return ""
+        if self.region.startswith(self.variable):
+            return f"at {self.region}"
+        return f"over {self.variable}" + (f", {self.region}" if self.region else "")
+
+    @property
+    def event(self) -> str:
+        """What happens once on the joint, in words: when; empty where nothing does."""
+        burst = next((one.burst for one in self.lack if one.joint == self.joint), None)
+        return "" if burst is None else f"once, at {burst[1]:.2f} s of {Path(burst[0]).name}"
+
+
+def seen(found: Search, weights: Mapping[int, float]) -> Where:
+    """What values of columns by number leave of each joint, without a verdict on where that is most."""
+    bank = found.bank
+    numbers = bank.robot.numbers
+    everything = range(len(bank.runs))
+    chosen = found.variants
+    elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
+    stiff = {column: x for column, x in weights.items() if column not in elastic}
+    lacks, shown = [], {}
+    for k, number in enumerate(numbers):
+        white = [bank.residual(r, k, weights) for r in everything]
+        doubtful = [late(found, r, k) for r in everything]
+        if elastic:
+            swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
+            doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
+        lack = lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, k))
+        lacks.append(following(bank, white, found.maps, k, lack))
+        raw = [bank.residual(r, k, weights, white=False) for r in everything]
+        shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
+    return Where(0, "", "", {}, tuple(lacks), shown)
+
+
+def _rounded(found: Search, k: int) -> float:
+    """Mean square of what rounding of positions and efforts makes of white rows of a joint, in runs that repeat."""
+    bank = found.bank
+    rows = [
+        colours[k].white(one[k][None], run.kept[k])[0]
+        for colours, one, run in zip(bank.colours, found.rounded, bank.runs, strict=True)
+        if run.times
+    ]
+    return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
+
+
+def late(found: Search, r: int, k: int) -> Array:
+    """What the torque of a joint changes by in the time that samples do not tell, in white kept rows of a run."""
+    bank = found.bank
+    run, scene = bank.runs[r], bank.scenes[r]
+    change = run.decimated(_HALF_SAMPLE * scene.period * scene.derivative(scene.torque[k]))
+    return np.asarray(bank.colours[r][k].white(change[None], run.kept[k])[0])
+
+
+def located(seen: Where, among: Sequence[Lack]) -> Where:
+    """With the joint of ``among`` that lacks most, and what orders its residual."""
+    if not among:
+        return seen
+    worst = max(among, key=lambda one: one.size)
+    variable, shares = strongest(mine := seen.views[worst.joint])
+    region = _region(mine, variable)
+    if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:
+        variable, region = "time", replace(seen, joint=worst.joint).event
+    return replace(seen, joint=worst.joint, variable=variable, region=region, shares=shares)
+
+
+def led(before: Where, first: Finding) -> Where:
+    """With the joint of the leading finding, which has been told from all others, and with its variable.
+
+    Another variable that orders far more of the residual stays where means over both would show it.
+    """
+    joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
+    joint = first.hypothesis.joint or joints[0]
+    mine = before.views[joint]
+    _, shares = strongest(mine)
+    ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
+    variable = first.variable or ordering
+    if of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
+        variable = ordering
+    region = _region(mine, variable)
+    return replace(before, joint=joint, variable=variable, region=region, shares=shares)
+
+
+def _region(found: Sequence[View], variable: str) -> str:
+    """The bins that stand out of the noise's band, in words."""
+    parts = []
+    for one in found:
+        if one.variable != variable:
+            continue
+        out = np.abs(one.mean) - one.band
+        if not len(out) or out.max() <= 0:
+            continue
+        at = one.centre[out > 0.5 * out.max()]
+        way = {-1: " moving backward", 0: "", 1: " moving forward"}[one.direction]
+        span = f"{at.min():.3g} to {at.max():.3g}" if len(at) > 1 else f"about {at[0]:.3g}"
+        parts.append(f"{variable} {span} {one.unit}{way}")
+    return "; ".join(parts)

@@ -1,0 +1,1 @@
+"""The diagnosis: on data made by hand, by the plant, and on what neither has."""

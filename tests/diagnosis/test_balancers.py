@@ -1,0 +1,90 @@
+"""On which joints the diagnosis looks for balancers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.effects.library import effects_of
+from generator.effects.library import library as effects
+from generator.errors import InputError
+from generator.robot.readers import read
+from identification.diagnosis.candidates import library
+from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.effect_columns import EffectColumns
+from identification.diagnosis.search.likely import balances, likely
+from identification.observation import Regressors
+from tests.diagnosis.diagnosed import known, played
+from tests.plant.effect import Effect
+from tests.plant.robot_file import robot_file
+from tests.plant.robots import ROBOTS
+from tests.plant.trajectories.fourier import fourier
+
+HEAVY, SCARA = "kr500_like", "scara_like"
+WAY = fourier(1, period=10.0, periods=1, before=2.0)
+
+
+def test_a_balancer_is_looked_for_where_bodies_weigh(tmp_path: Path) -> None:
+    """A spring pulls on an upright axis of a SCARA, but there is nothing to balance."""
+    path = tmp_path / "scara_like.yaml"
+    path.write_text(robot_file(ROBOTS[SCARA]).replace("effects:\n", "effects:\n  - {effect: joint_spring, joint: 1}\n"))
+    regressors = Regressors(read(path))
+    own = known(ROBOTS[SCARA], tmp_path)
+    of_spring = replace(own, regressors=regressors, values={**own.values, "ks1": 40.0})
+    scene, _, _ = played(of_spring, Effect("offset", 1, 0.0), WAY)
+    assert np.ptp(scene.load[0]) > 10
+    assert not any(balances(one.effect) for one in library.hypotheses([scene]))
+    # Joint 2 has its balancer, and the wrist carries next to nothing.
+    heavy, _, _ = played(known(ROBOTS[HEAVY], tmp_path), Effect("offset", 1, 0.0), WAY)
+    found = {(one.effect, one.joint) for one in library.hypotheses([heavy])}
+    assert {joint for effect, joint in found if effect == "spring_balancer"} == {3}
+
+
+@pytest.mark.parametrize(("lean", "usual"), [(0.0, {2}), (0.1, {2}), (0.6, {1, 2})])
+def test_a_balancer_is_usual_on_the_shoulder(lean: float, usual: set[int], tmp_path: Path) -> None:
+    """However the base leans: the first axis carries weight too then."""
+    robot = replace(ROBOTS[HEAVY], own=(), base=(lean, 0.0, 0.0))
+    scene, _, _ = played(known(robot, tmp_path), Effect("offset", 1, 0.0), WAY)
+    found = [one for one in library.hypotheses([scene]) if balances(one.effect)]
+    assert {2, 3} <= {one.joint for one in found}
+    assert {one.joint for one in found if one.usual} == usual
+
+
+def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> None:
+    """Along the run it may have: the robot file refuses one that the joint's limits do not allow."""
+    arm = known(ROBOTS[HEAVY], tmp_path)
+    scene, _, _ = played(arm, Effect("offset", 1, 0.0), WAY)
+    joint = arm.regressors.model.robot.moving[2]
+    shape = {"d21": 1.0, "d22": 0.4, "phi": 1.5, "exponent": 1.0}
+    columns = EffectColumns(effects()["gas_balancer"], joint, 2, arm.regressors.model.robot)
+    lengths = np.linspace(0.05, 1.5, 40).tolist()
+    finite = [bool(np.all(np.isfinite(columns(scene, {**shape, "l0": length})))) for length in lengths]
+    assert not finite[0]
+    assert finite[-1]
+    first = lengths[finite.index(True)]
+    text = robot_file(ROBOTS[HEAVY]).replace(
+        "effects:\n",
+        "effects:\n  - {effect: gas_balancer, joint: 3, values: {d21: 1.0 m, d22: 0.4 m, phi: 1.5 rad, exponent: 1, "
+        f"l0: {first} m}}}}\n",
+    )
+    path = tmp_path / "balanced.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert effects_of(read(path))
+    path.write_text(text.replace(f"l0: {first} m", f"l0: {first - 0.1} m"), encoding="utf-8")
+    with pytest.raises(InputError, match="l0 is too small"):
+        effects_of(read(path))
+
+
+def test_a_spring_without_stiffness_is_not_thought_of_first(tmp_path: Path) -> None:
+    scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("offset", 1, 0.0), WAY)
+    (spring,) = (
+        one for one in library.hypotheses([scene]) if (one.effect, one.joint, one.usual) == ("spring_balancer", 2, True)
+    )
+    assert [one.name for one in spring.coefficients] == ["Kr2", "K02"]
+    whole = Variant(spring, {}, (10, 11), (1,), (0, 1))
+    assert likely(whole, [])
+    assert not likely(whole.only([1]), [])
+    assert not likely(whole, [whole])

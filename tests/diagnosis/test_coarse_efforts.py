@@ -1,0 +1,120 @@
+"""Efforts that were recorded in coarse steps: rounding is noise, in what periods have in common too."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.robot.readers import read
+from identification.diagnosis.diagnosis import NAMED, NOTHING
+from identification.diagnosis.noise import noise_floor
+from identification.diagnosis.noise.effort_rounding import effort_rounding, notes, told
+from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.runs.scene import Scene
+from identification.observation import Regressors
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, ready, recorded, torque
+from tests.recorded import TRUTH as TWO
+from tests.recorded import Recorded, fourier, stacked, two_links
+from tests.recorded import recorded as recorded_links
+
+Array = NDArray[np.float64]
+
+STEP = 5.0
+#: Step of the currents [A] of two motors, their coupling and torque constants.
+CURRENT = 0.02
+N = np.array([[100.0, 0.0], [5.0, -80.0]])
+KT = np.array([0.5, 0.4])
+
+
+def coarse(sources: list[str], step: float) -> None:
+    """Rounds the torques of recorded runs."""
+    for source in sources:
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+        Recorded({"t": t, "q1": q, "tau1": step * np.round(tau / step)}).save(Path(source))
+
+
+def of_periods(run: Prepared, x: Array) -> Array:
+    """Whole periods of a joint's rows, one a row."""
+    count = len(run.t) // run.period
+    return np.asarray(x[0, : count * run.period].reshape(count, run.period))
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1, 0.15])
+def test_what_periods_have_in_common_is_as_large_as_it_says(noise: float, tmp_path: Path) -> None:
+    (tmp_path / "arm.yaml").write_text(ARM)
+    regressors, draw = Regressors(read(tmp_path / "arm.yaml")), np.random.default_rng(2)
+    t, motion = fourier(regressors.model.robot, 198.0, 100.0, 1)
+    exact = regressors.torques(TRUTH, motion)[0] + noise * STEP * draw.normal(size=len(t))
+    saved = Recorded({"t": t, "q1": motion.q[0], "tau1": STEP * np.round(exact / STEP)}).save(tmp_path / "a.csv")
+    run = ready(str(saved), regressors)
+    first = run.sampled.filters.first
+    error = run.decimated((run.sampled.run.tau - exact)[:, first : first + run.sampled.motion.samples])
+    periods = of_periods(run, error)
+    common = np.mean(periods.mean(axis=0) ** 2) - np.mean(periods.var(axis=0, ddof=1)) / len(periods)
+    said = effort_rounding(run, Scene(run.sampled, regressors, TRUTH))
+    assert np.mean(said**2) / (len(run.t) / run.period) == pytest.approx(common, rel=0.25)
+
+
+def test_fine_torques_take_no_steps(tmp_path: Path) -> None:
+    regressors, (source,) = recorded(tmp_path, [torque("")])
+    run = ready(source, regressors)
+    assert run.sampled.run.coarse is None
+    assert not effort_rounding(run, Scene(run.sampled, regressors, TRUTH)).any()
+
+
+def test_coarse_torques_lack_nothing_and_are_told(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    assert notes(diagnosis_of(sources, regressors).search.bank) == []
+    coarse(sources, STEP)
+    found = diagnosis_of(sources, regressors)
+    assert found.verdict == NOTHING
+    assert notes(found.search.bank) == ["torques take steps, 5 N m on joint 1: what rounding leaves counts as noise"]
+    assert noise_floor.notes(found.search.bank, told(found.search.bank)) == []
+
+
+def test_lost_samples_and_a_beginning_of_its_own_hide_no_steps(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    for source in sources:
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+        tau = STEP * np.round((tau + 60.0 * np.exp(-t / 0.3)) / STEP)
+        there = np.arange(len(t)) % 700 != 350
+        Recorded({"t": t[there], "q1": q[there], "tau1": tau[there]}).save(Path(source))
+    found = diagnosis_of(sources, regressors)
+    assert found.verdict == NOTHING
+    assert told(found.search.bank) == pytest.approx({0: STEP}, rel=1e-6)
+
+
+def test_fine_steps_are_not_told(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 2)
+    coarse(sources, 0.3)
+    assert told(diagnosis_of(sources, regressors).search.bank) == {}
+
+
+def test_what_is_larger_than_the_steps_is_found(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("stribeck")] * 3)
+    coarse(sources, STEP)
+    found = diagnosis_of(sources, regressors)
+    assert found.verdict == NAMED
+    assert [one.hypothesis.effect for one in found.findings] == ["stribeck_friction"]
+
+
+def test_steps_of_coupled_motors_act_on_the_joints_that_they_drive(tmp_path: Path) -> None:
+    regressors = two_links(tmp_path)
+    good = recorded_links(regressors, TWO, duration=40.0)
+    exact = np.linalg.solve(N.T, stacked(good, "tau")) / KT[:, None]
+    currents = CURRENT * np.round(exact / CURRENT)
+    saved = good.without("tau1", "tau2").with_columns(i1=currents[0], i2=currents[1]).save(tmp_path / "a.csv")
+    run = ready(str(saved), regressors)
+    found = run.sampled.run.coarse
+    assert found is not None
+    assert found.acting == pytest.approx(N.T * KT)
+    assert found.steps == pytest.approx([CURRENT] * 2, rel=1e-6)
+    assert found.of_joints == pytest.approx([100.0 * KT[0] * CURRENT, 80.0 * KT[1] * CURRENT])
+    first = run.sampled.filters.first
+    error = (N.T * KT) @ (currents - exact)
+    error = run.decimated(error[:, first : first + run.sampled.motion.samples])
+    said = effort_rounding(run, Scene(run.sampled, regressors, TWO)) / np.sqrt(run.times)
+    assert said.std(axis=-1) == pytest.approx(error.std(axis=-1), rel=0.25)

@@ -1,0 +1,59 @@
+"""What is not named beside something else, and what is told as not determined, on matrices whose answer is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
+from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
+from tests.matrices import Array
+
+
+def test_a_drive_train_is_elastic_or_loose() -> None:
+    """A file says one of both of a joint; on another joint the other one may be."""
+    data = Data(51)
+    soft, loose = data.column(), data.column()
+    both = [fixed("joint_elasticity", soft), fixed("backlash", loose)]
+    assert names(search(data.bank(0.9 * soft + 0.5 * loose, both))) == {"joint_elasticity"}
+    elsewhere = [both[0], replace(both[1], joint=2)]
+    assert names(search(data.bank(0.9 * soft + 0.5 * loose, elsewhere))) == {"joint_elasticity", "backlash"}
+
+
+@pytest.mark.parametrize(
+    ("variable", "size", "found"),
+    [("frequency", 0.4, True), ("load", 0.4, False), ("load", 0.6, True), ("frequency", 0.2, False)],
+)
+def test_how_much_of_another_law_may_be_what_it_lacks(variable: str, size: float, found: bool) -> None:
+    """Of what shows over the position 2.9 explains 8.4: 3 % are 0.25, a rms of 0.5, and 1 % a rms of 0.29."""
+    data = Data(52)
+    large, small = data.column(), data.column()
+    offered = [replace(fixed("large", large), variable="q"), replace(fixed("small", small), variable=variable)]
+    assert ("small" in names(search(data.bank(2.9 * large + size * small, offered)))) == found
+
+
+def waves(q: Array, orders: tuple[float, ...]) -> Hypothesis:
+    """A wave of a whole order of positions q (RUNS x COUNT), refined by one of twice the order."""
+    shape = ShapeRange("order", "1", 1.0, max(orders), points=orders, whole=True)
+
+    def columns(scene: Any, given: Mapping[str, float]) -> Array:
+        phase = given["order"] * q[scene.number]
+        return np.stack([np.cos(phase), np.cos(2 * phase)])[:, None]
+
+    both = (Coefficient("c", "1"), Coefficient("c2", "1", refines=True))
+    return Hypothesis("wave", "wave", 1, both, columns, shapes=(shape,))
+
+
+@pytest.mark.parametrize(("way", "apart"), [(3.0, True), (0.1, False)])
+def test_orders_that_do_as_well_are_not_apart(way: float, apart: bool) -> None:
+    """Order 2 is the second harmonic of order 1, which the runs do not ask for; a short way shows no order."""
+    data = Data(53)
+    q = data.draw.uniform(-way, way, size=(RUNS, 1500))
+    (found,) = search(data.bank(2.0 * np.cos(2 * q), [waves(q, (1.0, 2.0, 3.0))]))
+    assert found.apart == apart
+    if apart:
+        assert found.evidence.variant.shape["order"] == 2.0

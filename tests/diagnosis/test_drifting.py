@@ -1,0 +1,71 @@
+"""A torque that drifts, or oscillates by itself, while its motion repeats is no noise."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
+from identification.observation import Regressors
+from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
+from tests.recorded import Array, Recorded
+
+Added = Callable[[Array], Array]
+
+
+def diagnosed(folder: Path, added: Added) -> Diagnosis:
+    """Two runs of several periods with something of the time on top."""
+    regressors, sources = recorded(folder, [torque("")] * 2)
+    return with_more(regressors, sources, added)
+
+
+def with_more(regressors: Regressors, sources: list[str], added: Added) -> Diagnosis:
+    for source in sources:
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+        Recorded({"t": t, "q1": q, "tau1": tau + added(t)}).save(Path(source))
+    return diagnosis_of(sources, regressors)
+
+
+def red(seconds: float, size: float) -> Added:
+    """Noise that stays for a time."""
+    draw = np.random.default_rng(4)
+
+    def noise(t: Array) -> Array:
+        stays = np.exp(-(t[1] - t[0]) / seconds)
+        white = draw.normal(size=len(t)) * np.sqrt(1 - stays**2)
+        return np.asarray(size * lfilter([1], [1, -stays], white))
+
+    return noise
+
+
+@pytest.mark.parametrize("drift", [lambda t: 5.0 * (1 - np.exp(-t / 25.0)), lambda t: -0.15 * t])
+def test_a_drift_of_the_offset_is_unexplained(drift: Added, tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, drift)
+    assert found.verdict == UNEXPLAINED
+    (note,) = (note for note in found.notes if "drifts" in note)
+    assert note.startswith("the torque of joint 1 drifts while its motion repeats, by ")
+    assert (found.after.joint, found.after.variable) == (1, "time")
+    assert not any(one.status == "firm" for one in found.findings)
+
+
+@pytest.mark.parametrize("frequency", [1.337, 11.73])
+def test_an_oscillation_of_its_own_is_unexplained(frequency: float, tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, lambda t: 4.0 * np.sin(2 * np.pi * frequency * t + 1.0))
+    assert found.verdict == UNEXPLAINED
+    (note,) = (note for note in found.notes if "oscillation" in note)
+    match = re.search(r"of joint 1 is an oscillation of ([\d.]+) Hz that does not follow the motion", note)
+    assert match
+    assert float(match[1]) == pytest.approx(frequency, abs=0.05)
+    assert (found.after.joint, found.after.variable) == (1, "time")
+
+
+@pytest.mark.parametrize("seconds", [0.05, 0.3])
+def test_noise_that_stays_for_a_time_is_no_drift(seconds: float, tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, red(seconds, 2.0))
+    assert (found.verdict, found.findings) == (NOTHING, ())
+    assert not any("drifts" in note or "oscillation" in note for note in found.notes)

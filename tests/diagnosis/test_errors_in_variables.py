@@ -1,0 +1,126 @@
+"""Noise of positions makes an elastic drive train appear that is not there: as much of it as is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.robot.readers import read
+from identification.diagnosis.candidates import elasticity
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NOTHING
+from identification.diagnosis.noise.errors_in_variables import Pretence, redrawn
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.evidence import Weighing
+from identification.observation import Regressors
+from identification.resolution import steps
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, ready
+from tests.matrices import WHITE
+from tests.recorded import Recorded, fourier
+
+Array = NDArray[np.float64]
+
+#: One of 4096 steps of a motor behind a gear of 60.
+STEP, FINE = 2 * np.pi / 4096 / 60, 1e-13
+RATE = 500.0
+
+
+def recorded(
+    folder: Path, count: int, noise: float, sensor: Callable[[Array], Array], slowest: float = 0.2
+) -> tuple[Regressors, list[str]]:
+    """Runs of the arm with the torques of its true motion, and positions as a sensor tells them."""
+    path = folder / "arm.yaml"
+    path.write_text(ARM)
+    robot = read(path)
+    regressors, draw, sources = Regressors(robot), np.random.default_rng(5), []
+    for seed in range(1, count + 1):
+        t, motion = fourier(robot, 20.0, RATE, seed, slowest)
+        tau = regressors.torques(TRUTH, motion)[0] + noise * draw.normal(size=len(t))
+        sources.append(str(Recorded({"t": t, "q1": sensor(motion.q[0]), "tau1": tau}).save(folder / f"{seed}.csv")))
+    return regressors, sources
+
+
+def rounded(step: float) -> Callable[[Array], Array]:
+    """A sensor in steps."""
+    return lambda q: step * np.round(q / step)
+
+
+def noisy(deviation: float) -> Callable[[Array], Array]:
+    """A sensor with white noise."""
+    draw = np.random.default_rng(8)
+    return lambda q: q + deviation * draw.normal(size=q.shape)
+
+
+def test_steps_are_found_where_the_smallest_difference_is_of_several() -> None:
+    number = np.cumsum(np.random.default_rng(2).integers(3, 40, 2000))
+    assert steps(STEP * number[None]) == pytest.approx([STEP], rel=1e-9)
+
+
+def alone(folder: Path, step: float) -> Bank:
+    """One run without noise, beside the true model."""
+    regressors, (source,) = recorded(folder, 1, 0.0, rounded(step))
+    run = ready(source, regressors)
+    return Bank([run], [Scene(run.sampled, regressors, TRUTH)])
+
+
+def test_the_products_that_rounding_makes_are_as_large_as_told(tmp_path: Path) -> None:
+    (hypothesis,) = elasticity.hypotheses(alone(tmp_path, FINE).scenes)
+    one = alone(tmp_path, 4 * STEP)
+    variants = [variant for shape in hypothesis.variants if (variant := one.add(hypothesis, shape)) is not None]
+    one.whiten([[WHITE]])
+    pretence = Pretence(one, redrawn(one.runs, one.scenes))
+    left = one.residual(0, 0, {one.base.index(name): value for name, value in TRUTH.items()})
+    assert variants
+    for variant in variants:
+        numbers, rows = one.white(0, 0)
+        product = rows[numbers.index(variant.columns[0])] @ left
+        assert pretence.of(variant)[0] == pytest.approx(product, rel=0.3)
+
+
+def test_what_the_model_explains_of_a_column_pretends_nothing(tmp_path: Path) -> None:
+    """The model's columns are of the same rounded positions."""
+
+    def columns(scene: Scene, shape: Mapping[str, float]) -> Array:
+        return scene.torque_of(TRUTH, scene.motion)[None]
+
+    one = alone(tmp_path, 4 * STEP)
+    variant = one.add(Hypothesis("gain", "gain", 1, (Coefficient("c", "1"),), columns), {})
+    assert variant is not None
+    one.whiten([[WHITE]])
+    weighing = Weighing(one, (0,), (), None, redrawn(one.runs, one.scenes))
+    assert abs(Pretence(one, redrawn(one.runs, one.scenes)).of(variant)[0]) > 400
+    assert abs(weighing.pretended(variant, [])[0]) < 1
+
+
+def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
+    one = alone(tmp_path, FINE)
+    (hypothesis,) = elasticity.hypotheses(one.scenes)
+    variant = one.add(hypothesis, hypothesis.variants[0])
+    assert variant is not None
+    one.whiten([[WHITE]])
+    assert not Pretence(one, redrawn(one.runs, one.scenes)).of(variant).any()
+
+
+@pytest.mark.parametrize(
+    ("sensor", "noise", "slowest"),
+    [
+        (rounded(STEP), 0.4, 0.2),
+        (rounded(2 * STEP), 1.0, 0.2),
+        (noisy(STEP / 4), 0.4, 0.2),
+        (noisy(STEP / 4), 0.4, 0.07),
+        (noisy(STEP / 2), 0.4, 0.07),
+    ],
+)
+def test_an_arm_with_an_ordinary_encoder_is_not_called_elastic(
+    sensor: Callable[[Array], Array], noise: float, slowest: float, tmp_path: Path
+) -> None:
+    _, sources = recorded(tmp_path, 3, noise, sensor, slowest)
+    path = tmp_path / "arm.yaml"
+    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    assert (found.verdict, found.findings) == (NOTHING, ())

@@ -1,0 +1,116 @@
+"""Lack of fit is found where it is, and not where it is not."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from identification.diagnosis.noise.lack_of_fit import Lack, lack_of_fit
+
+Array = NDArray[np.float64]
+
+PERIOD, COUNT = 200, 1000
+
+
+def one_run(period: int = PERIOD, name: str = "A.csv", unsettled_at: slice = slice(0)) -> Any:
+    kept = np.arange(COUNT) % 17 != 0
+    unsettled = np.zeros((1, COUNT), dtype=bool)
+    unsettled[0, unsettled_at] = True
+    sampled = SimpleNamespace(run=SimpleNamespace(name=name))
+    return SimpleNamespace(
+        period=period,
+        times=COUNT / period if period else 0.0,
+        t=np.arange(COUNT) / 50,
+        kept=kept[None],
+        unsettled=unsettled,
+        sampled=sampled,
+    )
+
+
+def lack(e: Array, period: int = PERIOD) -> Lack:
+    run = one_run(period)
+    return lack_of_fit([run], [e[run.kept[0]]], 0, 3)
+
+
+def test_white_noise_fails_as_often_as_the_level_says() -> None:
+    draw = np.random.default_rng(1)
+    found = [lack(draw.normal(size=COUNT)) for _ in range(400)]
+    p = np.array([one.p for one in found])
+    # Uniform: 400 draws lie within 1.63/sqrt(400) of the line at 1 % (Kolmogorov).
+    assert np.abs(np.sort(p) - np.arange(1, 401) / 400).max() < 0.082
+    assert np.mean([one.ratio for one in found]) == pytest.approx(1.0, abs=0.02)
+    assert all(one.repeats and one.joint == 3 for one in found)
+    assert not any(one.burst for one in found)
+
+
+def test_what_repeats_is_measured_in_parts_of_the_noise() -> None:
+    draw = np.random.default_rng(2)
+    wave = 0.5 * np.sqrt(2) * np.sin(2 * np.pi * np.arange(COUNT) / PERIOD * 4)
+    found = lack(draw.normal(size=COUNT) + wave)
+    assert found.p < 1e-10
+    assert found.size == pytest.approx(0.5, rel=0.2)
+
+
+def test_noise_that_is_larger_than_thought_is_no_lack_of_fit() -> None:
+    draw = np.random.default_rng(3)
+    assert lack(2.0 * draw.normal(size=COUNT)).p > 1e-3
+
+
+def test_what_differs_between_periods_is_not_called_common() -> None:
+    draw = np.random.default_rng(4)
+    growing = np.arange(COUNT) // PERIOD - 2.0
+    assert lack(draw.normal(size=COUNT) + growing).p > 0.5
+
+
+def test_without_periods_power_is_compared() -> None:
+    draw = np.random.default_rng(5)
+    assert lack(draw.normal(size=COUNT), 0).p > 1e-3
+    found = lack(1.5 * draw.normal(size=COUNT), 0)
+    assert not found.repeats
+    assert found.p < 1e-10
+    assert found.size == pytest.approx(np.sqrt(1.5**2 - 1), rel=0.15)
+
+
+@pytest.mark.parametrize("period", [0, PERIOD])
+def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    e[620:628] += 8.0
+    found = lack(e, period)
+    assert found.burst is not None
+    run, t = found.burst
+    assert run == "A.csv"
+    assert t == pytest.approx(624 / 50, abs=0.15)
+
+
+def test_what_comes_again_with_each_period_is_no_event_but_lacks() -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    for period in range(COUNT // PERIOD):
+        e[PERIOD * period + 20 : PERIOD * period + 28] += 8.0
+    found = lack(e)
+    assert found.burst is None
+    assert found.p < 1e-10
+
+
+def test_no_event_is_told_where_a_joint_is_unsettled() -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    e[620:628] += 8.0
+    run = one_run(unsettled_at=slice(615, 640))
+    assert lack_of_fit([run], [e[run.kept[0]]], 0, 3).burst is None
+
+
+@pytest.mark.parametrize(("size", "told"), [(1.0, True), (8.0, False)])
+def test_a_swing_that_comes_late_is_no_event(size: float, told: bool) -> None:
+    draw = np.random.default_rng(6)
+    e, swing = draw.normal(size=COUNT), np.zeros(COUNT)
+    e[620:628] += 8.0
+    swing[600:650] = size
+    run = one_run()
+    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3, [swing[run.kept[0]]])
+    assert (found.burst is not None) == told

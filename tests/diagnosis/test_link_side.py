@@ -1,0 +1,98 @@
+"""The link beyond a drive train: its drag, the split between it and the rotor, and swings that settle beside the model.
+
+The simulated robot integrates its drive trains as differential equations and shares no code with the diagnosis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.candidates import backlash
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.whitening import Colour
+from identification.diagnosis.runs.link_side import LinkSides, Train, link_side
+from identification.diagnosis.runs.prepared import prepared
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.evidence import Weighing
+from identification.diagnosis.search.settling import settled, swinging
+from identification.recipe import Recipe
+from tests.diagnosis.diagnosed import CLEAN, Known, known, with_robot
+from tests.plant.effect import Effect
+from tests.plant.robots import ROBOTS
+from tests.plant.simulate import make_run
+from tests.plant.trajectories.fourier import fourier
+
+NAME, GAP = "scara_like", 4e-4
+ROTOR = ROBOTS[NAME].chain[0].rotor
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Known:
+    return known(ROBOTS[NAME], tmp_path_factory.mktemp("robot"))
+
+
+@pytest.fixture(scope="module")
+def loose(robot: Known) -> Scene:
+    """A run with play in the first drive train."""
+    way = fourier(2, period=10.0, periods=1, before=2.0)
+    return robot.scene(make_run(ROBOTS[NAME], way, [Effect("backlash", 1, GAP)], sensors=CLEAN))
+
+
+def offered(scene: Scene, joint: int) -> Hypothesis:
+    (found,) = [one for one in backlash.hypotheses([scene]) if one.joint == joint]
+    return found
+
+
+def test_a_link_is_dragged_as_its_inertia_grows(loose: Scene) -> None:
+    """d/dt (M qd) holds M' qd: what the load changes by with the speed is the inertia's rate."""
+    side = link_side(loose, 0, ROTOR)
+    rate = loose.derivative(side.inertia)
+    assert np.ptp(rate) > 0.1 * float(np.mean(side.inertia))
+    np.testing.assert_allclose(side.drag[50:-50], rate[50:-50], atol=0.02 * float(np.abs(rate).max()))
+
+
+def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
+    first, anew = link_side(loose, 0, ROTOR), link_side(loose, 0, 0.8 * ROTOR)
+    moved = LinkSides(first).along(loose, 0.8 * ROTOR)
+    assert np.mean(moved.inertia) > np.mean(first.inertia)
+    train = Train(1e5, 0.1, GAP)
+    for name in ("load", "by_position", "by_speed", "by_acceleration"):
+        np.testing.assert_allclose(getattr(moved, name), getattr(anew, name), atol=1e-6, err_msg=name)
+    np.testing.assert_allclose(moved.deflection(train).q, anew.deflection(train).q, atol=1e-9)
+
+
+def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> None:
+    """What the file says of it is where the search begins; where it says nothing, several shares are tried."""
+    told = offered(loose, 1)
+    assert told.shapes[0].name == "Iam"
+    assert "Iam" not in told.given
+    assert all(one["Iam"] == pytest.approx(ROTOR) for one in told.variants)
+    (inertia,) = [one for one in told.shapes if one.name == "Iam"]
+    assert inertia.low < ROTOR < inertia.high
+    untold = offered(with_robot(loose, replace(loose.robot, parameter_sets={})), 1)
+    assert {one["Iam"] for one in untold.variants} != {ROTOR}
+    assert all(inertia.low < one["Iam"] < 1.1 * inertia.high for one in untold.variants)
+
+
+def test_swings_settle_beside_the_base_parameters(loose: Scene) -> None:
+    """From a rotor and inertias that are wrong both come near the truth, and the gap with them."""
+    one = prepared(loose.sampled.run, Recipe(), loose.regressors)
+    wrong = {name: value * (1.03 if name == "ZZ1R" else 1.0) for name, value in loose.values.items()}
+    scene = replace(loose, sampled=one.sampled, values=wrong)
+    told = offered(loose, 1)
+    truth = told.variants[0]
+    bank = Bank([one, one], [scene, replace(scene)])
+    shape = {**truth, "Iam": 0.98 * ROTOR, "gap": 1.1 * GAP}
+    start = bank.add(told, shape)
+    assert start is not None
+    assert swinging([start])
+    bank.whiten([[Colour((np.ones(1),), (1.0,))] * bank.dof] * 2)
+    (found,), values, acting = settled(Weighing(bank, [0], [1], None), [start])
+    assert values["ZZ1R"] == pytest.approx(loose.values["ZZ1R"], rel=0.005)
+    assert found.shape["Iam"] == pytest.approx(ROTOR, rel=0.01)
+    assert found.shape["gap"] == pytest.approx(GAP, rel=0.03)
+    assert acting.coefficients["gap1"] == pytest.approx(GAP, rel=0.05)

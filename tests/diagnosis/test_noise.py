@@ -1,0 +1,140 @@
+"""Noise told from what a model lacks; products of columns as they are added."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy import signal
+
+from identification.diagnosis.columns.whitening import Colour, colour
+from identification.diagnosis.noise.measured import colours
+from tests.matrices import bank, hypothesis, run, whitened
+
+Array = NDArray[np.float64]
+
+LAW, DEVIATION = np.array([1.0, -0.8]), 2.0
+#: Of the stationary process.
+POWER = DEVIATION**2 / (1 - 0.8**2)
+PERIOD, COUNT = 500, 3000
+
+
+def noise(seed: int, count: int = COUNT) -> Array:
+    drawn = np.random.default_rng(seed).normal(size=count + 200)
+    return np.asarray(signal.lfilter([DEVIATION], LAW, drawn)[200:])
+
+
+def base(count: int = COUNT) -> Array:
+    t = 2 * np.pi * np.arange(count) / PERIOD
+    return np.stack([np.sin(t), np.cos(t), np.ones(count)])
+
+
+def missing(size: float) -> Array:
+    """What repeats with the motion and is in no column."""
+    return size * np.sign(np.sin(2 * np.pi * 3 * np.arange(COUNT) / PERIOD + 0.1))
+
+
+def expect_the_noise(found: Colour, near: float = 0.1) -> None:
+    assert found.deviations[-1] == pytest.approx(DEVIATION, rel=near)
+    assert found.filters[-1][1] == pytest.approx(LAW[1], abs=0.08)
+
+
+def test_what_every_period_has_is_not_noise() -> None:
+    """Whatever the model lacks, noise is what differs between periods."""
+    tau = [[5.0, -3.0, 1.0] @ base() + missing(40.0) + noise(seed) for seed in (1, 2)]
+    repeating = bank([run(base(), one, period=PERIOD) for one in tau])
+    for one in colours(repeating):
+        expect_the_noise(one[0])
+    # Without periods all of it looks like noise, unless a column takes it away.
+    others = bank([run(base(), one) for one in tau])
+    assert colours(others)[0][0].deviations[0] > 8 * np.sqrt(POWER) / 1.2
+    others.add(hypothesis("square", lambda r, shape: missing(1.0)), {})
+    for one in colours(others):
+        expect_the_noise(one[0])
+
+
+def test_gaps_in_some_periods() -> None:
+    kept = np.ones(COUNT, dtype=bool)
+    kept[np.arange(COUNT) % PERIOD < 60] = False
+    kept[700:760] = False
+    tau = np.where(kept, base()[0] + missing(30.0) + noise(5), 1e6)
+    found = colours(bank([run(base(), tau, kept, PERIOD)]))
+    expect_the_noise(found[0][0])
+
+
+def test_many_columns_do_not_make_the_noise_small() -> None:
+    """What columns take from the noise by chance is given back."""
+    draw = np.random.default_rng(6)
+    one = bank([run(base(), base()[0] + noise(7))])
+    for _ in range(COUNT // 12):
+        column = draw.normal(size=COUNT)
+        one.add(hypothesis("chance", lambda r, shape, column=column: column), {})  # type: ignore[misc]
+    assert colours(one)[0][0].deviations[-1] == pytest.approx(DEVIATION, rel=0.05)
+
+
+def test_slow_columns_do_not_make_slow_noise_small() -> None:
+    """In a short run they take most of what noise has there, and little of what it has elsewhere."""
+    count, found = 700, []
+    t = np.arange(count)
+    for seed in range(30):
+        one = bank([run(np.ones((1, count)), noise(seed, count))])
+        for k in range(1, 60):
+            column = np.sin(np.pi * (k + 0.3) * t / count + 0.7 * k)
+            one.add(hypothesis(f"slow{k}", lambda r, shape, column=column: column), {})  # type: ignore[misc]
+        found.append(colours(one)[0][0].spectrum(np.array([0.005, 0.3]), 1.0) / 2)
+    expected = [DEVIATION**2 / np.abs(1 - 0.8 * np.exp(-2j * np.pi * f)) ** 2 for f in (0.005, 0.3)]
+    assert np.median(found, axis=0) == pytest.approx(expected, rel=0.25)
+
+
+def test_a_column_that_holds_the_record_s_noise_does_not_make_it_small() -> None:
+    """A current beyond a limit is the noise of a joint that holds a weight."""
+    tau = base()[0] + noise(7)
+    one = bank([run(base(), tau)])
+    recorded = replace(hypothesis("limit", lambda r, shape: tau - 0.9), recorded=True)
+    one.add(recorded, {})
+    assert colours(one)[0][0].deviations[-1] == pytest.approx(DEVIATION, rel=0.05)
+    other = bank([run(base(), tau)])
+    other.add(replace(recorded, recorded=False), {})
+    assert colours(other)[0][0].deviations[-1] < 0.1 * DEVIATION
+
+
+def test_columns_added_late_count_as_those_from_the_start() -> None:
+    """The Gram matrix that grows is the one that is made at once; both are the products of white rows."""
+    draw = np.random.default_rng(8)
+    kept = draw.random((2, COUNT)) > 0.1
+    tau = draw.normal(size=(2, COUNT))
+    columns = draw.normal(size=(3, 2, COUNT))
+    known = colour([noise(9)], order=3)
+
+    def offered(i: int):  # type: ignore[no-untyped-def]
+        return hypothesis(f"column{i}", lambda r, shape: columns[i, r])
+
+    early, late = (bank([run(base(), y, rows) for y, rows in zip(tau, kept, strict=True)]) for _ in range(2))
+    for i in range(3):
+        early.add(offered(i), {})
+    early.whiten([[known], [known]])
+    late.add(offered(0), {})
+    late.whiten([[known], [known]])
+    for i in (1, 2):
+        variant = late.add(offered(i), {})
+        assert variant is not None
+        assert variant.columns == (3 + i,)
+    for r in range(2):
+        rows = known.white(np.vstack([base(), columns[:, r], tau[r]]), kept[r])
+        assert late.grams[r] == pytest.approx(rows @ rows.T, rel=1e-9, abs=1e-6)
+        assert early.grams[r] == pytest.approx(late.grams[r], rel=1e-9, abs=1e-6)
+        values = {0: 0.5, 4: -2.0, 5: 1.0}
+        left = tau[r] - 0.5 * base()[0] + 2.0 * columns[1, r] - columns[2, r]
+        assert late.residual(r, 0, values, white=False) == pytest.approx(left)
+        assert late.residual(r, 0, values) == pytest.approx(known.white(left[None], kept[r])[0])
+
+
+def test_columns_that_are_nothing_or_no_numbers_are_refused() -> None:
+    one = whitened(bank([run(base(), noise(10))]))
+    before = one.count
+    assert one.add(hypothesis("nothing", lambda r, shape: np.zeros(COUNT)), {}) is None
+    assert one.add(hypothesis("impossible", lambda r, shape: np.full(COUNT, np.nan)), {}) is None
+    assert one.count == before
+    assert not one.variants

@@ -1,0 +1,72 @@
+"""Runs with torques of another sign or unit than the rest are refused, not explained."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from generator.robot.readers import read
+from identification.diagnosis.command import Request, diagnosed
+from identification.inverse_model import identify
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, recorded, torque
+from tests.recorded import TRUTH as LINKS
+from tests.recorded import Recorded, as_recorded, fourier, two_links
+
+#: What the arm's file knows beforehand.
+_UNITS = {"ZZ1": "kg m2", "MX1": "kg m", "MY1": "kg m", "Fv1": "N m s/rad", "Fc1": "N m", "Off1": "N m"}
+_VALUES = "".join(f"      {name}: {{value: {value}, unit: {_UNITS[name]}}}\n" for name, value in TRUTH.items())
+SET = f"parameters:\n  known:\n    description: d\n    source: s\n    values:\n{_VALUES}"
+
+
+def diagnose(folder: Path, factors: list[float], prior: str | None = None) -> None:
+    """Of runs whose torques are multiplied by ``factors``, with a set of the true parameters as ``prior``."""
+    _, sources = recorded(folder, [torque("")] * len(factors), ARM + SET)
+    for source, factor in zip(sources, factors, strict=True):
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+        Recorded({"t": t, "q1": q, "tau1": factor * tau}).save(Path(source))
+    path = folder / "arm.yaml"
+    diagnosed(path, read(path), Request(sources, prior=prior), folder / "out", lambda *about: {})
+
+
+def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
+    message = r"2.csv:1:1: the torques have another sign than those of the other runs, expected one sign"
+    with pytest.raises(InputError, match=message):
+        diagnose(tmp_path, [1.0, -1.0, 1.0, 1.0])
+    assert not (tmp_path / "out").exists()
+
+
+def test_runs_of_which_most_stays_unexplained_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"1.csv:1:1: the model of arm leaves \d+ % of the torques unexplained"):
+        diagnose(tmp_path, [1.0, 1000.0])
+
+
+def test_torques_that_all_have_the_other_sign_are_refused(tmp_path: Path) -> None:
+    message = "1.csv:1:1: all friction and inertia that the torques show alone is negative, expected torques of the dri"
+    with pytest.raises(InputError, match=message):
+        diagnose(tmp_path, [-1.0, -1.0])
+    with pytest.raises(InputError, match=message):
+        identify(read(tmp_path / "arm.yaml"), [tmp_path / "1.csv"])
+
+
+def test_torques_of_another_sign_than_what_was_known_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"1.csv:1:1: the torques have another sign than the known parameters"):
+        diagnose(tmp_path, [-1.0], "known")
+
+
+def test_torques_of_one_joint_that_have_the_other_sign_are_refused(tmp_path: Path) -> None:
+    """The other joint's are as they should be."""
+    regressors, draw, sources = two_links(tmp_path), np.random.default_rng(3), []
+    robot = regressors.model.robot
+    for seed in (1, 2):
+        t, motion = fourier(robot, 10.0, 250.0, seed)
+        tau = regressors.torques(LINKS, motion) + 0.3 * draw.normal(size=motion.q.shape)
+        turned = tau * np.array([[1.0], [-1.0]])
+        sources.append(str(as_recorded(regressors, t, motion.q, turned).save(tmp_path / f"{seed}.csv")))
+    message = "1.csv:1:1: all friction and inertia that the torques of joint 2 show alone is negative"
+    with pytest.raises(InputError, match=message):
+        diagnosed(tmp_path / "two_links.yaml", robot, Request(sources), tmp_path / "out", lambda *about: {})
+    with pytest.raises(InputError, match=message):
+        identify(robot, [Path(one) for one in sources])

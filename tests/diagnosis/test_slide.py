@@ -1,0 +1,102 @@
+"""One slide on level ground: what its mass scales and what is the same all along tell of no gain and no tilt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_trapezoid
+from scipy.signal import lfilter
+
+from generator.robot.readers import read
+from identification.diagnosis.candidates import backlash, base_tilt, elasticity
+from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
+from identification.diagnosis.verdict.finding import FIRM
+from identification.observation import Motion
+from tests.recorded import Array, Recorded
+
+SLIDE = """\
+name: slide
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
+effects:
+  - {effect: viscous_friction, joint: 1}
+  - {effect: coulomb_friction, joint: 1}
+  - {effect: offset, joint: 1}
+"""
+MASS, VISCOUS, DRY, OFFSET = 95.0, 200.0, 20.0, -3.0
+#: Samples a second, and seconds of a run.
+RATE, SECONDS = 1000.0, 25.0
+#: Time [s] by which the force is late, and speed [m/s] over which dry friction rises.
+LATE, RISE = 0.0008, 0.015
+
+#: A dry friction [N] over the speed [m/s].
+Dry = Callable[[Array], Array]
+
+
+def to_and_fro(seed: int) -> tuple[Array, Motion]:
+    """Moves of trapezoidal speed, each with another top speed and another acceleration."""
+    draw = np.random.default_rng(seed)
+    speed = [np.zeros(200)]
+    way = 1.0
+    while sum(map(len, speed)) < RATE * SECONDS:
+        top, rise = draw.uniform(0.015, 0.1), draw.uniform(0.15, 0.8)
+        ramp = np.arange(0.0, top, rise / RATE)
+        speed.append(way * np.concatenate([ramp, np.full(int(0.6 * RATE), top), ramp[::-1], np.zeros(100)]))
+        way = -way
+    qd = np.convolve(np.concatenate(speed), np.hanning(80) / np.hanning(80).sum(), "same")[: int(RATE * SECONDS)]
+    q = cumulative_trapezoid(qd, dx=1 / RATE, initial=0.0)
+    t = np.arange(len(q)) / RATE
+    return t, Motion(q[None], qd[None], np.gradient(qd, 1 / RATE)[None])
+
+
+def diagnosis(folder: Path, dry: Dry, late: float) -> Diagnosis:
+    """Of two runs, of which the end tests."""
+    path = folder / "slide.yaml"
+    path.write_text(SLIDE)
+    draw, sources = np.random.default_rng(5), []
+    for seed in (1, 2):
+        t, motion = to_and_fro(seed)
+        force = MASS * motion.qdd[0] + VISCOUS * motion.qd[0] + dry(motion.qd[0]) + OFFSET
+        tau = np.interp(t - late, t, force) + lfilter([1], [1, -0.6], 0.8 * draw.normal(size=len(t)))
+        q = np.round(motion.q[0] / 1e-7) * 1e-7
+        sources.append(str(Recorded({"t": t, "q1": q, "tau1": tau}).save(folder / f"{seed}.csv")))
+    return diagnosed(path, read(path), Request(sources), folder / "out", lambda *about: {})[0]
+
+
+def test_a_force_that_is_late_and_friction_that_rises_are_told_together(tmp_path: Path) -> None:
+    found = diagnosis(tmp_path, lambda qd: DRY * np.tanh(qd / RISE), LATE)
+    assert found.verdict == NAMED
+    named = {one.hypothesis.effect: one for one in found.findings}
+    assert set(named) == {"gradual_friction", "torque_delay"}
+    assert {one.status for one in found.findings} == {FIRM}
+    assert "torque_gain" in {one.effect for one in found.invisible}
+    assert named["torque_delay"].parameters["torque_delay"].value == pytest.approx(LATE, abs=2e-4)
+    assert named["gradual_friction"].parameters["Fg1"].value == pytest.approx(DRY, rel=0.2)
+
+
+@pytest.fixture(scope="module")
+def right(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
+    """Of a model that lacks nothing."""
+    return diagnosis(tmp_path_factory.mktemp("right"), lambda qd: DRY * np.sign(qd), 0.0)
+
+
+def test_nothing_is_named_where_nothing_is_missing(right: Diagnosis) -> None:
+    assert (right.verdict, right.findings) == (NOTHING, ())
+    assert "torque_gain" in {one.effect for one in right.invisible}
+    assert base_tilt.hypotheses(right.search.bank.scenes) == []
+
+
+@pytest.mark.parametrize(("part", "alike"), [(1.0, True), (0.2, True), (0.05, False), (20.0, False)])
+def test_size_and_time_tell_one_drive_train(part: float, alike: bool, right: Diagnosis) -> None:
+    """The file knows no rotor, so that they may differ by a factor of ten and no more."""
+    scenes = right.search.bank.scenes
+    (soft,), (loose,) = elasticity.hypotheses(scenes), backlash.hypotheses(scenes)
+    assert soft.agrees is not None
+    assert soft.agrees(np.array([part / 1e4]), {"k": 1e4}) == alike
+    assert loose.agrees is not None
+    assert loose.agrees(np.array([part * 1e-3]), {"gap": 1e-3}) == alike

@@ -1,0 +1,53 @@
+"""What a drive train's swing leaves, and a gap that is hardly one, are not firm."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding, _swinging
+from identification.outcome import Value
+
+
+def finding(effect: str, kind: str, std: float) -> Finding:
+    """On joint 2, whose torque reaches joint 1."""
+    hypothesis = Hypothesis(
+        effect, effect, 2, (Coefficient("c", "rad"),), lambda scene, shape: np.zeros((1, 2, 1)), kind=kind
+    )
+    evidence: Any = SimpleNamespace(score=100.0, size=5.0)
+    return Finding(
+        hypothesis=hypothesis,
+        status=FIRM,
+        joints=(2,),
+        shape={},
+        parameters={"c": Value(1e-3, std, "rad")},
+        evidence=evidence,
+        alternatives=(),
+        amplitude={1: 0.2, 2: 3.0},
+        shape_std={},
+    )
+
+
+@pytest.mark.parametrize(
+    ("effect", "kind", "left", "status"),
+    [
+        ("backlash", ELASTIC, {1: 0.5, 2: 0.5}, FIRM),
+        ("backlash", ELASTIC, {1: 1.5, 2: 0.5}, TENTATIVE),
+        ("joint_elasticity", ELASTIC, {2: 3.0}, TENTATIVE),
+        ("joint_elasticity", ELASTIC, {3: 3.0}, FIRM),
+        ("stribeck_friction", EFFECT, {2: 3.0}, FIRM),
+    ],
+)
+def test_far_more_than_noise_is_left(effect: str, kind: str, left: dict[int, float], status: str) -> None:
+    assert _swinging(finding(effect, kind, 1e-5), left).status == status
+
+
+def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:
+    one = _swinging(finding("backlash", ELASTIC, 4e-4), {})
+    assert (one.status, [other.effect for other in one.alternatives]) == (TENTATIVE, ["joint_elasticity"])
+    assert _swinging(finding("backlash", ELASTIC, 1e-4), {}).status == FIRM
+    assert _swinging(finding("joint_elasticity", ELASTIC, 4e-4), {}).alternatives == ()

@@ -1,0 +1,71 @@
+"""Values that runs tell twice, by the size of a torque and by its form, or that another fit tells beside the torque."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.verdict.shape_uncertainty import apart, variances
+from identification.outcome import Value
+
+
+def told(
+    value: float, twice: Mapping[str, tuple[str, int]], vague: float = 1.0
+) -> tuple[dict[str, Value], dict[str, float]]:
+    """Of a compliance of ``value`` and a stiffness of 1000, both known to a part in a thousand by the noise alone, or
+    the stiffness to ``vague``.
+    """
+    one = Hypothesis(
+        "x", "x", 1, (Coefficient("compliance1", "rad/(N m)"),), lambda *_: np.zeros((1, 1, 1)), twice=twice
+    )
+    values = {"compliance1": Value(value, 1e-3 * value, "rad/(N m)")}
+    return apart(one, values, {"k": 1000.0, "damping": 0.1}, {"k": vague, "damping": 0.01})
+
+
+def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
+    values, shape = told(1.02e-3, {"compliance1": ("k", -1)})
+    assert values["compliance1"].value == 1.02e-3
+    assert values["compliance1"].std == pytest.approx(0.02 * 1.02e-3, rel=0.02)
+    assert shape == {"k": pytest.approx(20.0, rel=0.02), "damping": 0.01}
+
+
+def test_where_both_agree_the_noise_decides() -> None:
+    values, shape = told(1.0001e-3, {"compliance1": ("k", -1)})
+    assert values["compliance1"].std == pytest.approx(1.0001e-6)
+    assert shape == {"k": 1.0, "damping": 0.01}
+
+
+def test_what_is_known_well_stays_beside_what_is_not() -> None:
+    for vague in (30.0, np.inf):
+        values, shape = told(1.02e-3, {"compliance1": ("k", -1)}, vague)
+        assert values["compliance1"].std == pytest.approx(1.02e-6)
+        assert shape["k"] == vague
+
+
+@pytest.mark.parametrize(("value", "twice"), [(1.02e-3, {}), (0.0, {"compliance1": ("k", -1)})])
+def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[str, tuple[str, int]]) -> None:
+    values, shape = told(value, twice)
+    assert values["compliance1"].std == pytest.approx(1e-3 * value)
+    assert shape == {"k": 1.0, "damping": 0.01}
+
+
+def test_what_another_fit_tells_is_as_sure_as_that_and_its_error_is_in_the_others() -> None:
+    """By many draws of the noise and of what is held."""
+    draw = np.random.default_rng(2)
+    W = draw.normal(size=(40, 3))
+    W[:, 2] = 0.8 * W[:, 1] + 0.6 * W[:, 2]
+    noise, errors = draw.normal(size=(40, 20000)), 0.3 * draw.normal(size=20000)
+    spread = np.var(np.linalg.pinv(W[:, :2]) @ (noise - W[:, 2:] * errors), axis=1)
+    told = variances(W.T @ W, {2: 0.09})
+    assert told[:2] == pytest.approx(spread, rel=0.04)
+    assert told[2] == 0.09
+    assert told[1] > 2 * variances((W.T @ W)[:2, :2], {})[1]
+
+
+def test_what_no_row_shows_has_no_variance() -> None:
+    W = np.array([[1.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 2.0], [2.0, 0.0, 3.0, 0.0]])
+    W = np.column_stack([W, W[:, 0] + W[:, 2]])
+    assert np.isinf(variances(W.T @ W, {3: 1.0})).tolist() == [True, True, True, False, True]

@@ -1,0 +1,241 @@
+"""Drift of a torque constant, from what is recorded to what the robot file then says, without any noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from generator.robot.description import Robot
+from generator.robot.readers import read
+from identification import corrections
+from identification.dataset import load
+from identification.diagnosis.candidates import library, torque_drift
+from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, Hypothesis
+from identification.diagnosis.diagnosis import diagnose
+from identification.diagnosis.mending.addition import Addition, addition
+from identification.diagnosis.mending.refit import refit
+from identification.diagnosis.mending.repair import repaired
+from identification.diagnosis.mending.writable import writable
+from identification.diagnosis.noise.may_act import without_record
+from identification.diagnosis.results import document
+from identification.diagnosis.runs.played import Player, play
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.roles import Roles
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.loop import search
+from identification.diagnosis.verdict.confirmation import confirmed
+from identification.diagnosis.verdict.testing import along
+from identification.drive_train import coupling
+from identification.observation import Regressors
+from identification.recipe import Recipe
+from tests.recorded import TRUTH, TWO_LINKS, Recorded, recorded, two_links
+
+Array = NDArray[np.float64]
+
+RISE = 30.0
+
+
+@dataclass(frozen=True)
+class Drift:
+    """Of motor 2: true torque = ``gain`` (1 + ``drift`` w) recorded, w = 1 - exp(-t/``time``); without a time it comes
+    and goes once a minute.
+    """
+
+    drift: float
+    time: float = 20.0
+    gain: float = 1.0
+
+    def warmth(self, t: Array) -> Array:
+        return np.asarray(1 - np.exp(-t / self.time) if self.time else np.sin(np.pi * t / 60) ** 2)
+
+
+def logged(folder: Path, seed: int, drift: Drift, temperatures: Sequence[int] = (), seconds: float = 60.0) -> str:
+    """The run's file, with the temperatures of some joints, which rise with w."""
+    of = two_links(folder)
+    run = recorded(of, TRUTH, seconds, 200.0, seed).columns
+    warmth = drift.warmth(run["t"])
+    N = coupling(of.model.robot)
+    motor = np.linalg.solve(N.T, np.stack([run["tau1"], run["tau2"]]))
+    motor[1] /= drift.gain * (1 + drift.drift * warmth)
+    tau1, tau2 = N.T @ motor
+    temps = {f"temp{joint}": 300 + RISE * warmth for joint in temperatures}
+    path = folder / f"{seed}{'t' * len(temps)}.csv"
+    return str(Recorded({**run, "tau1": tau1, "tau2": tau2, **temps}).save(path))
+
+
+def heated(folder: Path, seed: int, square: float) -> str:
+    """The run's file, of a motor 2 that in 12 s gets warm by the square of its torque in parts of ``square`` [N2 m2],
+    and whose constant is lower by 0.3 then.
+    """
+    of = two_links(folder)
+    run = recorded(of, TRUTH, 60.0, 200.0, seed).columns
+    N = coupling(of.model.robot)
+    motor = np.linalg.solve(N.T, np.stack([run["tau1"], run["tau2"]]))
+    w = 0.0
+    for k, true in enumerate(motor[1].tolist()):
+        motor[1, k] = true / (1 - 0.3 * w)
+        w += (motor[1, k] ** 2 / square - w) / 200 / 12
+    tau1, tau2 = N.T @ motor
+    return str(Recorded({**run, "tau1": tau1, "tau2": tau2}).save(folder / f"{seed}.csv"))
+
+
+def ready(source: str, regressors: Regressors) -> Prepared:
+    return prepared(load(source, regressors.model.robot, resting=True), Recipe(), regressors)
+
+
+def gap(run: Prepared, known: Sequence[Prepared], regressors: Regressors) -> float:
+    """Norm of what the model leaves of a run [N m], with parameters from others."""
+    fit = refit([one.sampled for one in known], regressors)
+    each = play(run, Player(regressors), fit.values).residuals.per_joint
+    return float(np.linalg.norm([each[k].norm for k in each]))
+
+
+def mended(sources: Sequence[str], before: Regressors) -> tuple[dict[str, float], Robot, float]:
+    """What a diagnosis tells of the one drift of motor 2, the robot that it writes, and the part of the gap to the last
+    run that is left with it.
+    """
+    *runs, last = (ready(source, before) for source in sources)
+    roles = Roles(tuple(sources[:1]), tuple(sources[1:2]), tuple(sources[2:]), tuple(sources[:2]))
+    found = diagnose(before, runs, roles)
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.joints) == ("torque_drift", (2,))
+    told = {name: value["value"] for name, value in document(found)["findings"][0]["parameters"].items()}
+    values = {name: value.value for name, value in one.parameters.items() if value.value is not None}
+    robot = repaired(TWO_LINKS, "x", [addition(one.hypothesis, one.shape, values)]).robot
+    after = Regressors(robot)
+    *known, test = (ready(source, after) for source in sources)
+    return told, robot, gap(test, known, after) / gap(last, runs, before)
+
+
+@pytest.mark.parametrize("drift", [Drift(-0.3), Drift(-0.15, gain=0.8), Drift(0.2)], ids=str)
+def test_a_large_drift_is_found_and_written_as_it_is(drift: Drift, tmp_path: Path) -> None:
+    told, robot, left = mended([logged(tmp_path, seed, drift) for seed in (1, 2, 3)], two_links(tmp_path))
+    assert told["torque_drift2"] == pytest.approx(drift.drift, rel=0.05)
+    assert told["warm_up_time"] == pytest.approx(drift.time, rel=0.05)
+    assert 1 + told["start2"] == pytest.approx(drift.gain, rel=0.05)
+    assert robot.drives is not None
+    signals = robot.signals
+    written = [float(part[1]) for part in (robot.drives.torque_drift, signals.torque_gain, signals.warm_up_time)]
+    assert written == pytest.approx([told["torque_drift2"], 1 + told["start2"], told["warm_up_time"]], rel=1e-5)
+    assert left < 0.05
+
+
+def test_a_drift_by_heat_is_found_and_written_as_it_is(tmp_path: Path) -> None:
+    told, robot, left = mended([heated(tmp_path, seed, 0.3) for seed in (1, 2, 3)], two_links(tmp_path))
+    assert told["torque_drift2"] / told["warm_torque"] ** 2 == pytest.approx(-0.3 / 0.3, rel=0.05)
+    assert told["warm_up_time"] == pytest.approx(12.0, rel=0.05)
+    assert float(robot.signals.warm_torque[1]) == pytest.approx(told["warm_torque"], rel=1e-5)
+    assert float(robot.signals.warm_torque[0]) == corrections.NEVER
+    assert left < 0.05
+
+
+def by(kind: str, scenes: Sequence[Scene], joint: int) -> Hypothesis:
+    (one,) = [one for one in torque_drift.hypotheses(scenes) if one.joint == joint and f"with the {kind}" in one.title]
+    return one
+
+
+def scene(run: Prepared, regressors: Regressors) -> Scene:
+    return Scene(run.sampled, regressors, {name: TRUTH.get(name, 0.0) for name in regressors.names})
+
+
+def test_a_drift_by_temperature_needs_it_in_every_run(tmp_path: Path) -> None:
+    """One that a validating run lacks offers nothing, nor does a warmth that the file cannot tell of it."""
+    of, small = two_links(tmp_path), Drift(-0.1)
+    runs = [ready(logged(tmp_path, 1, small, (2,), 12.0), of), ready(logged(tmp_path, 2, small, (), 12.0), of)]
+    scenes = [scene(run, of) for run in runs]
+    assert not [one for one in torque_drift.hypotheses(scenes[:1]) if one.joint == 1 and "temperature" in one.title]
+    both = Bank(runs, scenes)
+    for kind, there in (("time since the start", True), ("drive's temperature", False)):
+        one = by(kind, scenes[:1], 2)
+        assert (both.add(one, one.variants[0]) is not None) == there
+
+    path = tmp_path / "told.yaml"
+    path.write_text(f"{TWO_LINKS}signals: {{warm_rise: {RISE} K}}\n")
+    told = Regressors(read(path))
+    runs = [ready(str(tmp_path / name), told) for name in ("1t.csv", "2.csv")]
+    scenes = [scene(run, told) for run in runs]
+    (friction,) = [one for one in library.hypotheses(scenes[:1]) if one.effect == "warm_friction" and one.joint == 2]
+    for one in (by("drive's warmth", scenes[:1], 2), friction):
+        assert one.variants == [one.given]
+        assert Bank(runs[:1], scenes[:1]).add(one, one.variants[0]) is not None
+        assert Bank(runs, scenes).add(one, one.variants[0]) is None
+
+
+def test_runs_without_a_temperature_are_read_after_a_drift_by_temperature(tmp_path: Path) -> None:
+    """They are as warm as the time says, by a constant that follows the temperature; so are drives that have none."""
+    of, small = two_links(tmp_path), Drift(-0.1)
+    source = logged(tmp_path, 1, small, (2,))
+    one = by("drive's temperature", [scene(ready(source, of), of)], 2)
+    (shape,) = one.variants
+    found = addition(one, shape, {"torque_drift2": -0.1, "start2": 0.0})
+    rubbing = Addition(EFFECT, "warm_friction", (1,), {"warm_up_time": 40.0})
+    timed = Addition(DRIVE, "torque_drift", (1,), {"torque_drift": 0.05, "torque_gain": 1.0, "warm_up_time": 40.0})
+    for additions in ([found, timed], [timed, found], [rubbing, found]):
+        robot = repaired(TWO_LINKS, "x", additions).robot
+        warm, plain = (load(each, robot) for each in (source, logged(tmp_path, 2, small)))
+        measured = small.warmth(warm.elapsed) * RISE / shape["warm_rise"]
+        first = 1 - np.exp(-warm.elapsed / 40.0)
+        np.testing.assert_allclose(warm.warmth, [first, measured], atol=1e-6)
+        np.testing.assert_allclose(plain.warmth, [first, measured], atol=0.04)
+
+
+def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
+    of, drift = two_links(tmp_path), Drift(-0.2, time=0.0)
+    runs = [ready(logged(tmp_path, seed, drift, (2,)), of) for seed in (1, 2)]
+    found = search(runs, (0,), (1,), of)
+    kept, gone = confirmed(found, along(found, [ready(logged(tmp_path, 3, drift), of)]))
+    assert not gone
+    ((drift_found, *_),) = [one.evidence.coefficients for one in kept.choices]
+    assert "warm_rise" in kept.choices[0].evidence.variant.shape
+    assert drift_found == pytest.approx(drift.drift, rel=0.01)
+
+
+def test_heat_that_the_file_tells_is_of_the_record(tmp_path: Path) -> None:
+    """That of joint 2: the file has the other by time alone."""
+    path = tmp_path / "told.yaml"
+    path.write_text(f"{TWO_LINKS}signals: {{warm_up_time: 20 s, warm_torque: [1000000 N m, 0.5 N m]}}\n")
+    of = Regressors(read(path))
+    scenes = [scene(ready(logged(tmp_path, 1, Drift(-0.1), (), 30.0), of), of)]
+    for joint, of_record in ((1, False), (2, True)):
+        assert by("drive's warmth", scenes, joint).recorded == of_record
+        both = [one for one in library.hypotheses(scenes) if one.joint == joint]
+        assert {one.effect: one.recorded for one in both}["warm_friction"] == of_record
+        assert not {one.effect: one.recorded for one in both}["power_friction"]
+
+
+def test_a_drift_by_which_a_run_has_no_torque_constant_is_told_and_not_written(tmp_path: Path) -> None:
+    sources = [logged(tmp_path, seed, Drift(-0.1), (), 20.0) for seed in (1, 2)]
+    roles = Roles(tuple(sources[:1]), (), tuple(sources[1:]), tuple(sources[:1]))
+    values = {"torque_drift": -0.5, "torque_gain": 1.0, "warm_up_time": 5.0}
+    first, second = (
+        Addition(DRIVE, "torque_drift", (joint,), {**values, "warm_torque": usual})
+        for joint, usual in ((1, 1e3), (2, 0.1))
+    )
+    kept, said = writable(TWO_LINKS, "x", [first, second], roles, [])
+    assert kept == [first]
+    (note,) = said
+    assert "torque constant of joint 2 is not written" in note
+    assert "warmth of " in note
+    assert writable(TWO_LINKS, "x", [first], roles, []) == ([first], [])
+
+
+def test_heat_that_is_of_the_record_tells_nothing_of_its_noise(tmp_path: Path) -> None:
+    of = two_links(tmp_path)
+    run = ready(logged(tmp_path, 1, Drift(-0.1), (), 12.0), of)
+    scenes = [scene(run, of)]
+    bank = Bank([run], scenes)
+    heat, time = (by(kind, scenes, 2) for kind in ("motor's heat", "time since the start"))
+    columns = []
+    for one in (heat, time):
+        made = bank.add(one, one.variants[0])
+        assert made is not None
+        columns.append(set(made.columns))
+    numbers = set(without_record(bank, 0, 1).numbers)
+    assert not numbers & columns[0]
+    assert numbers >= columns[1]

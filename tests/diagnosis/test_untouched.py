@@ -1,0 +1,70 @@
+"""What untouched runs say against a new model is told, and what they contradict is taken back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
+from identification.diagnosis.mending.untouched import Untouched, objections
+from identification.diagnosis.runs.roles import Roles
+from identification.residuals import Residual
+from tests.diagnosis.diagnosed_arm import ready, recorded, torque
+
+
+def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
+    """Of 100 rows with a spread of 50 N m rms."""
+    one, other = (Residual(100, 10 * rms, 600.0, 500.0) for rms in (before, after))
+    return Untouched(one, other, floor)
+
+
+def test_a_model_that_leaves_noise_meets_no_objection() -> None:
+    assert objections({1: tried(1.02, 1.03), 2: tried(30.0, 1.4)}) == []
+
+
+def test_a_joint_that_got_worse_is_told() -> None:
+    assert objections({1: tried(1.4, 1.81), 2: tried(5.0, 1.0)}) == [
+        "the new model explains the untouched runs less well on joint 1 (2.8 % before, 3.62 % after)"
+    ]
+
+
+def test_joints_that_keep_more_than_noise_are_told() -> None:
+    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)})
+    where = "on joint 1 (40 %, noise 2 %), joint 2 (53.5 %, noise 2 %)"
+    assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
+
+
+def test_what_a_rigid_model_cannot_play_is_no_objection() -> None:
+    assert objections({1: tried(40.0, 20.0)}, elastic=True) == []
+
+
+@pytest.mark.parametrize(
+    ("fitted", "last", "named", "back"),
+    [
+        ("stribeck", "stribeck", {"stribeck_friction"}, None),
+        ("stribeck", "", set(), "Stribeck friction"),
+        ("stribeck asymmetry", "stribeck", {"stribeck_friction"}, "viscous friction that depends on the direction"),
+    ],
+)
+def test_what_a_testing_run_contradicts_is_taken_back(
+    fitted: str, last: str, named: set[str], back: str | None, tmp_path: Path
+) -> None:
+    """The run that tests lacks what the fitted ones have; what it has too stays."""
+    regressors, sources = recorded(tmp_path, [torque(one) for one in (fitted, fitted, last)])
+    *runs, test = (ready(one, regressors) for one in sources)
+    who = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
+    found = diagnose(regressors, runs, who, test=[test])
+    assert {one.hypothesis.effect for one in found.findings} == named
+    # What was taken back is left beside what was not, more or less of it.
+    assert found.verdict in ({NAMED, UNEXPLAINED} if named and back else {NAMED} if named else {UNEXPLAINED})
+    told = [note for note in found.notes if "is taken back" in note]
+    assert [note.startswith(f"{back} on joint 1 is taken back") for note in told] == [True] * bool(back)
+
+
+def test_a_gain_that_makes_torques_larger_makes_no_joint_worse() -> None:
+    """Half as much again of the torque, and of its noise: the part of the spread is what counts."""
+    one = Untouched(Residual(100, 20.0, 600.0, 500.0), Residual(100, 24.0, 900.0, 750.0), 1.0)
+    assert objections({1: one}) == []
+    assert one.closed is not None
+    assert one.closed == pytest.approx((4.0**2 - 3.2**2) / (4.0**2 - 2.0**2))

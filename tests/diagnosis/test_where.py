@@ -1,0 +1,86 @@
+"""The joint and the variable that a diagnosis points at."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.columns.whitening import Colour
+from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.verdict.views import View
+from identification.diagnosis.verdict.where import Where, late, led, located
+
+
+def view(joint: int, variable: str, share: float) -> View:
+    """Means of which one stands out, at 0.5."""
+    mean = np.array([0.0, 0.0, 3.0, 0.0])
+    centre = np.array([-0.5, 0.0, 0.5, 1.0])
+    return View(joint, variable, "rad", 0, centre, mean, np.ones(4), np.full(4, 50), share)
+
+
+def seen(*lacks: Lack) -> Where:
+    shown = {one.joint: (view(one.joint, "q", 0.27), view(one.joint, "qd", 0.12), view(one.joint, "load", 0.04),
+                          view(one.joint, "time", 0.0))
+             for one in lacks}  # fmt: skip
+    return Where(0, "", "", {}, lacks, shown)
+
+
+BY_CHANCE = Lack(1, 1.4, 0.01, 0.6, True)
+SIGNIFICANT = Lack(2, 1.2, 1e-9, 0.4, True)
+EVENT = Lack(3, 1.0, 0.5, 0.0, True, ("A.csv", 12.4))
+
+
+def test_the_largest_of_those_that_count_is_told() -> None:
+    found = located(seen(BY_CHANCE, SIGNIFICANT, EVENT), [SIGNIFICANT, EVENT])
+    assert (found.joint, found.variable) == (2, "q")
+    assert found.region == "q about 0.5 rad"
+    assert found.shares == {"q": 0.27, "qd": 0.12, "load": 0.04, "time": 0.0}
+    assert found.lack == (BY_CHANCE, SIGNIFICANT, EVENT)
+
+
+def test_where_none_counts_it_is_nowhere() -> None:
+    found = located(seen(BY_CHANCE, SIGNIFICANT), [])
+    assert (found.joint, found.variable, found.region, found.shares) == (0, "", "", {})
+
+
+def test_an_event_is_told_with_its_time_where_nothing_orders_the_residual() -> None:
+    one = Where(0, "", "", {}, (EVENT,), {3: (view(3, "q", 0.01),)})
+    found = located(one, [EVENT])
+    assert (found.joint, found.variable, found.region) == (3, "time", "once, at 12.40 s of A.csv")
+
+
+def finding(variable: str) -> Any:
+    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2), variable=variable)
+
+
+@pytest.mark.parametrize(
+    ("variable", "told"), [("qd", "qd"), ("load", "q"), ("time", "time"), ("frequency", "frequency"), ("", "q")]
+)
+def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
+    found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable))
+    assert (found.joint, found.variable) == (2, told)
+
+
+@pytest.mark.parametrize(("of_speed", "told"), [(0.1, "q"), (0.3, "qd")])
+def test_time_that_orders_a_motion_says_nothing_of_a_weight(of_speed: float, told: str) -> None:
+    """Motion that does not repeat is ordered by time, whatever makes the torque."""
+    views = view(2, "q", 0.05), view(2, "qd", of_speed), view(2, "time", 0.6)
+    found = led(Where(2, "time", "", {}, (SIGNIFICANT,), {2: views}), finding("q"))
+    assert found.variable == told
+    assert found.shares == {"q": 0.05, "qd": of_speed, "time": 0.6}
+
+
+def test_a_jump_between_two_samples_may_come_late() -> None:
+    """By half a sample: a torque that jumps by 8 over two of them by 2, one that swings slowly by next to nothing."""
+    period, count = 0.01, 400
+    jump = np.where(np.arange(count) < count // 2, 0.0, 8.0)
+    slow = 8 * np.sin(2 * np.pi * 0.25 * period * np.arange(count))
+    scene = SimpleNamespace(period=period, torque=np.stack([jump, slow]), derivative=lambda x: np.gradient(x, period))
+    run = SimpleNamespace(decimated=lambda x: x, kept=np.ones((2, count), dtype=bool))
+    colour = Colour((np.ones(1),), (1.0,))
+    found: Any = SimpleNamespace(bank=SimpleNamespace(runs=[run], scenes=[scene], colours=[[colour, colour]]))
+    assert late(found, 0, 0).max() == pytest.approx(2.0)
+    assert np.abs(late(found, 0, 1)).max() < 0.1
