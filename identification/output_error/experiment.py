@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from hashlib import sha256
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +54,11 @@ class Experiment:
         return self.stride * self.period
 
     @property
+    def digest(self) -> str:
+        """Hash of what drives the simulation and of what it is compared with."""
+        return sha256(b"".join(x.tobytes() for x in (self.tau, self.q, self.start))).hexdigest()
+
+    @property
     def times(self) -> Array:
         """Times (S x K) [s] of the positions that are compared."""
         return np.asarray(self.began[:, None] + self.step * np.arange(self.q.shape[1]))
@@ -61,8 +67,9 @@ class Experiment:
 def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) -> Experiment:
     """The run in segments of ``segment`` [s], or in one where it is None; what is left over at the end is not used.
 
-    Torques pass the recipe's Butterworth filter forward and backward, positions stay as measured; the filter's ends are
-    left out, and segments in which a torque is cut off.
+    Torques and positions are as measured: what a filter makes of the jump that dry friction asks of a torque, the
+    simulated friction answers at another instant. First states are those of the filtered motion, so that the filter's
+    ends are left out; and so are segments in which a torque is cut off.
 
     Raises InputError for a run with a payload, which the direct model does not have, and for one that is too short.
     """
@@ -84,9 +91,8 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) ->
         raise InputError(run.place, plural(run.samples, "row"), f"at least {wanted} for the filters and one segment")
     smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     speed = derivative(smooth, run.period)
-    torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate)
-    held = torque.copy()
-    held[:, :-1] = (torque[:, :-1] + torque[:, 1:]) / 2
+    held = run.tau.copy()
+    held[:, :-1] = (run.tau[:, :-1] + run.tau[:, 1:]) / 2
     motion = Motion(*(x[:, inner] for x in (smooth, speed, derivative(speed, run.period))))
     parts = [_segments(x[:, inner], count, length) for x in (held, run.q, smooth, speed)]
     cut = np.zeros((len(run.q), samples)) if run.unusable is None else run.unusable[:, inner].astype(float)

@@ -152,7 +152,7 @@ def _key(start: Start) -> str:
         {
             "version": VERSION,
             "robot": start.robot.digest,
-            "runs": [[one.run.name, one.run.sha256, asdict(one.filters)] for one in start.experiments],
+            "runs": [[one.run.name, one.digest, asdict(one.filters)] for one in start.experiments],
             "weights": start.settings.recipe.weights,
             "settings": settings,
             "start": list(start.chi),

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 #: What columns may be made of here.
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 #: Steps a second in which states are integrated.
-_STEPS = 250.0
+_STEPS = 500.0
 #: Positions over a joint's limits at which lengths must be positive, and by how much [m].
 _STEPS_OVER, _ROOM = 200, 1e-4
 #: Slope times step below which (e^x - 1)/x is 1.
@@ -109,7 +109,10 @@ class EffectColumns:
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
         """The effect's state, at first that of a long motion the same way."""
         stride = max(1, int(1 / (scene.period * _STEPS)))
-        speed = scene.motion.qd[self._k, ::stride]
+        qd = scene.motion.qd[self._k]
+        # Means over the steps: what is worn in is a matter of the way.
+        way = np.concatenate([[0.0], np.cumsum(qd[1:] + qd[:-1]) / 2])[::stride]
+        speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
         # What moved before the record began has come to its end.
         start = float(np.sign(speed[0]))
