@@ -81,7 +81,7 @@ def diagnose(
     """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found = few_rows.without_small(search(runs, train, validate, regressors, prior, progress, dry))
+    found, small = few_rows.without_small(search(runs, train, validate, regressors, prior, progress, dry))
     trial = None if dry else along(found, test)
     found, gone = confirmed(found, trial)
     progress("looking where the residual is")
@@ -93,12 +93,12 @@ def diagnose(
     left = NOT_JUDGED if dry else unexplained(found, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
-    named = findings(found, not left.lacks, disagreeing, beyond)
+    named = few_rows.doubted(findings(found, not left.lacks, disagreeing, beyond), small)
     if named:
         before = led(before, named[0])
     notes = [
         *roles.notes,
-        *few_rows.notes(found.bank),
+        *few_rows.notes(found.bank, small),
         *remarks.of_tests(found, trial, test),
         *note(other),
         *remarks.of_elasticity(found),

@@ -25,6 +25,7 @@ from identification.diagnosis.mending.repair import Repaired, repaired
 from identification.diagnosis.runs.played import Player, compiled, play
 from identification.diagnosis.runs.prepared import prepared
 from identification.observation import Motion, Regressors
+from identification.outcome import Value
 from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
@@ -120,10 +121,22 @@ def test_the_refit_finds_the_truth_and_the_file_keeps_it(case: Case, fitted: Ref
 def test_what_the_runs_do_not_ask_for_stays_zero(near: bool, case: Case, fitted: Refit) -> None:
     of = case.regressors
     prior = Prior(np.array(list(fitted.values.values())), np.eye(len(of.names))) if near else None
-    found = refit([case.sampled(k, of) for k in (0, 1)], of, prior, zero=["Fd1"])
+    found = refit([case.sampled(k, of) for k in (0, 1)], of, prior, given={"Fd1": Value(0.0, 0.0, "N m")})
     assert found.values["Fd1"] == found.std["Fd1"] == 0
     assert float(found.parameter_set.values["Fd1"].value) == 0
     assert found.values["Fc1"] > fitted.values["Fc1"]
+
+
+def test_a_finding_stays_as_it_was_found(case: Case, fitted: Refit) -> None:
+    """And what acts with it follows: what both make of a long motion stays the same."""
+    of, less = case.regressors, 0.9 * fitted.values["Fd1"]
+    found = refit([case.sampled(k, of) for k in (0, 1)], of, given={"Fd1": Value(less, 0.02, "N m")})
+    written = found.parameter_set.values["Fd1"]
+    assert (found.values["Fd1"], found.std["Fd1"]) == (less, 0.02)
+    assert float(written.value) == less
+    assert written.relative_std == pytest.approx(100 * 0.02 / less)
+    gained = found.values["Fc1"] - fitted.values["Fc1"]
+    assert gained == pytest.approx(fitted.values["Fd1"] - less, rel=0.5)
 
 
 def test_a_joint_without_rows_stays_as_it_was_known(case: Case, fitted: Refit) -> None:

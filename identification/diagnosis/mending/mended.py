@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 
 from generator.generation import Stage, silent
 from generator.robot.description import Robot
 from generator.writing import replace
 from identification import recipe as recipes
-from identification.diagnosis.columns.hypothesis import BODY, ELASTIC
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.priors import preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis
@@ -27,6 +28,7 @@ from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.verdict.finding import Finding
 from identification.observation import Regressors
+from identification.outcome import Value
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
 
@@ -75,8 +77,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, written)
-        said, unused = _description(written), _unused(written)
-        fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, unused)
+        said, given = _description(written), _given(written)
+        fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, given)
         if prior is None:
             values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
         else:
@@ -124,11 +126,17 @@ def _addition(one: Finding) -> Addition:
     return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
-def _unused(found: Sequence[Finding]) -> list[str]:
-    """Coefficients that would refine what was found, for which the runs do not ask."""
-    return [
-        c.name for one in found for c in one.hypothesis.coefficients if c.refines and not one.parameters[c.name].std
-    ]
+def _given(found: Sequence[Finding]) -> dict[str, Value]:
+    """Parameters of effects as they were found, beside noise that has a colour: a fit without it finds other values of
+    what is small, and none within its bounds.
+    """
+    return {
+        name: value
+        for one in found
+        if one.hypothesis.kind == EFFECT
+        for name, value in one.parameters.items()
+        if value.value is not None and isfinite(value.std)
+    }
 
 
 def _description(found: Sequence[Finding]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observation import Motion, Regressors
 from identification.observed import Observed
+from identification.outcome import Value
 from identification.own_load import under_own_load
 from identification.sampling import Sampled
 
@@ -60,13 +61,14 @@ def refit(
     regressors: Regressors,
     prior: Prior | None = None,
     description: str = "",
-    zero: Collection[str] = (),
+    given: Mapping[str, Value] | None = None,
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
-    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). ``zero`` are base
-    parameters that are none.
+    Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). Base parameters that are
+    ``given`` stay as they are, with their own.
     """
+    given = {name: one for name, one in (given or {}).items() if name in regressors.names}
     known = {
         one.run.payload.names()[stem]: value
         for one in runs
@@ -74,8 +76,8 @@ def refit(
         for stem, value in one.run.payload.known.items()
     }
     payloads = [name for one in runs if one.run.payload is not None for name in one.run.payload.names().values()]
-    sought = [name not in zero for name in regressors.names]
-    known |= {name: 0.0 for name, one in zip(regressors.names, sought, strict=True) if not one}
+    sought = [name not in given for name in regressors.names]
+    known |= {name: one.value or 0.0 for name, one in given.items()}
     free = tuple(dict.fromkeys(name for name in (*regressors.names, *payloads) if name not in known))
     near = None if prior is None else prior.only(np.flatnonzero(sought))
 
@@ -88,7 +90,7 @@ def refit(
     factors = added([factor for one in observed for factor in one.factors])
     solution = _coloured(fit(factors), factors, observed)
     values = {name: solution.values[name] for name in regressors.names}
-    std = {name: solution.std(name) for name in regressors.names}
+    std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
     if hidden:
         notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")

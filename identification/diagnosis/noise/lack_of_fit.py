@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,11 @@ class Lack:
     repeats: bool
     burst: tuple[str, float] | None = None
     follows: str = ""
+
+    @property
+    def event(self) -> str:
+        """What happens once on the joint, in words: when; empty where nothing does."""
+        return "" if self.burst is None else f"once, at {self.burst[1]:.2f} s of {Path(self.burst[0]).name}"
 
     @property
     def part(self) -> float:

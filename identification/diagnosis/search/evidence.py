@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import hypot
 
 import numpy as np
 from numpy.typing import NDArray
@@ -239,7 +240,7 @@ class Weighing:
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
-        if one.size < floor:
+        if hypot(*one.sizes.values()) < floor:
             return replace(one, why_not="smaller than what is named")
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")

@@ -260,9 +260,13 @@ class Selection:
             springs = pulls(one.hypothesis.effect) and pulls(other.variant.hypothesis.effect)
             if usual and not likely(other.variant, others) and not springs:
                 margin = _RARE / 2 * mine.drop - _BETTER
-            if other.score > mine.score + margin:
+            if other.score > mine.score + margin and self._instead(other.variant, one, others):
                 near.append(other)
         return Choice(mine, tuple(near), self._odds_of(one, others), self._apart(mine, others))
+
+    def _instead(self, other: Variant, one: Variant, others: Sequence[Variant]) -> bool:
+        """Whether ``other`` may stand in the place of ``one``: on other joints only what is not found beside it too."""
+        return bool(set(other.joints) & set(one.joints)) or not self.weighing.of(other, [*others, one]).passes
 
     def _apart(self, mine: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it explains clearly more than its hypothesis with another value of a shape that is not searched."""

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from generator.review.words import listed
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.may_act import counts, enough
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.search.selection import Choice
+from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 
 #: Size of an effect, in parts of the noise's rms, from which it is named on such a joint.
 _LEAST = 0.75
@@ -21,22 +26,34 @@ def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
     return result
 
 
-def notes(bank: Bank) -> list[str]:
-    """What is to be told of such joints."""
+def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
+    """What is to be told of such joints, and of what was ``small`` there."""
     moving = bank.robot.moving
     said = [f"{rows} for {model} on joint {moving[k].number}" for k, (rows, model) in few_rows(bank).items()]
     if not said:
         return []
-    return [
+    told = [
         f"rows are too few for the base parameters that act there, {listed(said)}: noise holds part of the model, and "
         "only what is about as large as noise is named"
     ]
+    if small:
+        left_out = listed([one.evidence.variant.hypothesis.named for one in small])
+        told.append(f"not named for that: {left_out}; values found on these joints may hold a part of it")
+    return told
 
 
-def without_small(found: Search) -> Search:
-    """The search without the choices that are small beside the noise of such joints."""
+def without_small(found: Search) -> tuple[Search, list[Choice]]:
+    """The search without the choices that are small beside the noise of such joints, and those."""
     few = few_rows(found.bank)
-    kept = [
-        one for one in found.choices if one.evidence.size >= _LEAST or set(few).isdisjoint(one.evidence.variant.joints)
-    ]
-    return found if len(kept) == len(found.choices) else found.keeping(kept)
+    kept: list[Choice] = []
+    small: list[Choice] = []
+    for one in found.choices:
+        there = not set(few).isdisjoint(one.evidence.variant.joints)
+        (small if there and one.evidence.size < _LEAST else kept).append(one)
+    return (found.keeping(kept), small) if small else (found, small)
+
+
+def doubted(named: Sequence[Finding], small: Sequence[Choice]) -> tuple[Finding, ...]:
+    """Findings, tentative on joints on which what was ``small`` was left out of the fit."""
+    beside = {number for one in small for number in one.evidence.variant.hypothesis.numbers}
+    return tuple(one if beside.isdisjoint(one.joints) else replace(one, status=TENTATIVE) for one in named)

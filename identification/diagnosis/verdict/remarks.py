@@ -81,10 +81,16 @@ def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[st
 
 
 def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]:
-    """Of what the last model leaves on each joint: what it follows, or why it counts as explained."""
+    """Of what the last model leaves on each joint: what happens once, what it follows, why it counts as explained."""
     if left.lacks:
-        follows = (f"what is left on joint {one.joint} follows {one.follows}" for one in left.lacks if one.follows)
-        return list(dict.fromkeys(follows))
+        shown = None if left.where is None else left.where.joint
+        events = [
+            f"something happens on joint {one.joint} {one.event}"
+            for one in left.lacks
+            if one.joint != shown and one.event
+        ]
+        follows = [f"what is left on joint {one.joint} follows {one.follows}" for one in left.lacks if one.follows]
+        return list(dict.fromkeys([*events, *follows]))
     return _hardly(lacks) + (_little([one for one in lacks if one.joint not in left.bouncing]) if named else [])
 
 

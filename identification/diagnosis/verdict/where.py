@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +24,8 @@ _ORDERED = 0.05
 _LEADS = 0.25
 #: Part of a sample's period within which the samples do not tell when a torque jumped.
 _HALF_SAMPLE = 0.5
+#: Size of an event, in parts of the largest lack, from which it is told first.
+_EVENT = 0.5
 #: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
 #: motor's phase other orders cancel.
 _SHOWN = ("q", "q by direction", "qd", "qdd", "load")
@@ -56,8 +57,7 @@ class Where:
     @property
     def event(self) -> str:
         """What happens once on the joint, in words: when; empty where nothing does."""
-        burst = next((one.burst for one in self.lack if one.joint == self.joint), None)
-        return "" if burst is None else f"once, at {burst[1]:.2f} s of {Path(burst[0]).name}"
+        return next((one.event for one in self.lack if one.joint == self.joint), "")
 
 
 def seen(found: Search, weights: Mapping[int, float]) -> Where:
@@ -102,10 +102,13 @@ def late(found: Search, r: int, k: int) -> Array:
 
 
 def located(seen: Where, among: Sequence[Lack]) -> Where:
-    """With the joint of ``among`` that lacks most, and what orders its residual."""
+    """With the joint of ``among`` that lacks most, of a large event before all else, and what orders its residual."""
     if not among:
         return seen
     worst = max(among, key=lambda one: one.size)
+    # The fit spreads an event over joints on which nothing happens.
+    events = [one for one in among if one.burst is not None and one.size > _EVENT * worst.size]
+    worst = max(events, key=lambda one: one.size, default=worst)
     variable, shares = strongest(mine := seen.views[worst.joint])
     region = _region(mine, variable)
     if worst.burst is not None and shares.get(variable, 0.0) < _ORDERED:

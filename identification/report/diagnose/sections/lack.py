@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from generator.review.markup import Content, Markup, element, join, table
 from identification.report.chart import ESTIMATED, RESIDUAL, axis, chart
 from identification.report.diagnose.subject import Subject
@@ -42,8 +40,7 @@ def render(subject: Subject) -> Markup:
         [
             str(one.joint), number(one.ratio, 4), chance(one.p), number(one.size, 3),
             number(other.ratio, 4), chance(other.p), number(other.size, 3),
-            element("span", f"once, at {other.burst[1]:.2f} s of {Path(other.burst[0]).name}", class_="state")
-            if other.burst is not None else None,
+            element("span", other.event, class_="state") if other.event else None,
         ]
         for one, other in zip(found.before.lack, found.after.lack, strict=True)
     ]  # fmt: skip
