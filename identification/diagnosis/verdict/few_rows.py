@@ -8,6 +8,7 @@ from dataclasses import replace
 from generator.review.words import listed
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.may_act import counts, enough
+from identification.diagnosis.search.likely import common
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
@@ -34,7 +35,7 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
         return []
     told = [
         f"rows are too few for the base parameters that act there, {listed(said)}: noise holds part of the model, and "
-        "only what is about as large as noise is named"
+        "only what is about as large as noise, or what nearly every robot has, is named"
     ]
     if small:
         left_out = listed([one.evidence.variant.hypothesis.named for one in small])
@@ -43,12 +44,15 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
 
 
 def without_small(found: Search) -> tuple[Search, list[Choice]]:
-    """The search without the choices that are small beside the noise of such joints, and those."""
+    """The search without the choices that are small beside the noise of such joints and that not every robot has; and
+    those.
+    """
     few = few_rows(found.bank)
     kept: list[Choice] = []
     small: list[Choice] = []
     for one in found.choices:
-        there = not set(few).isdisjoint(one.evidence.variant.joints)
+        variant = one.evidence.variant
+        there = not set(few).isdisjoint(variant.joints) and not common(variant)
         (small if there and one.evidence.size < _LEAST else kept).append(one)
     return (found.keeping(kept), small) if small else (found, small)
 
