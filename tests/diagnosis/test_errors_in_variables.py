@@ -62,24 +62,26 @@ def test_steps_are_found_where_the_smallest_difference_is_of_several() -> None:
     assert steps(STEP * number[None]) == pytest.approx([STEP], rel=1e-9)
 
 
-def alone(folder: Path, step: float) -> Bank:
-    """One run without noise, beside the true model."""
-    regressors, (source,) = recorded(folder, 1, 0.0, rounded(step))
-    run = ready(source, regressors)
-    return Bank([run], [Scene(run.sampled, regressors, TRUTH)])
+def alone(folder: Path, step: float, count: int = 1) -> Bank:
+    """Runs without noise, beside the true model."""
+    regressors, sources = recorded(folder, count, 0.0, rounded(step))
+    runs = [ready(source, regressors) for source in sources]
+    return Bank(runs, [Scene(run.sampled, regressors, TRUTH) for run in runs])
 
 
 def test_the_products_that_rounding_makes_are_as_large_as_told(tmp_path: Path) -> None:
     (hypothesis,) = elasticity.hypotheses(alone(tmp_path, FINE).scenes)
-    one = alone(tmp_path, 4 * STEP)
-    variants = [variant for shape in hypothesis.variants if (variant := one.add(hypothesis, shape)) is not None]
-    one.whiten([[WHITE]])
-    pretence = Pretence(one, redrawn(one.runs, one.scenes))
-    left = one.residual(0, 0, {one.base.index(name): value for name, value in TRUTH.items()})
+    several = alone(tmp_path, 4 * STEP, 4)
+    variants = [each for shape in hypothesis.variants if (each := several.add(hypothesis, shape)) is not None]
+    several.whiten([[WHITE]] * 4)
+    pretence = Pretence(several, redrawn(several.runs, several.scenes))
+    true = {several.base.index(name): value for name, value in TRUTH.items()}
     assert variants
     for variant in variants:
-        numbers, rows = one.white(0, 0)
-        product = rows[numbers.index(variant.columns[0])] @ left
+        product = 0.0
+        for r in range(4):
+            numbers, rows = several.white(r, 0)
+            product += float(rows[numbers.index(variant.columns[0])] @ several.residual(r, 0, true))
         assert pretence.of(variant)[0] == pytest.approx(product, rel=0.3)
 
 

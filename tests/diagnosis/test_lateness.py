@@ -51,7 +51,7 @@ def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS) -> Dia
         t, slow = fourier(robot, 30.0, RATE, number)
         motion = swinging(t, slow)
         motors = np.linalg.solve(coupling(robot).T, regressors.torques(TRUTH, motion))
-        motors = recorded_motor_torques(motors, true, 1 / RATE, None) + 0.01 * draw.normal(size=motors.shape)
+        motors = recorded_motor_torques(motors, true, 1 / RATE, None) + 0.02 * draw.normal(size=motors.shape)
         q = coupling(robot) @ motion.q
         columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
         sources.append(str(Recorded(columns).save(folder / f"{number}.csv")))

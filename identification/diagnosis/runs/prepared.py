@@ -28,8 +28,8 @@ RATE = 50.0
 _SLOW = 0.04
 #: Such a part below which a joint crawls: presliding and stiction, which no law of friction tells to the end.
 _CRAWLING = 0.12
-#: Time [s] in which a joint may remember what was before the record, and the largest part of a run that is left out
-#: for it.
+#: Time [s] in which a joint may remember what was before the record, and the part of a run that may be left out for it:
+#: of shorter runs every row is wanted.
 _MEMORY, _FORGOTTEN = 1.0, 0.05
 #: Time [s] in which the swings of an elastic drive train fade, of which the log does not tell how they began, and the
 #: largest part of a run.
@@ -164,7 +164,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     slow = _SLOW * usual
     standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     standing |= _at_rest(speed, regressors.signs)
-    standing[:, : round(min(_MEMORY, _FORGOTTEN * run.duration) * run.rate)] = True
+    if _MEMORY <= _FORGOTTEN * run.duration:
+        standing[:, : round(_MEMORY * run.rate)] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
         standing[[one.k for one in swinging], : round(fading)] = True

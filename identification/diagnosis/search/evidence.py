@@ -34,7 +34,7 @@ _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
-_FLOOR, _RARE_FLOOR, _SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.1
+_FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
 #: A power that is none.
 _TINY = 1e-300
 #: What shows an effect that makes no torque along the runs.
@@ -240,6 +240,8 @@ class Weighing:
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
+        if not common(variant) and likely(variant, others):
+            share = _LIKELY_SHARE
         if hypot(*one.sizes.values()) < floor:
             return replace(one, why_not="smaller than what is named")
         if drop < share * unexplained:

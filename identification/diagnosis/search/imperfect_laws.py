@@ -16,6 +16,8 @@ _ONE_OF = ("joint_elasticity", "backlash")
 #: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
 #: nearly the same, and where they are alike: friction of the speed, or behind the motor.
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
+#: The same part of what they explain anywhere: base parameters bring it to every joint.
+_ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
 _OF_SPEED = ("qd", "time since reversal")
@@ -39,8 +41,9 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
             return inf
         if balances(mine.effect) and balances(theirs.effect):
             least = max(least, _SECOND * drop)
-        elif set(one.joints) & set(variant.joints) and not common(one):
-            least = max(least, _part(mine, theirs) * drop)
+        elif not common(one):
+            near = bool(set(one.joints) & set(variant.joints))
+            least = max(least, (_part(mine, theirs) if near else _ANYWHERE) * drop)
     return least
 
 
