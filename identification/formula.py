@@ -29,8 +29,8 @@ class Formula:
         names = sorted(symbol.name for symbol in self.expression.free_symbols)
         for name in names:
             if name not in recording.columns:
-                where = recording.where(None, name)
-                raise InputError(where, f"there is no column {name}", f"the columns of {self.text.content!r}")
+                problem = f"{recording.file} has no column {name}"
+                raise InputError(self.text.place, problem, "a formula of columns that it has")
         symbols = [sympy.Symbol(name, real=True) for name in names]
         function: Any = sympy.lambdify(symbols, self.expression, "numpy")
         # What a division by zero makes is refused as any other number that is not finite.

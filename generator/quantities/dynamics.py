@@ -2,6 +2,7 @@
 
 from generator.quantities import signals
 from generator.quantities.quantity import Quantity
+from generator.quantities.weight import caveat
 
 QUANTITY = Quantity(
     name="dynamics",
@@ -14,4 +15,5 @@ QUANTITY = Quantity(
         signals.renamed(signals.tau, "Q", "gravity torques, on the joint side")(model),
     ),
     build=lambda model: (model.base.inverse_dynamics(), model.base.inertia_matrix, model.base.gravity_beside_inertia),
+    caveat=caveat,
 )

@@ -2,6 +2,7 @@
 
 from generator.quantities import signals
 from generator.quantities.quantity import Quantity
+from generator.quantities.weight import caveat
 
 QUANTITY = Quantity(
     name="gravity",
@@ -10,4 +11,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q),
     outputs=signals.together(signals.renamed(signals.tau, "Q", "gravity torques, on the joint side")),
     build=lambda model: (model.base.gravity,),
+    caveat=caveat,
 )

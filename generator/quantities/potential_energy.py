@@ -4,6 +4,7 @@ import numpy as np
 
 from generator.quantities import signals
 from generator.quantities.quantity import Quantity
+from generator.quantities.weight import caveat
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.model import Model
 from generator.symbolic.vectors import Array, zeros
@@ -22,4 +23,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q),
     outputs=lambda model: (signals.scalar("U", "J", "potential energy, zero at q = 0"),),
     build=_build,
+    caveat=caveat,
 )

@@ -20,6 +20,11 @@ def always(model: Model) -> bool:
     return True
 
 
+def nothing(model: Model) -> str:
+    """Most quantities are the same thing on every robot."""
+    return ""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """A function that every backend emits.
@@ -27,7 +32,7 @@ class Quantity:
     ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); what effects read beside the
     motion (their states, warmth) follows the inputs where the outputs depend on it. ``build`` returns the output
     arrays, one per output signal, of nodes. ``applies`` tells for which models it exists. ``sparsity`` gives the
-    structure of a packed output.
+    structure of a packed output, ``caveat`` what its user must know of it on a robot.
     """
 
     name: str
@@ -38,6 +43,7 @@ class Quantity:
     build: Callable[[Model], Sequence[Any]]
     applies: Callable[[Model], bool] = always
     sparsity: Callable[[Model], Sparsity] | None = None
+    caveat: Callable[[Model], str] = nothing
 
     def function(self, model: Model) -> Function:
         """The quantity of one robot. Raises ValueError if an array does not have the shape of its signal."""
@@ -50,7 +56,8 @@ class Quantity:
         outputs = _rewritten(model, outputs)
         sparsity = self.sparsity(model) if self.sparsity else None
         inputs = (*self.inputs(model), *_further(model, self.inputs(model), outputs))
-        return Function(self.name, self.summary, self.details, inputs, tuple(outputs), model.program, sparsity)
+        details = " ".join(filter(None, (self.details, self.caveat(model))))
+        return Function(self.name, self.summary, details, inputs, tuple(outputs), model.program, sparsity)
 
 
 def _further(model: Model, inputs: Sequence[Signal], outputs: Sequence[Output]) -> list[Signal]:

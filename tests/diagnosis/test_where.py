@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,6 +11,8 @@ import pytest
 
 from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.verdict.remarks import of_lacks
+from identification.diagnosis.verdict.unexplained import Unexplained
 from identification.diagnosis.verdict.views import View
 from identification.diagnosis.verdict.where import Where, late, led, located
 
@@ -50,6 +53,24 @@ def test_an_event_is_told_with_its_time_where_nothing_orders_the_residual() -> N
     one = Where(0, "", "", {}, (EVENT,), {3: (view(3, "q", 0.01),)})
     found = located(one, [EVENT])
     assert (found.joint, found.variable, found.region) == (3, "time", "once, at 12.40 s of A.csv")
+
+
+def test_a_large_event_goes_before_what_the_fit_made_of_it() -> None:
+    pulse, smooth = replace(EVENT, size=0.9), replace(SIGNIFICANT, size=1.1)
+    assert located(seen(smooth, pulse), [smooth, pulse]).joint == 3
+    large = replace(smooth, size=2.0)
+    assert located(seen(large, pulse), [large, pulse]).joint == 2
+
+
+def test_events_of_other_joints_are_told() -> None:
+    pulse = replace(EVENT, size=0.9, follows="its place")
+    where = located(seen(SIGNIFICANT, pulse), [SIGNIFICANT])
+    said = of_lacks([SIGNIFICANT, pulse], Unexplained((SIGNIFICANT, pulse), where), False)
+    assert said == [
+        "something happens on joint 3 once, at 12.40 s of A.csv",
+        "what is left on joint 3 follows its place",
+    ]
+    assert of_lacks([pulse], Unexplained((pulse,), located(seen(pulse), [pulse])), False) == said[1:]
 
 
 def finding(variable: str) -> Any:

@@ -164,7 +164,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     slow = _SLOW * usual
     standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     standing |= _at_rest(speed, regressors.signs)
-    if _MEMORY <= _FORGOTTEN * run.duration:
+    if _FORGOTTEN * run.duration >= _MEMORY:
         standing[:, : round(_MEMORY * run.rate)] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate

@@ -1,0 +1,37 @@
+"""Torques of the weight where base parameters of the bodies hold what is none of a body."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from generator.derivation import derive
+from generator.robot.readers import read
+
+SLIDE = """\
+name: slide
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: ALPHA, d: 0, theta: 0, r: q1}
+effects:
+  - {effect: rotor_inertia, joint: 1}
+  - {effect: EFFECT, joint: 1}
+"""
+
+
+@pytest.mark.parametrize(
+    ("alpha", "effect", "told"),
+    [("0", "offset", "M1R holds Ia1"), ("0", "viscous_friction", ""), ("pi/2", "offset", "")],
+)
+def test_what_is_no_weight_is_told(alpha: str, effect: str, told: str, tmp_path: Path) -> None:
+    """Of a vertical slide whose offset no motion tells from its weight, and of others."""
+    path = tmp_path / "slide.yaml"
+    path.write_text(SLIDE.replace("ALPHA", alpha).replace("EFFECT", effect))
+    model = derive(read(path))
+    for name in ("gravity", "potential_energy", "dynamics"):
+        if name in model.functions:
+            said = re.findall(r"Not the bodies' weight alone here: (.*?)\. What holds", model.functions[name].details)
+            assert said == ([told] if told else [])
+    assert "gravity" in model.functions
