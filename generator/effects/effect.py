@@ -52,7 +52,7 @@ class Shape:
     through, from its middle, where it says "position", and ``within`` are ends between which it goes on from there in
     geometric steps; where ``whole`` nothing between whole numbers is a value, and
     where ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole
-    numbers is another effect.
+    numbers is another effect. Of a ``scale`` any value will do where none is known: others count in units of it.
     """
 
     name: str
@@ -69,6 +69,7 @@ class Shape:
     whole: bool = False
     several: int = 0
     exact: bool = False
+    scale: bool = False
 
     def unit_on(self, joint: Joint) -> str:
         return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit

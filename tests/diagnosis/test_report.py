@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from generator.effects.mechanisms import crank
 from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING, UNEXPLAINED
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.verdict.finding import Told
@@ -104,6 +105,11 @@ def test_every_section_of_a_finding_is_there(named: Case) -> None:
 def test_a_value_is_written_as_far_as_it_is_known(value: float, std: float | None, written: str) -> None:
     """The last digit is the second one of the standard deviation; two are written at least."""
     assert Told("a", value, std, "1").text("").startswith(f"{written} +- " if std and std < math.inf else written)
+
+
+def test_a_length_that_only_scales_the_others_is_told_to_be_any() -> None:
+    assert Told("d21", 1.0, None, "m", scale=True).text(" m") == "1 m (any: lengths and forces count in units of it)"
+    assert [one.name for one in crank.SHAPES if one.scale] == ["d21"]
 
 
 def test_what_stands_at_its_bound_has_no_deviation(named: Case) -> None:

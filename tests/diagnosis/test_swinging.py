@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
-from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding, _swinging
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding, _doubted, _swinging
 from identification.outcome import Value
 
 
@@ -44,6 +45,16 @@ def finding(effect: str, kind: str, std: float) -> Finding:
 )
 def test_far_more_than_noise_is_left(effect: str, kind: str, left: dict[int, float], status: str) -> None:
     assert _swinging(finding(effect, kind, 1e-5), left).status == status
+
+
+@pytest.mark.parametrize(
+    ("repeats", "apart", "status"), [(False, False, TENTATIVE), (True, False, FIRM), (False, True, FIRM)]
+)
+def test_values_that_are_not_told_one_by_one_are_not_firm_without_repetition(
+    repeats: bool, apart: bool, status: str
+) -> None:
+    one = replace(finding("warm_friction", EFFECT, 1e-5), apart=apart)
+    assert _doubted(one, 0.0, (), repeats).status == status
 
 
 def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:

@@ -10,11 +10,17 @@ import sympy
 
 from generator.effects.effect import Shape, Site
 
-#: The lengths of a crank whose force is free count in units of one of them.
 _ANGLES = tuple(round(k * 0.5236 - 3.1416, 4) for k in range(12))
 
 SHAPES = (
-    Shape("d21", "m", "distance from the joint's axis to the pivot on the fixed body", lower=0.0, tried=(1.0,)),
+    Shape(
+        "d21",
+        "m",
+        "distance from the joint's axis to the pivot on the fixed body",
+        lower=0.0,
+        tried=(1.0,),
+        scale=True,
+    ),
     Shape(
         "d22", "m", "distance from the joint's axis to the pivot on the moving body", lower=0.0, tried=(0.15, 0.25, 0.4)
     ),

@@ -162,7 +162,7 @@ def _range(shape: Shape, joint: Joint, k: int, scenes: Sequence[Scene], points: 
     if shape.within:
         low, high = _points(shape, shape.within, k, scenes)
         found = replace(found, low=low, high=high, step=_STEP)
-    return replace(found, whole=shape.whole, exact=shape.exact)
+    return replace(found, whole=shape.whole, exact=shape.exact, scale=shape.scale)
 
 
 def _coefficients(effect: Effect, joint: Joint, from_the_start: bool) -> tuple[Coefficient, ...]:

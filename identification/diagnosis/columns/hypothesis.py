@@ -45,8 +45,8 @@ class ShapeRange:
 
     ``points`` are tried instead where they are given, even over the logarithm if ``log``; with a ``step`` (of the
     logarithm if ``log``) the search goes on anywhere in the range. ``whole`` tells that nothing lies between
-    them, ``exact`` that what fits better there is another effect, and ``vanishing`` that at its low end the effect is
-    another one without it.
+    them, ``exact`` that what fits better there is another effect, ``scale`` that any value will do, others counting in
+    units of it, and ``vanishing`` that at its low end the effect is another one without it.
     """
 
     name: str
@@ -59,6 +59,7 @@ class ShapeRange:
     step: float = 0.0
     whole: bool = False
     exact: bool = False
+    scale: bool = False
     vanishing: bool = False
 
     def grid(self) -> list[float]:

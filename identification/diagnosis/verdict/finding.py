@@ -60,7 +60,7 @@ class Alternative:
 @dataclass(frozen=True)
 class Told:
     """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``,
-    infinite for what the runs do not show.
+    infinite for what the runs do not show. Of a ``scale`` any value will do.
     """
 
     name: str
@@ -68,6 +68,7 @@ class Told:
     std: float | None
     unit: str
     at_bound: bool = False
+    scale: bool = False
 
     @property
     def digits(self) -> int:
@@ -80,8 +81,13 @@ class Told:
     def text(self, unit: str, plus_minus: str = "+-") -> str:
         """Value and standard deviation with the unit as it is written: ``0.053 +- 0.0014 rad/s``."""
         std = "" if self.std in (None, math.inf) else f" {plus_minus} {_written(self.std or 0.0, 2)}"
-        remark = " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
-        return f"{_written(self.value, self.digits)}{std}{unit}{remark}"
+        return f"{_written(self.value, self.digits)}{std}{unit}{self._remark}"
+
+    @property
+    def _remark(self) -> str:
+        if self.scale:
+            return " (any: lengths and forces count in units of it)"
+        return " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
 
 
 def _written(x: float, digits: int) -> str:
@@ -134,8 +140,10 @@ class Finding:
             if (one := self.parameters[c.name]).value is not None
             if one.std or not c.refines
         ]
+        scales = {shape.name for shape in self.hypothesis.shapes if shape.scale}
         shape = [
-            Told(name, value, self.shape_std.get(name), units.get(name, "1")) for name, value in self.shape.items()
+            Told(name, value, self.shape_std.get(name), units.get(name, "1"), scale=name in scales)
+            for name, value in self.shape.items()
         ]
         return (*coefficients, *shape)
 
@@ -199,7 +207,7 @@ def findings(
     several = {number for number in pulled if pulled.count(number) > 1}
     moving = found.bank.robot.moving
     remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
-    told = [_doubted(one, rest, several) for one, rest in zip(result, remains, strict=True)]
+    told = [_doubted(one, rest, several, found.repeats) for one, rest in zip(result, remains, strict=True)]
     told = _beside_any_torque([_swinging(one, left) for one in told])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
@@ -238,10 +246,10 @@ def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     ]
 
 
-def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
+def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bool) -> Finding:
     """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
-    balancer or a payload and not any torque.
+    balancer or a payload and not any torque; where no motion ``repeats``, the values of whatever it is.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     any_torque = pulls(effect) and (
@@ -255,6 +263,8 @@ def _doubted(one: Finding, remains: float, several: Collection[int]) -> Finding:
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE, sure=False)
+    if not repeats and not one.determined:
+        return replace(one, status=TENTATIVE)
     if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)
     return one
