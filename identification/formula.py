@@ -30,7 +30,7 @@ class Formula:
         for name in names:
             if name not in recording.columns:
                 problem = f"{recording.file} has no column {name}"
-                raise InputError(self.text.place, problem, "a formula of columns that it has")
+                raise InputError(self.text.place, problem, f"one of {', '.join(recording.columns)}")
         symbols = [sympy.Symbol(name, real=True) for name in names]
         function: Any = sympy.lambdify(symbols, self.expression, "numpy")
         # What a division by zero makes is refused as any other number that is not finite.

@@ -35,3 +35,11 @@ def test_what_is_no_weight_is_told(alpha: str, effect: str, told: str, tmp_path:
             said = re.findall(r"Not the bodies' weight alone here: (.*?)\. What holds", model.functions[name].details)
             assert said == ([told] if told else [])
     assert "gravity" in model.functions
+
+
+def test_it_is_told_where_values_are_built_in(tmp_path: Path) -> None:
+    values = "parameters:\n  one: {values: {M1: 8 kg, Ia1: 12 kg, Off1: 0 N}}\n"
+    path = tmp_path / "slide.yaml"
+    path.write_text(SLIDE.replace("ALPHA", "0").replace("EFFECT", "offset") + values)
+    model = derive(read(path), parameter_set="one")
+    assert "M1R holds Ia1" in model.functions["gravity"].details

@@ -40,7 +40,7 @@ class Model:
     """The symbolic model of ``robot``; ``functions`` is filled by the quantities.
 
     A ``plain`` model writes the textbook recursion throughout, with SYMORO's names, to be read beside a paper.
-    ``constants`` are parameters whose values [SI] stand in the equations as numbers (see ``symbolic.building_in``).
+    ``constants`` are parameters whose values [SI] stand in the equations as numbers (see ``symbolic.built_in``).
 
     Raises InputError where the robot's effects are not those of the library; reading the groupings raises it where they
     cannot be told from other parameters by constant coefficients.

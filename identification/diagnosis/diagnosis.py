@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from generator.robot.description import Robot
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import Prior
-from identification.diagnosis.noise.lack_of_fit import CHANCE
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.search.loop import Search, search
@@ -21,7 +20,8 @@ from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, note
 from identification.diagnosis.verdict.finding import Finding, findings
 from identification.diagnosis.verdict.homogeneity import disagreements
-from identification.diagnosis.verdict.testing import along
+from identification.diagnosis.verdict.lack_of_fit import CHANCE
+from identification.diagnosis.verdict.trial import along
 from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
 from identification.diagnosis.verdict.waterfall import Steps, steps
 from identification.diagnosis.verdict.where import Where, led, located, seen
@@ -93,7 +93,7 @@ def diagnose(
     left = NOT_JUDGED if dry else unexplained(found, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
-    named = few_rows.doubted(findings(found, not left.lacks, disagreeing, beyond), small)
+    named = few_rows.doubted(found.bank, findings(found, not left.lacks, disagreeing, beyond), small)
     if named:
         before = led(before, named[0])
     notes = [

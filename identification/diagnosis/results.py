@@ -8,10 +8,10 @@ from generator.version import VERSION
 from identification import outcome
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.mending.mended import GENERATED, Mended
-from identification.diagnosis.noise.lack_of_fit import Lack
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.played import together
 from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.where import Where
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from identification.diagnosis.noise.lack_of_fit import Lack, lack_of_fit
+from identification.diagnosis.verdict.lack_of_fit import Lack, lack_of_fit
 
 Array = NDArray[np.float64]
 

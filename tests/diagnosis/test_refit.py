@@ -137,6 +137,12 @@ def test_a_finding_stays_as_it_was_found(case: Case, fitted: Refit) -> None:
     assert written.relative_std == pytest.approx(100 * 0.02 / less)
     gained = found.values["Fc1"] - fitted.values["Fc1"]
     assert gained == pytest.approx(fitted.values["Fd1"] - less, rel=0.5)
+    # As uncertain as what is given makes it, beside its own rows.
+    exact = refit([case.sampled(k, of) for k in (0, 1)], of, given={"Fd1": Value(less, 0.0, "N m")})
+    more = refit([case.sampled(k, of) for k in (0, 1)], of, given={"Fd1": Value(less + 0.02, 0.02, "N m")})
+    moved = more.values["Fc1"] - found.values["Fc1"]
+    assert found.std["Fc1"] == pytest.approx(np.hypot(exact.std["Fc1"], moved), rel=1e-3)
+    assert abs(moved) > 0.5 * 0.02
 
 
 def test_a_joint_without_rows_stays_as_it_was_known(case: Case, fitted: Refit) -> None:

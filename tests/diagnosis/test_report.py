@@ -107,8 +107,9 @@ def test_a_value_is_written_as_far_as_it_is_known(value: float, std: float | Non
     assert Told("a", value, std, "1").text("").startswith(f"{written} +- " if std and std < math.inf else written)
 
 
-def test_a_length_that_only_scales_the_others_is_told_to_be_any() -> None:
-    assert Told("d21", 1.0, None, "m", scale=True).text(" m") == "1 m (any: lengths and forces count in units of it)"
+def test_a_length_that_only_scales_the_others_is_told_to_be_chosen() -> None:
+    told = "1 m (chosen: the runs tell the other lengths and the force only relative to it)"
+    assert Told("d21", 1.0, None, "m", scale=True).text(" m") == told
     assert [one.name for one in crank.SHAPES if one.scale] == ["d21"]
 
 

@@ -14,11 +14,11 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification import recipe as recipes
 from identification.dataset import Run, load
-from identification.diagnosis.noise.lack_of_fit import lack_of_fit
 from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.noise.rounding import deviations, rounding
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.verdict.lack_of_fit import lack_of_fit
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.resolution import steps

@@ -30,7 +30,7 @@ from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.loop import search
 from identification.diagnosis.verdict.confirmation import confirmed
-from identification.diagnosis.verdict.testing import along
+from identification.diagnosis.verdict.trial import along
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.recipe import Recipe

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.whitening import Colour
-from identification.diagnosis.noise.lack_of_fit import Lack
+from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks
 from identification.diagnosis.verdict.unexplained import Unexplained
 from identification.diagnosis.verdict.views import View

@@ -20,7 +20,7 @@ from identification.diagnosis.mending.changes import difference, groupings_diffe
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
 from identification.diagnosis.mending.refit import SET, Refit, refit, with_payload
-from identification.diagnosis.mending.repair import repaired
+from identification.diagnosis.mending.repair import as_written, repaired
 from identification.diagnosis.mending.untouched import Untouched, objections, untouched
 from identification.diagnosis.mending.writable import loaded, writable
 from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play
@@ -77,7 +77,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, written)
-        said, given = _description(written), _given(written)
+        said, given = _description(written), _given(written, new.robot)
         fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, given)
         if prior is None:
             values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
@@ -126,14 +126,16 @@ def _addition(one: Finding) -> Addition:
     return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
-def _given(found: Sequence[Finding]) -> dict[str, Value]:
+def _given(found: Sequence[Finding], robot: Robot) -> dict[str, Value]:
     """Parameters of effects as they were found, beside noise that has a colour: a fit without it finds other values of
-    what is small, and none within its bounds.
+    what is small, and none within its bounds. An effect that ``robot`` tells by another warmth has others.
     """
+    place = {number: k for k, number in enumerate(robot.numbers)}
     return {
         name: value
         for one in found
         if one.hypothesis.kind == EFFECT
+        if all(as_written(_addition(one), robot, place[number]) for number in one.joints)
         for name, value in one.parameters.items()
         if value.value is not None and isfinite(value.std)
     }

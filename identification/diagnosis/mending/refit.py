@@ -1,4 +1,6 @@
-"""The parameters of the repaired robot: all base parameters anew from the fitted runs, near what was known of them."""
+"""The parameters of the repaired robot: base parameters anew from the fitted runs, near what was known of them, beside
+those of effects as they were found.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,8 @@ def refit(
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
     Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). Base parameters that are
-    ``given`` stay as they are, with their own.
+    ``given`` stay as they are; how uncertain they are the others are too. Those of which a base parameter holds more
+    are fitted like any other.
     """
     given = {name: one for name, one in (given or {}).items() if name in regressors.names}
     known = {
@@ -88,7 +91,9 @@ def refit(
     regressors, notes = under_own_load(runs, regressors, fit)
     observed = [Observed(one, regressors) for one in runs]
     factors = added([factor for one in observed for factor in one.factors])
-    solution = _coloured(fit(factors), factors, observed)
+    plain = fit(factors)
+    coloured = _coloured(plain, factors, observed)
+    solution = replace(coloured, covariance=coloured.covariance + _brought(plain, factors, given))
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
@@ -169,6 +174,16 @@ def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[
         R = one.on(solution.names)[:, :-1] / solution.sigma[one.joint]
         more += (colours[one.joint] - 1) * R.T @ R
     return replace(solution, covariance=C + C @ more @ C)
+
+
+def _brought(solution: Solution, factors: Sequence[Factor], given: Mapping[str, Value]) -> Array:
+    """The covariance of a solution's parameters that those bring which were ``given``, each by itself."""
+    across = np.zeros((len(solution.names), len(given)))
+    for one in factors:
+        R, G = (one.on(names)[:, :-1] for names in (solution.names, tuple(given)))
+        across += R.T @ G / solution.sigma[one.joint] ** 2
+    moved = solution.covariance @ across * np.array([one.std for one in given.values()])
+    return np.asarray(moved @ moved.T)
 
 
 def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[int, float]:

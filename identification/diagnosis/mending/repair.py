@@ -89,9 +89,9 @@ def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
 def _of_one_warmth(additions: Sequence[Addition], robot: Robot) -> list[str]:
     """Of what was found by another warmth of a drive than the one that is written."""
     notes = []
-    for one in (each for each in additions if each.kind != SIGNAL and "warm_up_time" in each.values):
+    for one in (each for each in additions if each.kind != SIGNAL):
         for k, joint in enumerate(robot.moving):
-            if joint.number in one.joints and not _as_written(one, robot, k):
+            if joint.number in one.joints and not as_written(one, robot, k):
                 notes.append(
                     f"{one.effect} of joint {joint.number} was found by another warmth than section signals now tells: "
                     "a drive has one, and something else of this joint goes by that"
@@ -99,7 +99,10 @@ def _of_one_warmth(additions: Sequence[Addition], robot: Robot) -> list[str]:
     return notes
 
 
-def _as_written(one: Addition, robot: Robot, k: int) -> bool:
+def as_written(one: Addition, robot: Robot, k: int) -> bool:
+    """Whether what was found on coordinate k is by the warmth of its drive that the file tells."""
+    if "warm_up_time" not in one.values:
+        return True
     for key in _WARMTH:
         told: Sequence[sympy.Expr] = getattr(robot.signals, key)
         if _number(one.values.get(key, NEVER)) != _number(float(told[k]) if told else NEVER):

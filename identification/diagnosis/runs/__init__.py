@@ -1,1 +1,1 @@
-"""One run as the diagnosis sees it: beside the model, in rows, with the drive trains that its log has."""
+"""Runs as the diagnosis sees them: beside the model, in rows, with the drive trains that their logs have, in roles."""

@@ -1,4 +1,6 @@
-"""A run as the diagnosis looks at it: decimated less than an identification does, without rows near standstill."""
+"""A run as the diagnosis looks at it: decimated less than an identification does, without rows near standstill or the
+beginning.
+"""
 
 from __future__ import annotations
 
@@ -165,7 +167,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     standing |= _at_rest(speed, regressors.signs)
     if _FORGOTTEN * run.duration >= _MEMORY:
-        standing[:, : round(_MEMORY * run.rate)] = True
+        standing[:, one.times < run.start + _MEMORY] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
         standing[[one.k for one in swinging], : round(fading)] = True

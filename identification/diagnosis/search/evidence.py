@@ -33,7 +33,8 @@ _Found = tuple[float, Variant, Array]
 _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
-#: Least size beside the noise, and least part of what is unexplained above it, of common and of other effects.
+#: Least whole size beside the noise of common and of other effects; and least part of what is unexplained above it, of
+#: common ones, of others that are likely, and of the rest.
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
 #: A power that is none.
 _TINY = 1e-300
@@ -84,6 +85,11 @@ class Evidence:
     def size(self) -> float:
         """Rms beside the noise's on that coordinate."""
         return self.sizes[self.place]
+
+    @property
+    def whole(self) -> float:
+        """The sizes on all coordinates, added by their squares."""
+        return hypot(*self.sizes.values())
 
 
 class Weighing:
@@ -242,7 +248,7 @@ class Weighing:
         floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
         if not common(variant) and likely(variant, others):
             share = _LIKELY_SHARE
-        if hypot(*one.sizes.values()) < floor:
+        if one.whole < floor:
             return replace(one, why_not="smaller than what is named")
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")

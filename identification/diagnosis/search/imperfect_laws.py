@@ -26,8 +26,8 @@ _SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "ti
 
 
 def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float]) -> float:
-    """What the laws of ``others``, which explain ``drops`` of the sum of squares, may lack and a variant on the same
-    joints would explain; infinite where it cannot be beside one of them.
+    """What the laws of ``others``, which explain ``drops`` of the sum of squares, may lack and a variant would explain;
+    infinite where it cannot be beside one of them.
     """
     least, mine = 0.0, variant.hypothesis
     if common(variant):
@@ -42,8 +42,9 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
         if balances(mine.effect) and balances(theirs.effect):
             least = max(least, _SECOND * drop)
         elif not common(one):
+            part = _part(mine, theirs)
             near = bool(set(one.joints) & set(variant.joints))
-            least = max(least, (_part(mine, theirs) if near else _ANYWHERE) * drop)
+            least = max(least, (part if near else min(part, _ANYWHERE)) * drop)
     return least
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice, Selection
-from identification.diagnosis.verdict.testing import Trial
+from identification.diagnosis.verdict.trial import Trial
 
 #: Least |d|^2 at which the testing runs tell anything of a finding.
 _TOLD = 9.0

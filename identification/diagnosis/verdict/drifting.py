@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import f
 
-from identification.diagnosis.noise.lack_of_fit import CHANCE
 from identification.diagnosis.noise.measured import by_period
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.lack_of_fit import CHANCE
 
 Array = NDArray[np.float64]
 

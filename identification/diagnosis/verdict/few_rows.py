@@ -39,7 +39,10 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
     ]
     if small:
         left_out = listed([one.evidence.variant.hypothesis.named for one in small])
-        told.append(f"not named for that: {left_out}; values found on these joints may hold a part of it")
+        told.append(
+            f"left out there, smaller than {_LEAST:g} of the noise: {left_out}; other values on the same joints may "
+            "contain a part of it"
+        )
     return told
 
 
@@ -47,17 +50,19 @@ def without_small(found: Search) -> tuple[Search, list[Choice]]:
     """The search without the choices that are small beside the noise of such joints and that not every robot has; and
     those.
     """
-    few = few_rows(found.bank)
+    few = few_rows(found.bank).keys()
     kept: list[Choice] = []
     small: list[Choice] = []
     for one in found.choices:
-        variant = one.evidence.variant
-        there = not set(few).isdisjoint(variant.joints) and not common(variant)
-        (small if there and one.evidence.size < _LEAST else kept).append(one)
+        there = not few.isdisjoint(one.evidence.variant.joints) and not common(one.evidence.variant)
+        (small if there and one.evidence.whole < _LEAST else kept).append(one)
     return (found.keeping(kept), small) if small else (found, small)
 
 
-def doubted(named: Sequence[Finding], small: Sequence[Choice]) -> tuple[Finding, ...]:
-    """Findings, tentative on joints on which what was ``small`` was left out of the fit."""
-    beside = {number for one in small for number in one.evidence.variant.hypothesis.numbers}
-    return tuple(one if beside.isdisjoint(one.joints) else replace(one, status=TENTATIVE) for one in named)
+def doubted(bank: Bank, named: Sequence[Finding], small: Sequence[Choice]) -> tuple[Finding, ...]:
+    """Findings, tentative where they act on a joint of few rows on which what was ``small`` was left out of the fit."""
+    beside = {k for one in small for k in one.evidence.variant.joints} & few_rows(bank).keys()
+    numbers = {bank.robot.numbers[k] for k in beside}
+    return tuple(
+        one if numbers.isdisjoint(one.amplitude) else replace(one, status=TENTATIVE, sure=False) for one in named
+    )

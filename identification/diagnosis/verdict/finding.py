@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from generator.effects.library import library
 from generator.review.decimals import scientific
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import BODY, ELASTIC, Hypothesis, Key, on_joints
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, Hypothesis, Key, on_joints
 from identification.diagnosis.noise.may_act import maps_taken
 from identification.diagnosis.search.evidence import Evidence, columns_of
 from identification.diagnosis.search.likely import balances, pulls
@@ -86,7 +86,7 @@ class Told:
     @property
     def _remark(self) -> str:
         if self.scale:
-            return " (any: lengths and forces count in units of it)"
+            return " (chosen: the runs tell the other lengths and the force only relative to it)"
         return " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
 
 
@@ -186,7 +186,7 @@ def findings(
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
-        large = one.evidence.size >= _least(found, variant)
+        large = one.evidence.whole >= _least(found, variant)
         result.append(
             Finding(
                 hypothesis=hypothesis,
@@ -249,7 +249,7 @@ def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
 def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bool) -> Finding:
     """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
-    balancer or a payload and not any torque; where no motion ``repeats``, the values of whatever it is.
+    balancer or a payload and not any torque; where no motion ``repeats``, the values of any effect.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     any_torque = pulls(effect) and (
@@ -263,7 +263,7 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE, sure=False)
-    if not repeats and not one.determined:
+    if not repeats and kind == EFFECT and not one.determined:
         return replace(one, status=TENTATIVE)
     if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)

@@ -15,8 +15,8 @@ from scipy.stats import f
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import groups
-from identification.diagnosis.noise.lack_of_fit import CHANCE, Lack
 from identification.diagnosis.noise.may_act import maps_taken
+from identification.diagnosis.verdict.lack_of_fit import CHANCE, Lack
 
 Array = NDArray[np.float64]
 

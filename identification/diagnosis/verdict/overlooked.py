@@ -15,7 +15,7 @@ from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.verdict.testing import Trial
+from identification.diagnosis.verdict.trial import Trial
 from identification.residuals import rms
 
 Array = NDArray[np.float64]

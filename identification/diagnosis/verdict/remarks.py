@@ -8,13 +8,13 @@ import numpy as np
 
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import on_joints
-from identification.diagnosis.noise.lack_of_fit import Lack
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import TOGETHER, stated
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.finding import Finding
-from identification.diagnosis.verdict.testing import Trial, comparable
+from identification.diagnosis.verdict.lack_of_fit import Lack
+from identification.diagnosis.verdict.trial import Trial, comparable
 from identification.diagnosis.verdict.unexplained import Unexplained
 
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from identification.diagnosis.columns.hypothesis import Key
-from identification.diagnosis.noise.lack_of_fit import Lack
 from identification.diagnosis.runs.stated_elasticity import names_of_backlash, stated
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
 from identification.diagnosis.verdict.drifting import drifting
+from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
-from identification.diagnosis.verdict.testing import Trial
 from identification.diagnosis.verdict.tones import tones
+from identification.diagnosis.verdict.trial import Trial
 from identification.diagnosis.verdict.where import Where, located
 from identification.residuals import rms
 

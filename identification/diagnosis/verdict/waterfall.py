@@ -11,7 +11,7 @@ from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.normal_equations import Normal
 from identification.diagnosis.search.evidence import columns_of
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.verdict.testing import Trial
+from identification.diagnosis.verdict.trial import Trial
 from identification.residuals import rms
 
 

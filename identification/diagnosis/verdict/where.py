@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.hypothesis import ELASTIC
-from identification.diagnosis.noise.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.search.evidence import columns_of
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
+from identification.diagnosis.verdict.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.verdict.views import View, strongest, views
 
 Array = NDArray[np.float64]

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.columns.hypothesis import on_joints
 from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
-from identification.diagnosis.noise.lack_of_fit import CHANCE
 from identification.diagnosis.runs.played import together
 from identification.diagnosis.verdict.contradiction import Contradicted
 from identification.diagnosis.verdict.finding import FIRM, Finding, Told
+from identification.diagnosis.verdict.lack_of_fit import CHANCE
 from identification.diagnosis.verdict.unexplained import AMPLITUDES, VALUES
 from identification.diagnosis.verdict.where import Where
 from identification.report.diagnose.subject import Subject

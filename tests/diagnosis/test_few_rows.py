@@ -1,0 +1,56 @@
+"""Joints with few rows: what is left out there, what is not, and what that makes of findings beside it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from identification.diagnosis.verdict import few_rows
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
+from tests.diagnosis.test_swinging import finding
+
+#: Coordinate 1, which is joint 2, has few rows.
+BANK: Any = SimpleNamespace(dof=3, robot=SimpleNamespace(numbers=(1, 2, 3), moving=[SimpleNamespace(number=2)] * 3))
+
+
+@pytest.fixture(autouse=True)
+def rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(few_rows, "few_rows", lambda bank: {1: (90, 12)})
+
+
+def choice(effect: str, joints: tuple[int, ...], whole: float) -> Any:
+    hypothesis = SimpleNamespace(kind="effect", effect=effect, named=f"{effect} of a joint")
+    return SimpleNamespace(
+        evidence=SimpleNamespace(variant=SimpleNamespace(joints=joints, hypothesis=hypothesis), whole=whole)
+    )
+
+
+def test_what_is_small_there_is_left_out_but_for_what_every_robot_has() -> None:
+    choices = [
+        choice("viscous_friction", (1,), 0.3),
+        choice("stribeck_friction", (1,), 0.3),
+        choice("torque_delay", (0, 1, 2), 0.7),
+        choice("stribeck_friction", (1,), 0.9),
+        choice("stribeck_friction", (2,), 0.3),
+    ]
+    found: Any = SimpleNamespace(bank=BANK, choices=choices, keeping=lambda kept: kept)
+    kept, small = few_rows.without_small(found)
+    assert (kept, small) == ([choices[0], *choices[3:]], choices[1:3])
+    found.choices = choices[3:]
+    assert few_rows.without_small(found) == (found, [])
+
+
+def test_what_was_left_out_is_told_and_makes_findings_beside_it_tentative() -> None:
+    """A finding on joint 2 reaches joint 1 too; nothing was left out of the fit of joint 3."""
+    firm = finding("stribeck_friction", "effect", 1e-5)
+    whole, wrist = choice("torque_delay", (0, 1, 2), 0.3), choice("coupled_rotor", (0, 2), 0.3)
+    (doubted,) = few_rows.doubted(BANK, [firm], [whole])
+    assert (doubted.status, doubted.sure) == (TENTATIVE, False)
+    assert few_rows.doubted(BANK, [firm], [wrist])[0].status == FIRM
+    assert few_rows.doubted(BANK, [firm], [])[0].status == FIRM
+    plain, left_out = few_rows.notes(BANK, [whole])
+    assert plain.startswith("rows are too few for the base parameters that act there, 90 for 12 on joint 2")
+    assert left_out.startswith("left out there, smaller than 0.75 of the noise: torque_delay of a joint;")
+    assert few_rows.notes(BANK, []) == [plain]
