@@ -122,9 +122,10 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
         load(str(path), robot)
     side.write_text("columns:\n  t: time / 1000\n  qmm1: -q1\n")
-    with pytest.raises(
-        InputError, match=r"a.yaml:3:3: column qmm1 means nothing, expected one of t, q1.., qm1.., tau1.."
-    ):
+    with pytest.raises(InputError, match=r"a.yaml:3:3: column qmm1 means nothing, expected one of t, q1.., qm1.."):
+        load(str(path), robot)
+    side.write_text("columns:\n  t: clock / 1000\n")
+    with pytest.raises(InputError, match=r"a.yaml:2:6: .*a.csv has no column clock, expected one of time, q1, "):
         load(str(path), robot)
     side.write_text("payload: {M: -500 g}\n")
     with pytest.raises(InputError, match=r"a.yaml:1:14: M=-0.5, expected a number that is not negative"):

@@ -1,0 +1,41 @@
+"""What the laws of effects that were found may leave, and what is missing beside them all the same."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from identification.diagnosis.search.imperfect_laws import lacking
+from identification.outcome import Value
+
+
+def variant(
+    effect: str, joints: tuple[int, ...], variable: str = "qd", preset: Mapping[str, Value] | None = None
+) -> Any:
+    hypothesis = SimpleNamespace(
+        effect=effect, joint=joints[0] + 1, kind="effect", variable=variable, preset=preset or {}, beyond=()
+    )
+    return SimpleNamespace(hypothesis=hypothesis, joints=joints, coefficients=(), used=(), key=(effect, joints[0] + 1))
+
+
+@pytest.mark.parametrize(
+    ("one", "beside", "part"),
+    [
+        (variant("load_friction", (1,), "load"), variant("stribeck_friction", (1,)), 0.01),
+        (variant("dahl_friction", (1,)), variant("stribeck_friction", (1,)), 0.15),
+        (variant("load_friction", (2,), "load"), variant("stribeck_friction", (1,)), 1e-5),
+        (variant("load_friction", (2,), "load"), variant("coulomb_friction", (1,)), 0.0),
+        (variant("viscous_friction", (1,)), variant("stribeck_friction", (1,)), 0.0),
+    ],
+)
+def test_no_law_is_exact_on_its_joint_and_hardly_elsewhere(one: Any, beside: Any, part: float) -> None:
+    assert lacking(one, [beside], [1e6]) == pytest.approx(1e6 * part)
+
+
+def test_delays_that_rows_of_their_own_tell_lack_nothing_of_each_other() -> None:
+    told = {"torque_delay": Value(0.01, 1e-4, "s")}
+    one, other = (variant("torque_delay", (k,), "frequency", told) for k in (0, 1))
+    assert lacking(one, [other], [1e6]) == 0.0
