@@ -20,10 +20,10 @@ def rows(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(few_rows, "few_rows", lambda bank: {1: (90, 12)})
 
 
-def choice(effect: str, joints: tuple[int, ...], whole: float) -> Any:
+def choice(effect: str, joints: tuple[int, ...], size: float) -> Any:
     hypothesis = SimpleNamespace(kind="effect", effect=effect, named=f"{effect} of a joint")
     return SimpleNamespace(
-        evidence=SimpleNamespace(variant=SimpleNamespace(joints=joints, hypothesis=hypothesis), whole=whole)
+        evidence=SimpleNamespace(variant=SimpleNamespace(joints=joints, hypothesis=hypothesis), size=size)
     )
 
 

@@ -13,7 +13,7 @@ from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 
-#: Size of an effect, in parts of the noise's rms, from which it is named on such a joint.
+#: Size of an effect where it is largest, in parts of the noise's rms, from which it is named on such a joint.
 _LEAST = 0.75
 
 
@@ -55,7 +55,7 @@ def without_small(found: Search) -> tuple[Search, list[Choice]]:
     small: list[Choice] = []
     for one in found.choices:
         there = not few.isdisjoint(one.evidence.variant.joints) and not common(one.evidence.variant)
-        (small if there and one.evidence.whole < _LEAST else kept).append(one)
+        (small if there and one.evidence.size < _LEAST else kept).append(one)
     return (found.keeping(kept), small) if small else (found, small)
 
 

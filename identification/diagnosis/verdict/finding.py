@@ -186,7 +186,7 @@ def findings(
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
-        large = one.evidence.whole >= _least(found, variant)
+        large = one.evidence.size >= _least(found, variant)
         result.append(
             Finding(
                 hypothesis=hypothesis,
