@@ -179,6 +179,14 @@ def test_a_recording_without_noise_gives_them_as_well(
     assert found.train.total.relative_to_mean < 1e-3
 
 
+def test_filtered_torques_are_those_of_the_recipe(machine: Machine, record: Callable[..., str]) -> None:
+    run, recipe = load(record(0.5, 1), machine.robot), Recipe()
+    plain, filtered = (experiment(run, machine.robot, recipe, 1.0, one).tau for one in (False, True))
+    rough, smooth = (np.diff(one, axis=1).std() for one in (plain, filtered))
+    assert smooth < 0.2 * rough
+    assert filtered.mean(axis=(0, 1)) == pytest.approx(plain.mean(axis=(0, 1)), rel=0.02)
+
+
 def test_whole_runs_can_be_simulated_at_once(machine: Machine, record: Callable[..., str]) -> None:
     start = {name: 1.02 * value for name, value in TRUTH.items()}
     found = estimate(machine, [load(record(), machine.robot)], start, settings=Settings(WIDE, segment=None))

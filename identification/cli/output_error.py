@@ -39,6 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default="gauss-newton",
         help="gauss-newton, nelder-mead or evolution (default: gauss-newton)",
     )
+    search.add_argument("--filtered", action="store_true", help="torques pass the recipe's filter, as in the report")
     search.add_argument("--segment", metavar="S", default="1", help="time of one simulation, or none (default: 1)")
     search.add_argument("--iterations", metavar="N", type=int, help="largest number of iterations of each start")
     search.add_argument("--seconds", metavar="S", type=float, help="longest time of each start")
@@ -123,6 +124,7 @@ def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
     return Settings(
         recipe=recipe,
         segment=_segment(arguments.segment),
+        filtered=arguments.filtered,
         method=arguments.method,
         iterations=arguments.iterations,
         seconds=arguments.seconds,

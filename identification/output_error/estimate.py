@@ -84,7 +84,7 @@ def estimate(
     Raises InputError for runs that are too short or carry a payload, and where M(q) cannot be positive definite.
     """
     settings = settings or Settings()
-    experiments = [experiment(run, machine.robot, settings.recipe, settings.segment) for run in runs]
+    experiments = [experiment(run, machine.robot, settings.recipe, settings.segment, settings.filtered) for run in runs]
     search, first = search_of(machine.module, experiments, start, std or {}, settings)
     return evaluated(search, methods()[settings.method].minimise(search, first))
 

@@ -64,12 +64,13 @@ class Experiment:
         return np.asarray(self.began[:, None] + self.step * np.arange(self.q.shape[1]))
 
 
-def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) -> Experiment:
+def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None, filtered: bool = False) -> Experiment:
     """The run in segments of ``segment`` [s], or in one where it is None; what is left over at the end is not used.
 
     Torques and positions are as measured: what a filter makes of the jump that dry friction asks of a torque, the
-    simulated friction answers at another instant. First states are those of the filtered motion, so that the filter's
-    ends are left out; and so are segments in which a torque is cut off.
+    simulated friction answers at another instant. ``filtered`` torques pass the recipe's Butterworth filter forward and
+    backward as in report section 6.2, where noise is large beside the friction. First states are those of the filtered
+    motion, so that the filter's ends are left out; and so are segments in which a torque is cut off.
 
     Raises InputError for a run with a payload, which the direct model does not have, and for one that is too short.
     """
@@ -91,8 +92,9 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None) ->
         raise InputError(run.place, plural(run.samples, "row"), f"at least {wanted} for the filters and one segment")
     smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     speed = derivative(smooth, run.period)
-    held = run.tau.copy()
-    held[:, :-1] = (run.tau[:, :-1] + run.tau[:, 1:]) / 2
+    torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate) if filtered else run.tau
+    held = torque.copy()
+    held[:, :-1] = (torque[:, :-1] + torque[:, 1:]) / 2
     motion = Motion(*(x[:, inner] for x in (smooth, speed, derivative(speed, run.period))))
     parts = [_segments(x[:, inner], count, length) for x in (held, run.q, smooth, speed)]
     cut = np.zeros((len(run.q), samples)) if run.unusable is None else run.unusable[:, inner].astype(float)

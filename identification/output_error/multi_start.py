@@ -89,7 +89,13 @@ def output_error(
         raise InputError(robot.place, "friction by load makes the model not linear", "a robot file without it")
     train, tried = (
         tuple(
-            experiment(load(str(one), robot, settings.recipe.columns), robot, settings.recipe, settings.segment)
+            experiment(
+                load(str(one), robot, settings.recipe.columns),
+                robot,
+                settings.recipe,
+                settings.segment,
+                settings.filtered,
+            )
             for one in sources
         )
         for sources in (data, test)

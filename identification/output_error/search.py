@@ -29,7 +29,8 @@ class Settings:
     run. ``method`` is a module of ``methods``. A search ends after ``iterations`` or ``seconds`` where they are given.
     ``margin`` [kg m2, kg] is the least eigenvalue of M(q) that is allowed, a tenth of the start's where it is None.
     ``fixed`` are values [SI] of parameters that are not sought; ``spread`` is that of further starts about the first,
-    in its standard deviations, ``seed`` that of their draws.
+    in its standard deviations, ``seed`` that of their draws. Torques are as measured, or ``filtered`` by the recipe as
+    in the report.
     """
 
     recipe: Recipe = field(default_factory=Recipe)
@@ -41,6 +42,7 @@ class Settings:
     fixed: Mapping[str, float] = field(default_factory=dict)
     spread: float = 2.0
     seed: int = 0
+    filtered: bool = False
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ TITLE = "KR500-2MT, output error by Gauss-Newton"
 COVERING = ("full",)
 
 #: Section 6.2: Butterworth of order 5 at 5 Hz, forward and backward.
-SETTINGS = Settings(recipe=Recipe(cutoff=5.0, order=5))
+SETTINGS = Settings(recipe=Recipe(cutoff=5.0, order=5), filtered=True)
 #: The first period of the motion of section 6.1.
 RUN = replace(MOTION, duration=10.0)
 
