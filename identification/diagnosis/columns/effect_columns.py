@@ -9,6 +9,7 @@ import casadi
 import numpy as np
 import sympy
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 
 from generator.effects.effect import Effect, Site
 from generator.robot.description import Joint, Robot
@@ -111,7 +112,7 @@ class EffectColumns:
         stride = max(1, int(1 / (scene.period * _STEPS)))
         qd = scene.motion.qd[self._k]
         # Means over the steps: what is worn in is a matter of the way.
-        way = np.concatenate([[0.0], np.cumsum(qd[1:] + qd[:-1]) / 2])[::stride]
+        way = cumulative_trapezoid(qd, initial=0)[::stride]
         speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
         # What moved before the record began has come to its end.

@@ -72,12 +72,13 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     wanted = [*map(_addition, found.findings)]
     additions, unwritten = writable(old_text, name, [*wanted, *aside], found.roles, bank.scenes)
     new = repaired(old_text, name, additions)
-    written = [finding for finding, one in zip(found.findings, wanted, strict=True) if one in additions]
+    entered = [(finding, one) for finding, one in zip(found.findings, wanted, strict=True) if one in additions]
+    written = [finding for finding, _ in entered]
     old_regressors = bank.scenes[0].regressors
     regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
         known = None if prior is None else _prior(prior, regressors, written)
-        said, given = _description(written), _given(written, new.robot)
+        said, given = _description(written), _given(entered, new.robot)
         fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, given)
         if prior is None:
             values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
@@ -126,17 +127,15 @@ def _addition(one: Finding) -> Addition:
     return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
-def _given(found: Sequence[Finding], robot: Robot) -> dict[str, Value]:
+def _given(entered: Sequence[tuple[Finding, Addition]], robot: Robot) -> dict[str, Value]:
     """Parameters of effects as they were found, beside noise that has a colour: a fit without it finds other values of
     what is small, and none within its bounds. An effect that ``robot`` tells by another warmth has others.
     """
-    place = {number: k for k, number in enumerate(robot.numbers)}
     return {
         name: value
-        for one in found
-        if one.hypothesis.kind == EFFECT
-        if all(as_written(_addition(one), robot, place[number]) for number in one.joints)
-        for name, value in one.parameters.items()
+        for finding, one in entered
+        if one.kind == EFFECT and all(as_written(one, robot, robot.numbers.index(number)) for number in one.joints)
+        for name, value in finding.parameters.items()
         if value.value is not None and isfinite(value.std)
     }
 

@@ -164,20 +164,20 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual
-    standing = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
-    standing |= _at_rest(speed, regressors.signs)
+    left_out = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
+    left_out |= _at_rest(speed, regressors.signs)
     if _FORGOTTEN * run.duration >= _MEMORY:
-        standing[:, one.times < run.start + _MEMORY] = True
+        left_out[:, one.times < run.start + _MEMORY] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
-        standing[[one.k for one in swinging], : round(fading)] = True
+        left_out[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
-        standing |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
-    standing = _unsettled(standing, run.rate)
+        left_out |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
+    left_out = _unsettled(left_out, run.rate)
     tau = windowed(one.tau, factor)
-    kept = windowed(standing.astype(float), factor) == 0
+    kept = windowed(left_out.astype(float), factor) == 0
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
     rows = period // factor if period % factor == 0 and tau.shape[-1] >= _TWICE * (period // factor) else 0
-    return Prepared(replace(one, left_out=standing), t, tau, kept, unsettled, rows, slow, period)
+    return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period)

@@ -245,11 +245,9 @@ class Weighing:
         promised /= 1 + unexplained / self.normal.rows
         if validation < max(_VALIDATED, _TRANSFERRED * promised):
             return replace(one, why_not="does not help on a run that was not fitted")
-        floor, share = (_FLOOR, _SHARE) if common(variant) else (_RARE_FLOOR, _RARE_SHARE)
-        if not common(variant) and likely(variant, others):
-            share = _LIKELY_SHARE
-        if one.whole < floor:
+        if one.whole < (_FLOOR if common(variant) else _RARE_FLOOR):
             return replace(one, why_not="smaller than what is named")
+        share = _SHARE if common(variant) else _LIKELY_SHARE if likely(variant, others) else _RARE_SHARE
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         if drop < lacking(variant, others, self._drops(others)):
