@@ -27,6 +27,9 @@ _ABRUPT = 2.5
 _WINDOW = 0.05
 #: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
 _STUCK, _MOST = 10, 0.2
+#: Rows in a row in which nothing changes that a log repeated, by how much more than a usual stretch without a change,
+#: and part of what the steps about them would have made of them by which a position jumps behind.
+_FROZEN, _RARELY, _CAUGHT_UP = 5, 5, 0.5
 #: How much longer than one step from its extreme a signal that is cut off stays there.
 _LONGER = 3
 #: Part of the lengths of time for which a signal that was logged more slowly keeps a value that are alike, part of the
@@ -59,6 +62,25 @@ def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
         value = dict(columns)[name][row]
         expected = "a finite number" if not np.isfinite(value) else f"a number within +-{_HUGE:g}"
         raise InputError(where(row, name), f"{name} is {value:g}", expected)
+
+
+def live(at: Measured, effort: Measured, where: Where) -> None:
+    """Raises InputError where a log repeated a row while the robot moved: nothing changes in many rows, and positions
+    then jump to where they would have been.
+    """
+    same = np.all(np.diff(np.concatenate([at.values, effort.values])) == 0, axis=0)
+    usual = float(np.median(np.diff(np.flatnonzero(~same)))) if np.count_nonzero(~same) > 1 else np.inf
+    for one in in_a_row(same):
+        rows = one.stop - one.start
+        if rows < max(_FROZEN, _RARELY * usual) or one.start == 0 or one.stop + 1 >= len(same):
+            continue
+        steps = np.abs(np.diff(at.values[:, [one.start - 1, one.start, one.stop, one.stop + 1, one.stop + 2]]))
+        before, _, jump, after = steps.T
+        moving = np.minimum(before, after)
+        if np.any((moving > 0) & (jump > _CAUGHT_UP * (rows + 1) * moving)):
+            name = at.names[int(np.argmax(jump))]
+            problem = f"nothing changes from here for {rows} rows, and {name} then jumps"
+            raise InputError(where(one.start + 1, name), problem, "each row of its own time; FILE@FROM:TO takes a part")
 
 
 def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:

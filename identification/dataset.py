@@ -208,6 +208,7 @@ def _run(
     named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
     times = [("t", recording.columns["t"])] if "t" in recording.columns else []
     checks.finite([*times, *named, *others.items()], where)
+    checks.live(at, effort, where)
     ticks = clock(recording, beginning.first)
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     checks.positions(q, at, robot, ticks.period, where, resting)

@@ -1,7 +1,7 @@
 """The regressor of whole runs: the one place where generated code meets recorded motion.
 
-Today the generated NumPy module computes it, block by block. Whatever evaluates a base regressor faster (compiled code
-over many samples, say) comes in here and changes nothing above.
+The generated NumPy module computes it, block by block: most of the time of a fit is spent elsewhere
+(docs/identification.md).
 """
 
 from __future__ import annotations

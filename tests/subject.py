@@ -217,7 +217,7 @@ def subject(robot: Robot, seed: int = 1, names: Sequence[str] | None = None) -> 
 def _lengths(robot: Robot) -> Iterator[tuple[str, float]]:
     for k, length in enumerate(robot.lengths):
         if length.symbolic:
-            yield length.name, float(length.value) * (1.1 + 0.13 * k)
+            yield length.name, float(length.value) + 0.05 + 0.03 * k
 
 
 def _torque_constants(model: Model) -> Iterator[tuple[str, float]]:

@@ -99,3 +99,16 @@ def test_named_angles_stay_named_beside_many_others() -> None:
     assert any(written.has(tilt) for written, _ in found)
     for written, number in found:
         assert float(written.subs(tilt, pi / 6)) == pytest.approx(number, rel=1e-12)
+
+
+def test_many_named_angles_are_written_as_numbers() -> None:
+    """As a calibration names them; written in their half tangents the groupings have no end."""
+    angles = [sympy.Symbol(f"e{j}", real=True) for j in range(2, 7)]
+    named = [Length(str(angle), Rational(k, 1000), unit="rad") for k, angle in enumerate(angles, start=1)]
+    right = [pi / 2, Integer(0), -pi / 2, pi / 2, -pi / 2]
+    joints = [joint(j, REVOLUTE, a + e, Rational(j, 10)) for j, a, e in zip(range(2, 7), right, angles, strict=True)]
+    start = time.process_time()
+    arm = subject(robot("named", [joint(1, REVOLUTE), *joints], lengths=named), 1, CORE)
+    assert time.process_time() - start < 40
+    check_grouping(arm)
+    check_core(arm, 1)

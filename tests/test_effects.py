@@ -12,7 +12,7 @@ from sympy import Integer, Rational, pi
 
 from generator.derivation import derive
 from generator.effects.library import effects_of, library
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.reference.joint_effects import LAWS
 from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, Length, ParameterValue, Robot
 from generator.robot.readers import read
@@ -220,11 +220,12 @@ def test_the_other_joint_of_a_rotor_is_another_that_moves(other: int) -> None:
 def test_a_rotor_that_bodies_imitate_by_symbolic_lengths_is_refused() -> None:
     values = {"other": Quantity(Integer(1), "1"), "ratio": Quantity(Rational(4, 5), "1")}
     joints = (joint(1, REVOLUTE), joint(2, PRISMATIC, pi / 2, d=symbol("a1")))
-    uses = (EffectUse("coupled_rotor", (2,), values), EffectUse("rotor_inertia", (1, 2)))
+    behind = EffectUse("rotor_inertia", (1, 2), place=Place("jib.yaml", 12))
+    uses = (EffectUse("coupled_rotor", (2,), values, Place("jib.yaml", 11)), behind)
     made = robot("jib", joints, effects=uses, lengths=[Length("a1", Rational(1, 4))])
     assert any(Model(made).grouping.coefficients("Iar2"))
     symbolic = replace(made, lengths=(Length("a1", Rational(1, 4), symbolic=True),))
-    with pytest.raises(InputError, match="Iar2 is grouped with other parameters by symbolic lengths"):
+    with pytest.raises(InputError, match=r"jib.yaml:11:1: Iar2 is grouped with other parameters by symbolic lengths"):
         _ = Model(symbolic).grouping
 
 

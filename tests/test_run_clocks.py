@@ -73,3 +73,23 @@ def test_many_lost_samples_are_refused(lost: range, good: Recorded, robot: Robot
     kept = Recorded({name: np.delete(values, list(lost)) for name, values in good.columns.items()})
     with pytest.raises(InputError, match="time steps by"):
         load(str(kept.save(tmp_path / "a.csv")), robot)
+
+
+@pytest.mark.parametrize("rows", [6, 30])
+def test_rows_that_a_log_repeated_are_refused(rows: int, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    held = {name: values.copy() for name, values in good.columns.items()}
+    for name, values in held.items():
+        if name != "t":
+            values[700 : 700 + rows] = values[699]
+    with pytest.raises(
+        InputError, match=rf"a.csv:702:\d+: nothing changes from here for {rows} rows, and q\d then jumps"
+    ):
+        load(str(Recorded(held).save(tmp_path / "a.csv")), robot)
+
+
+def test_a_robot_that_rests_repeats_its_rows(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    """Time for which the run goes on from where it rested, without a jump."""
+    rested = {name: np.insert(values, 700, np.full(60, values[700])) for name, values in good.columns.items()}
+    t = np.arange(len(rested["t"])) * 0.005
+    run = load(str(Recorded({**rested, "t": t}).save(tmp_path / "a.csv")), robot)
+    assert not any("nothing changes" in note for note in run.notes)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.io
 
 from generator.errors import InputError
 from identification.dataset import load, sidecar_of
-from tests.recorded import TRUTH, recorded, stacked, two_links
+from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 
 def test_a_column_without_a_number_is_left_out_and_told(tmp_path: Path) -> None:
@@ -29,3 +31,22 @@ def test_a_path_without_a_name_is_refused(source: str, tmp_path: Path) -> None:
     sidecar_of(source)
     with pytest.raises(InputError, match="a run file ending in ''"):
         load(source, two_links(tmp_path).model.robot)
+
+
+@pytest.mark.parametrize(("spelt", "near"), [(str.upper, "Q1"), (lambda name: f"{name[:-1]}_{name[-1]}", "q_1")])
+def test_columns_of_another_spelling_are_hinted_at(spelt: Callable[[str], str], near: str, tmp_path: Path) -> None:
+    regressors = two_links(tmp_path)
+    good = recorded(regressors, TRUTH, duration=8.0)
+    other = {name if name == "t" else spelt(name): values for name, values in good.columns.items()}
+    with pytest.raises(
+        InputError, match=f"no columns of positions, expected .*; perhaps {near} is meant, which a sidecar"
+    ):
+        load(str(Recorded(other).save(tmp_path / "a.csv")), regressors.model.robot)
+
+
+def test_a_mat_file_has_each_column_once(tmp_path: Path) -> None:
+    path = tmp_path / "a.mat"
+    t, q = np.arange(100) * 0.01, np.ones((100, 2))
+    scipy.io.savemat(path, {"t": t, "q1": q[:, 0], "q": q, "tau": q})
+    with pytest.raises(InputError, match=r"a.mat:1:1: column q1 is there twice, expected each column once"):
+        load(str(path), two_links(tmp_path).model.robot)

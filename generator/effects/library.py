@@ -150,7 +150,7 @@ def _check_names(robot: Robot, instances: list[Instance]) -> None:
     for one in instances:
         for name in one.names:
             if name in known:
-                place = next(use.place for use in robot.effects if use.effect == one.effect.id)
+                place = robot.use(one.effect.id, one.joint.number).place
                 raise InputError(place, f"the parameter {name} of {one.effect.id} has its name twice", "another name")
             known.add(name)
 

@@ -118,16 +118,14 @@ def _regroup(
             if names[pivot] in standard:
                 rules[names[pivot]] = rule_of(joint, STEMS, pivot, vector)
         if joint.antecedent:
-            _hand_over(received[joint.antecedent], onward, transports[j], numbers)
+            _hand_over(received[joint.antecedent], onward, transports[j])
         for k, name in enumerate(names):
             if name in standard and name not in rules:
                 forms[name] = entries[k]
     return forms, rules
 
 
-def _hand_over(
-    receiver: list[dict[str, Scalar]], amounts: list[dict[str, Scalar]], matrix: list[list[Scalar]], numbers: Numbers
-) -> None:
+def _hand_over(receiver: list[dict[str, Scalar]], amounts: list[dict[str, Scalar]], matrix: list[list[Scalar]]) -> None:
     """Adds ten linear forms, seen from the antecedent, to the antecedent's."""
     for row, line in enumerate(matrix):
         for coefficient, amount in zip(line, amounts, strict=True):

@@ -17,8 +17,9 @@ from sympy.polys.fields import field
 from generator.constants import exact_constant
 from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
 
-#: General angles up to which groupings are written in their half tangents; fractions in more of them have no end.
-_WRITTEN = 2
+#: General angles up to which groupings are written in their half tangents, all of them or those that have names beside
+#: others that are numbers; fractions in more of them have no end.
+_WRITTEN, _NAMED = 2, 1
 #: Irrational constants are carried to sixty digits; what is smaller than this is zero.
 _NOTHING = Fraction(1, 10**40)
 
@@ -96,7 +97,8 @@ class Numbers:
             return self.integer(int(sympy.cos(angle))), self.integer(int(sympy.sin(angle)))
         positive, sign = _unsigned(angle)
         if positive not in self._half_tangents:
-            return self.constant(sympy.cos(angle)), self.constant(sympy.sin(angle))
+            at = angle.xreplace(self._values)
+            return self.constant(sympy.cos(at)), self.constant(sympy.sin(at))
         t = self._generators[str(self._half_tangents[positive])]
         at = positive.subs(self._values)
         cosine = Scalar((1 - t**2) / (1 + t**2), exact_constant(sympy.cos(at)))
@@ -137,17 +139,20 @@ class Numbers:
 
 def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
     """A symbol for tan(angle/2) of each constant angle of the geometry that is no quarter turn, of which no length can
-    have the name; of named angles alone where there are too many.
+    have the name. Where there are too many, of angles with named lengths alone, and where those are too many, of
+    symbolic ones alone.
     """
+    symbolic = {sympy.Symbol(length.name, real=True) for length in robot.lengths if length.symbolic}
     angles: dict[sympy.Expr, sympy.Symbol] = {}
-    components = [*_constant_angles(robot)]
-    for angle in components:
+    for angle in _constant_angles(robot):
         if not (2 * angle / sympy.pi).is_Integer:
             positive, _ = _unsigned(angle)
             angles.setdefault(positive, sympy.Symbol(f"_tan_half_{len(angles)}"))
-    if len(angles) > _WRITTEN:
-        return {angle: symbol for angle, symbol in angles.items() if angle.free_symbols}
-    return angles
+    named = {angle: symbol for angle, symbol in angles.items() if angle.free_symbols}
+    for written, most in ((angles, _WRITTEN), (named, _NAMED)):
+        if len(written) <= most:
+            return written
+    return {angle: symbol for angle, symbol in named.items() if angle.free_symbols & symbolic}
 
 
 def _constant_angles(robot: Robot) -> list[sympy.Expr]:

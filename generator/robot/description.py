@@ -33,6 +33,7 @@ class Length:
     value: sympy.Expr
     unit: str = "m"
     symbolic: bool = False
+    place: Place = field(default=_NOWHERE, compare=False)
 
 
 @dataclass(frozen=True)
@@ -212,6 +213,10 @@ class Robot:
     def tool(self) -> Joint:
         """The frame where wrenches act and payloads sit: the file's tool frame, else the last frame."""
         return next((joint for joint in self.joints if joint.tool), self.joints[-1])
+
+    def use(self, effect: str, number: int) -> EffectUse:
+        """Where the file asks for an effect on joint ``number``."""
+        return next(use for use in self.effects if use.effect == effect and number in use.joints)
 
     def antecedent(self, joint: Joint) -> Joint | None:
         """The joint that carries ``joint``; None for the base."""

@@ -8,6 +8,5 @@ from generator.robot.description import Robot
 
 def hardly_defined(robot: Robot, effect: str, number: int) -> InputError:
     """The error, where the file asks for the effect on joint ``number``, that too few positions were found for it."""
-    use = next(use for use in robot.effects if use.effect == effect and number in use.joints)
     problem = f"effect {effect} has a real value at hardly any position of joint {number}"
-    return InputError(use.place, problem, "values with which it has one where the joint moves")
+    return InputError(robot.use(effect, number).place, problem, "values with which it has one where the joint moves")

@@ -13,7 +13,8 @@ import sympy
 
 from generator.effects.library import Instance, effects_of, motor_side, states_of, undefined
 from generator.errors import InputError, Place
-from generator.grouping.grouping import Grouping, group
+from generator.grouping.grouping import Grouping
+from generator.grouping.special_lengths import elsewhere, general_grouping
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
 from generator.robot.undefined import hardly_defined
@@ -73,34 +74,24 @@ class Model:
     def grouping(self) -> Grouping:
         """The exact groupings, with effects that repeat other parameters' torques grouped with them."""
         names = [parameter.name for parameter in self.standard_parameters]
-        exact = group(self.robot, tuple(names))
+        exact = general_grouping(self.robot, tuple(names))
         others = [name for instance in self.effects if not instance.effect.drive_train for name in instance.names]
         if not others:
             return exact
-        nominal = self._absorbed(exact, others, sympy.Integer(0))
-        if any(length.symbolic for length in self.robot.lengths):
-            moved = self._absorbed(exact, others, sympy.Rational(1, 7))
+        nominal = _absorbed(self.robot, exact, others)
+        if symbolic := [length.name for length in self.robot.lengths if length.symbolic]:
+            moved = _absorbed(elsewhere(self.robot, symbolic), exact, others)
             for name in others:
                 here, there = nominal.coefficients(name), moved.coefficients(name)
                 if len(here) != len(there) or not np.allclose(here, there, rtol=1e-8, atol=1e-8):
                     problem = f"{name} is grouped with other parameters by symbolic lengths"
-                    raise InputError(self._places[name], problem, "lengths that are numbers")
+                    raise InputError(self._place(name), problem, "lengths that are numbers")
         return nominal
 
-    def _absorbed(self, exact: Grouping, others: Sequence[str], moved: sympy.Rational) -> Grouping:
-        """The grouping at lengths that are numbers, symbolic ones changed by their places times ``moved``."""
-        lengths = tuple(
-            replace(one, symbolic=False, value=one.value * (1 + (k + 1) * moved * int(one.symbolic)))
-            for k, one in enumerate(self.robot.lengths)
-        )
-        numeric = Model(replace(self.robot, lengths=lengths))
-        return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}))
-
-    @property
-    def _places(self) -> dict[str, Place]:
-        """Where the file asks for the effect of each parameter."""
-        places = {use.effect: use.place for use in self.robot.effects}
-        return {name: places[one.effect.id] for one in self.effects for name in one.names}
+    def _place(self, name: str) -> Place:
+        """Where the file asks for the effect of a parameter."""
+        one = next(one for one in self.effects if name in one.names)
+        return self.robot.use(one.effect.id, one.joint.number).place
 
     def sampled_columns(self, columns: Columns, parameters: Mapping[str, Vector]) -> dict[str, Vector]:
         """Columns of the standard regressor over random states, one after the other.
@@ -318,3 +309,10 @@ class Model:
 
     def _variables(self, q: Array) -> dict[sympy.Symbol, Node]:
         return {joint.variable: q[index] for index, joint in enumerate(self.robot.moving) if joint.sigma != FIXED}
+
+
+def _absorbed(robot: Robot, exact: Grouping, others: Sequence[str]) -> Grouping:
+    """The grouping with effects in it, at the robot's lengths as numbers."""
+    lengths = tuple(replace(one, symbolic=False) for one in robot.lengths)
+    numeric = Model(replace(robot, lengths=lengths))
+    return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}))

@@ -40,7 +40,8 @@ def opened(arguments: argparse.Namespace) -> AbstractContextManager[Executor]:
     asked = [
         (module, value)
         for module in _modules()
-        if module.OPTION is not None and (value := getattr(arguments, module.OPTION.lstrip("-"))) is not None
+        if module.OPTION is not None
+        and (value := getattr(arguments, module.OPTION.lstrip("-").replace("-", "_"))) is not None
     ]
     if len(asked) > 1:
         raise InputError(command_line(asked[1][0].OPTION), f"{asked[0][0].OPTION} is given as well", "one of them")

@@ -15,8 +15,8 @@ OPTION = "--scheduler"
 METAVAR = "ADDRESS"
 HELP = "scheduler of a dask cluster that does the work, such as tcp://10.0.0.1:8786"
 
-#: Seconds in which the scheduler must answer, and how often a task may take its worker with it.
-_ANSWER, _DEATHS = 10, 3
+#: Seconds in which the scheduler must answer.
+_ANSWER = 10
 
 
 class Cluster:
@@ -35,7 +35,7 @@ class Cluster:
             for future in distributed.as_completed(list(futures), loop=self._client.loop):
                 yield futures[future], future.result()
         except distributed.KilledWorker:
-            problem = f"a task has ended {_DEATHS} workers"
+            problem = "a task has ended several workers"
             raise InputError(command_line(OPTION), problem, "workers with memory and a C compiler") from None
         except distributed.CancelledError:
             problem = "the cluster is lost"

@@ -18,7 +18,7 @@ def read(path: Path) -> Recording:
     """The numeric variables of a file; a matrix ``q`` of n columns gives ``q1`` to ``qn``, a scalar a constant column.
 
     The number of samples is that of ``t``, else of the longest variable. What has another length is not a column.
-    Raises InputError for a file that is not of this format.
+    Raises InputError for a file that is not of this format, and for a column that two variables make.
     """
     file = str(path)
     try:
@@ -39,7 +39,10 @@ def read(path: Path) -> Recording:
     length = max(arrays["t"].shape) if "t" in arrays else max((max(a.shape) for a in arrays.values()), default=0)
     columns: dict[str, Array] = {}
     for name, value in arrays.items():
-        columns |= _columns(name, value, length)
+        found = _columns(name, value, length)
+        if twice := columns.keys() & found.keys():
+            raise InputError(Place(file), f"column {min(twice)} is there twice", "each column once")
+        columns |= found
     return Recording(file, columns, digest(path), lambda row, column: _place(file, list(columns), row, column))
 
 

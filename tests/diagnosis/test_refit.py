@@ -160,7 +160,6 @@ def test_a_joint_without_rows_stays_as_it_was_known(case: Case, fitted: Refit) -
 def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:
     player, notes = compiled(case.new, case.folder / "generated", case.regressors)
     assert not notes
-    assert player.compiled
     assert player.folder == case.folder / "generated" / "scara"
     one = prepared(case.run(2, case.regressors.model.robot), case.recipe, case.regressors)
     after = play(one, player, fitted.values)

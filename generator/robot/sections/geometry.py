@@ -29,7 +29,7 @@ def lengths(entry: Entry | None) -> dict[str, Length]:
     found: dict[str, Length] = {}
     for key, one in fields.named(entry.value, "geometry").items() if entry else ():
         name = _name(Text(key, one.key), found)
-        found[name] = _length(name, one.value)
+        found[name] = _length(name, one)
     return found
 
 
@@ -45,8 +45,8 @@ def _name(text: Text, found: dict[str, Length]) -> str:
     return name
 
 
-def _length(name: str, node: Node) -> Length:
-    symbolic = False
+def _length(name: str, entry: Entry) -> Length:
+    symbolic, node = False, entry.value
     if isinstance(node, Table):
         keys = fields.table(node, f"length {name}", ("nominal", "symbolic"))
         symbolic = fields.boolean(keys["symbolic"].value, f"symbolic of {name}")
@@ -57,7 +57,7 @@ def _length(name: str, node: Node) -> Length:
         raise InputError(value.place, f"length {name} has no unit", units)
     if value.unit not in ("m", "rad"):
         raise InputError(value.place, f"length {name} is in {value.unit}", units)
-    return Length(name, value.value, value.unit, symbolic)
+    return Length(name, value.value, value.unit, symbolic, entry.key)
 
 
 def gravity(entry: Entry) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:

@@ -47,7 +47,6 @@ class Mended:
 
     text: str
     robot: Robot
-    additions: tuple[Addition, ...]
     fit: Refit
     before: tuple[Played, ...]
     after: tuple[Played, ...]
@@ -100,7 +99,6 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     return Mended(
         text=text,
         robot=new.robot,
-        additions=tuple(additions),
         fit=fit,
         before=before,
         after=after,

@@ -30,11 +30,6 @@ class Player:
     def __init__(self, regressors: Regressors, folder: Path | None = None, module: Any = None) -> None:
         self.regressors, self.folder, self._module = regressors, folder, module
 
-    @property
-    def compiled(self) -> bool:
-        """Whether it is the C that plays."""
-        return self._module is not None
-
     def torques(self, values: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) [N m, N] along a motion, for values of the base parameters by name, or zero."""
         if self._module is None:

@@ -1,0 +1,61 @@
+"""Symbolic lengths whose nominal value hides a part of the groupings are refused, others may have any value later."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from generator.robot.readers import read
+from generator.symbolic.model import Model
+from tests.subject import subject
+from tests.test_dynamics import check_core
+
+ARM = """\
+name: arm
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+geometry:
+  a: {nominal: A, symbolic: SYMBOLIC}
+  b: {nominal: B, symbolic: SYMBOLIC}
+joints:
+  - {j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 0, alpha: ALPHA, d: 0, theta: q2, r: 0}
+  - {j: 3, sigma: 0, alpha: pi/2, d: D, theta: q3, r: R}
+  - {j: 4, sigma: 0, alpha: pi/2, d: 0, theta: q4, r: 0}
+"""
+
+#: What vanishes at the nominal values: a length, the difference of two squares, the difference of two, an angle's sine.
+SPECIAL = {
+    "zero": {"A": "0.2 m", "B": "0 m"},
+    "equal": {"A": "0.4 m", "B": "0.4 m"},
+    "difference": {"A": "0.4 m", "B": "0.4 m", "D": "a - b", "R": "0"},
+    "angle": {"A": "0.4 m", "B": "0 rad", "ALPHA": "b", "R": "0"},
+}
+
+
+def arm(folder: Path, symbolic: bool, values: dict[str, str]) -> Robot:
+    text = ARM
+    for name, value in ({"ALPHA": "pi/2", "D": "a", "R": "b", "SYMBOLIC": str(symbolic).lower()} | values).items():
+        text = text.replace(f" {name}", f" {value}")
+    path = folder / "arm.yaml"
+    path.write_text(text)
+    return read(path)
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+def test_a_special_nominal_value_is_refused_at_its_length(name: str, tmp_path: Path) -> None:
+    robot = arm(tmp_path, symbolic=True, values=SPECIAL[name])
+    expected = r"arm.yaml:[45]:3: the groupings at the nominal value of [ab] are not those of other values"
+    with pytest.raises(InputError, match=expected):
+        _ = Model(robot).grouping
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+def test_a_number_may_be_special(name: str, tmp_path: Path) -> None:
+    check_core(subject(arm(tmp_path, symbolic=False, values=SPECIAL[name]), 1), 1)
+
+
+def test_other_values_hold_away_from_the_nominal_ones(tmp_path: Path) -> None:
+    check_core(subject(arm(tmp_path, symbolic=True, values={"A": "0.4 m", "B": "0.3 m"}), 1), 1)
