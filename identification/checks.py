@@ -11,7 +11,7 @@ from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError, Place
 from generator.robot.description import Joint, Robot
-from identification.neighbours import in_a_row
+from identification.neighbours import ARITHMETIC, in_a_row
 from identification.recording import Array
 from identification.signals import Measured
 
@@ -30,6 +30,8 @@ _STUCK, _MOST = 10, 0.2
 #: Rows in a row in which nothing changes that a log repeated, by how much more than a usual stretch without a change,
 #: and part of what the steps about them would have made of them by which a position jumps behind.
 _FROZEN, _RARELY, _CAUGHT_UP = 5, 5, 0.5
+#: Rows on each side of a jump, and by how much more than they a position moves in it, and than it usually does.
+_ABOUT, _ALONE, _FASTER = 4, 5.0, 2.0
 #: How much longer than one step from its extreme a signal that is cut off stays there.
 _LONGER = 3
 #: Part of the lengths of time for which a signal that was logged more slowly keeps a value that are alike, part of the
@@ -81,6 +83,23 @@ def live(at: Measured, effort: Measured, where: Where) -> None:
             name = at.names[int(np.argmax(jump))]
             problem = f"nothing changes from here for {rows} rows, and {name} then jumps"
             raise InputError(where(one.start + 1, name), problem, "each row of its own time; FILE@FROM:TO takes a part")
+
+
+def whole(found: Measured, where: Where) -> None:
+    """Raises InputError where positions jump in one row, with slow rows before and after: rows between are missing."""
+    for name, x in zip(found.names, found.values, strict=True):
+        steps = np.abs(np.diff(x))
+        if len(steps) < 2 * _ABOUT + 1:
+            continue
+        near = np.max([np.roll(steps, k) for k in range(-_ABOUT, _ABOUT + 1) if k], axis=0)
+        resolution = np.min(steps, where=steps > ARITHMETIC * np.ptp(x), initial=np.inf)
+        usual = max(float(np.quantile(steps, 0.99)), float(resolution))
+        jumps = np.flatnonzero(steps > np.maximum(_ALONE * near, _FASTER * usual))
+        jumps = jumps[(jumps >= _ABOUT) & (jumps < len(steps) - _ABOUT)]
+        if jumps.size:
+            row = int(jumps[0]) + 1
+            problem = f"{name} jumps by {x[row] - x[row - 1]:.4g} in this row alone"
+            raise InputError(where(row, name), problem, "rows without gaps; FILE@FROM:TO takes a part")
 
 
 def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:

@@ -216,6 +216,7 @@ def _run(
         if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
     ticks, at, of_positions = _without_jitter(at, ticks, robot, recording, where)
+    checks.whole(at, where)
     coarse = resolution(effort, robot, recording)
     effort, of_efforts = glitches.without(effort, ticks, where)
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)

@@ -26,7 +26,7 @@ from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload
-from identification.suspicion import directed, suspect
+from identification.suspicion import beyond, directed, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0
@@ -140,6 +140,8 @@ def identify(
     reduced, solution = essential(problem, options.ratio, options.growth)
     best = _estimate(reduced, solution, factors, tests)
     notes += _doubts(regressors, full)
+    if full.test is not None:
+        notes += beyond(full.train, full.test, regressors.model.robot.numbers)
     if best.train.total.norm > _COSTLY * full.train.total.norm:
         notes.append("the essential parameters leave far more of the torques than all do; a larger ratio keeps more")
     return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))

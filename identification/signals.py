@@ -70,9 +70,9 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
         return Measured(stem, tuple(wanted), np.stack([recording.columns[name] for name in wanted]))
     choices = " or ".join(f"{stem}{numbers[0]} to {stem}{numbers[-1]}" for stem in stems)
     first = {f"{stem}{numbers[0]}" for stem in stems}
-    near = next((column for column in recording.columns if column.replace("_", "").lower() in first), "")
-    hint = f"; perhaps {near} is meant, which a sidecar's columns can say" if near else ""
-    raise NoColumns(recording.where(None, near), f"there are no columns of {what}", choices + hint)
+    close = next((column for column in recording.columns if column.replace("_", "").lower() in first), "")
+    hint = f"; perhaps {close} is meant, which a sidecar's columns can say" if close else ""
+    raise NoColumns(recording.where(None, close), f"there are no columns of {what}", choices + hint)
 
 
 def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Array:

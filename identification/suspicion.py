@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
+from generator.review.words import listed
 from generator.symbolic.model import Model
 from identification.factors import Factor, triangular
 from identification.filtering import smoothed
@@ -26,6 +27,8 @@ Array = NDArray[np.float64]
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.
 _DOUBTFUL, _REFUSED = 10.0, 50.0
+#: How many times what is fitted leaves of a torque a test may leave.
+_FURTHER = 3.0
 #: Standard deviations from which a parameter's sign is told for sure and from which it is likely; how many must be.
 _SURE, _LIKELY, _SEVERAL = 4.0, 2.5, 2
 #: By how much the product of the joints' residuals must fall.
@@ -49,6 +52,22 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
         f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained{_asked(each[k])}"
         for k in bad
         if each[k].relative_to_mean > _REFUSED
+    ]
+
+
+def beyond(train: Residuals, test: Residuals, numbers: Sequence[int]) -> list[str]:
+    """What is to be told of joints that runs which test show far worse than those that are fitted."""
+    pairs = {k: (one, test.per_joint[k]) for k, one in train.per_joint.items() if one.rows and test.per_joint[k].rows}
+    far = [
+        f"joint {numbers[k]} ({one.relative_to_mean:.2g} % of its spread fitted, {other.relative_to_mean:.2g} % tested)"
+        for k, (one, other) in pairs.items()
+        if other.relative_to_mean > max(_FURTHER * one.relative_to_mean, _DOUBTFUL)
+    ]
+    if not far:
+        return []
+    return [
+        f"the runs that test are explained far worse on {listed(far)}: they go where the fitted ones do not, or are of "
+        "another state of the robot"
     ]
 
 

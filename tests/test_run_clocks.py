@@ -87,9 +87,24 @@ def test_rows_that_a_log_repeated_are_refused(rows: int, good: Recorded, robot: 
         load(str(Recorded(held).save(tmp_path / "a.csv")), robot)
 
 
+def test_rows_that_are_missing_in_even_times_are_refused(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    cut = {name: np.delete(values, range(700, 730)) for name, values in good.columns.items()}
+    times = {"t": good.columns["t"][: len(cut["t"])]}
+    with pytest.raises(InputError, match=r"a.csv:702:\d+: q\d jumps by -?0\.\d+ in this row alone, expected rows with"):
+        load(str(Recorded({**cut, **times}).save(tmp_path / "a.csv")), robot)
+
+
 def test_a_robot_that_rests_repeats_its_rows(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     """Time for which the run goes on from where it rested, without a jump."""
     rested = {name: np.insert(values, 700, np.full(60, values[700])) for name, values in good.columns.items()}
     t = np.arange(len(rested["t"])) * 0.005
     run = load(str(Recorded({**rested, "t": t}).save(tmp_path / "a.csv")), robot)
     assert not any("nothing changes" in note for note in run.notes)
+
+
+def test_samples_lost_by_chance_come_close_to_each_other(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    """Three of five in a row are no other rate."""
+    lost = [200, 202, 204, *range(300, 1500, 60)]
+    kept = Recorded({name: np.delete(values, lost) for name, values in good.columns.items()})
+    run = load(str(kept.save(tmp_path / "a.csv")), robot)
+    assert f"{len(lost)} of 1600 samples are missing; samples were interpolated" in run.notes[0]

@@ -25,7 +25,7 @@ def test_a_model_that_leaves_noise_meets_no_objection() -> None:
 
 def test_a_joint_that_got_worse_is_told() -> None:
     assert objections({1: tried(1.4, 1.81), 2: tried(5.0, 1.0)}) == [
-        "the new model explains the untouched runs less well on joint 1 (2.8 % before, 3.62 % after)"
+        "the new model explains the untouched runs less well on joint 1 (2.8 % without what was found, 3.62 % with it)"
     ]
 
 
@@ -60,6 +60,12 @@ def test_what_a_testing_run_contradicts_is_taken_back(
     assert found.verdict in ({NAMED, UNEXPLAINED} if named and back else {NAMED} if named else {UNEXPLAINED})
     told = [note for note in found.notes if "is taken back" in note]
     assert [note.startswith(f"{back} on joint 1 is taken back") for note in told] == [True] * bool(back)
+
+
+def test_what_was_found_and_is_not_written_is_no_objection() -> None:
+    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75)}, unwritten={1})
+    assert "joint 2" in told
+    assert "joint 1" not in told
 
 
 def test_a_gain_that_makes_torques_larger_makes_no_joint_worse() -> None:

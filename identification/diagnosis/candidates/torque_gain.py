@@ -16,8 +16,8 @@ from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
-#: Relative errors of a torque: with them ``torque_gain`` stays within what a robot file may say.
-_LEAST, _LARGEST = -0.65, 1.9
+#: Relative errors of a torque: beyond them it is not the gain that is wrong.
+_LEAST, _LARGEST = -0.6, 0.6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:

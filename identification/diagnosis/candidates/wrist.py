@@ -27,7 +27,8 @@ _SHOWN = {"Iar": "qdd"}
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """Pairs among the last joints, by the ratio of the drives' coupling, else in the same and the opposite sense.
+    """Pairs among the last joints, by the ratio of the drives' coupling, which turns a rotor with both, else in the
+    same and the opposite sense.
 
     The later joint carries the effect; none where the robot's file has a coupled rotor on it.
     """
@@ -36,10 +37,10 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     robot = scenes[0].robot
     taken = {number for use in robot.effects if use.effect == EFFECT.id for number in use.joints}
     return [
-        _hypothesis(robot, joint, other, ratio)
+        _hypothesis(robot, joint, other, ratio, stated)
         for other, joint in pairwise(robot.moving[-_WRIST:])
         if joint.number not in taken and _moved_by(robot, joint) == other
-        for ratio in _ratios(robot, joint, other)
+        for ratio, stated in _ratios(robot, joint, other)
     ]
 
 
@@ -51,18 +52,20 @@ def _moved_by(robot: Robot, joint: Joint) -> Joint | None:
     return carrier
 
 
-def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[float]:
-    """Speeds of the rotor per speed of the other joint, in units of that per speed of its own."""
+def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[tuple[float, bool]]:
+    """Speeds of the rotor per speed of the other joint, in units of that per speed of its own; whether the file says
+    it.
+    """
     if robot.drives is not None:
         row = robot.drives.coupling[robot.moving.index(joint)]
         ratio = float(row[robot.moving.index(other)] / row[robot.moving.index(joint)])
         if abs(ratio) >= _WEAKEST:
-            return [ratio]
+            return [(ratio, True)]
     # A slide and a turn share no rotor unless the file says how.
-    return [1.0, -1.0] if joint.sigma == other.sigma else []
+    return [(1.0, False), (-1.0, False)] if joint.sigma == other.sigma else []
 
 
-def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypothesis:
+def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float, stated: bool) -> Hypothesis:
     own, its = robot.moving.index(joint), robot.moving.index(other)
     return Hypothesis(
         EFFECT.id,
@@ -82,6 +85,7 @@ def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float) -> Hypot
             "viscous_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
             "coulomb_friction": "one joint moving while the other stands: a shared rotor asks torque of both motors",
         },
+        stated=stated,
         jumps=tuple((k, ((its, ratio), (own, 1.0))) for k in (its, own)),
     )
 

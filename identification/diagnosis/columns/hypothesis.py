@@ -118,7 +118,7 @@ class Hypothesis:
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
     coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
     coefficient by name which shape value, to which power, is the same by another way. ``usual`` is false of a balancer
-    on a joint on which robots have none.
+    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for.
     """
 
     effect: str
@@ -144,6 +144,7 @@ class Hypothesis:
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
     twice: Mapping[str, tuple[str, int]] = field(default_factory=dict)
     usual: bool = True
+    stated: bool = False
     jumps: tuple[Jump, ...] = ()
 
     @property

@@ -23,7 +23,7 @@ from identification.diagnosis.mending.refit import SET, Refit, refit, with_paylo
 from identification.diagnosis.mending.repair import as_written, repaired
 from identification.diagnosis.mending.untouched import Untouched, objections, untouched
 from identification.diagnosis.mending.writable import loaded, writable
-from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play
+from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play, together
 from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.verdict.finding import Finding
@@ -79,23 +79,24 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         known = None if prior is None else _prior(prior, regressors, written)
         said, given = _description(written), _given(entered, new.robot)
         fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, given)
-        if prior is None:
-            values = refit(_sampled(found.roles.searched, old_regressors), old_regressors).written
-        else:
-            mean = prior_of(old_regressors.model, prior).mean.tolist()
-            values = dict(zip(old_regressors.names, mean, strict=True))
+        as_known = None if prior is None else prior_of(old_regressors.model, prior)
+        refitted = refit(_sampled(found.roles.searched, old_regressors), old_regressors, as_known).written
+        values = refitted if as_known is None else dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
     text, sets = _with_sets(new.text, fit, additions)
     replace(folder, {name: text.encode()})
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
-        before = _played(found.roles.test, Player(old_regressors), values)
-        after = _played(found.roles.test, player, fit.written)
-        pairs = [aligned(old, now) for old, now in zip(before, after, strict=True)]
-        before, after = (tuple(played) for played in zip(*pairs, strict=True))
+        played = _played(found.roles.test, player, fit.written)
+        before, after = _beside(found.roles.test, Player(old_regressors), values, played)
+        without = _beside(found.roles.test, Player(old_regressors), refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
+    left_out = {j for one in found.findings if one not in written for j in one.amplitude}
     stated_aside = [one.evidence for one in aside if one in additions]
-    told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes, *objections(tried, elastic)]
+    told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes]
+    if prior is not None and written:
+        told.append(_gain(*without))
+    told += objections(untouched(bank, *without), elastic, left_out)
     return Mended(
         text=text,
         robot=new.robot,
@@ -162,6 +163,24 @@ def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepar
 
 def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
     return [one.sampled for one in _prepared(sources, regressors)]
+
+
+def _beside(
+    sources: Sequence[str], old: Player, values: Mapping[str, float], new: Sequence[Played]
+) -> tuple[tuple[Played, ...], tuple[Played, ...]]:
+    """Runs as an old model plays them and as the ``new`` one did, over the rows that both have."""
+    pairs = [aligned(one, now) for one, now in zip(_played(sources, old, values), new, strict=True)]
+    before, after = zip(*pairs, strict=True)
+    return before, after
+
+
+def _gain(without: Sequence[Played], after: Sequence[Played]) -> str:
+    """What the findings do beside a fit: a prior's values alone are further off than what the runs make of them."""
+    old, new = (together(one).total.relative_to_mean for one in (without, after))
+    return (
+        f"fitted to the same runs near the same prior, the model without what was found leaves {old:.3g} % of the "
+        f"untouched runs, the one with it {new:.3g} %"
+    )
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

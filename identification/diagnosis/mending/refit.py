@@ -86,13 +86,16 @@ def refit(
 
     def fit(factors: tuple[Factor, ...]) -> Solution:
         solution = Problem(factors, free, known, weighted=True).solve()
-        return solution if near is None else _near(near, factors, solution)
+        return solution if near is None else _near(near, factors, solution, {})
 
     regressors, notes = under_own_load(runs, regressors, fit)
     observed = [Observed(one, regressors) for one in runs]
     factors = added([factor for one in observed for factor in one.factors])
     plain = fit(factors)
-    coloured = _coloured(plain, factors, observed)
+    if near is None:
+        coloured = _coloured(plain, factors, observed)
+    else:
+        coloured = plain = _near(near, factors, plain, _colours(plain.values, observed))
     solution = replace(coloured, covariance=coloured.covariance + _brought(plain, factors, given))
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
@@ -136,13 +139,15 @@ def _payload_in_base(regressors: Regressors) -> Array:
     return np.asarray(solution, dtype=float)
 
 
-def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
-    """The solution with the prior's rows, each joint's rows weighed by what is left of them.
+def _near(prior: Prior, factors: Sequence[Factor], start: Solution, colours: Mapping[int, float]) -> Solution:
+    """The solution with the prior's rows, each joint's rows weighed by what is left of them, less where that has a
+    colour: by as much as ``colours`` inflate its variances, 1 where they tell nothing.
 
     Where the runs contradict what was known, that was known less well by as much (Birge's ratio).
     """
     whole = prior.beside([0.0] * (len(start.names) - len(prior.mean)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
+    inflated = {one.joint: np.sqrt(colours.get(one.joint, 1.0)) for one in factors}
     result, sigma = start, dict(start.sigma)
     shown = [one for one in factors if one.rows]
     width = 1.0
@@ -151,7 +156,7 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
         for one in shown:
             R = one.on(start.names)
             R[:, -1] -= one.on(tuple(given))[:, :-1] @ np.array(list(given.values()))
-            gram += R.T @ R / sigma[one.joint] ** 2
+            gram += R.T @ R / (sigma[one.joint] * inflated[one.joint]) ** 2
         rows = sum(one.rows for one in shown)
         known = Prior(whole.mean, whole.precision / width)
         chi, covariance = Normal(gram, len(start.names), rows, known).solution([])
@@ -163,7 +168,7 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution) -> Solution:
         unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
-    return result
+    return replace(result, sigma={joint: size * inflated.get(joint, 1.0) for joint, size in result.sigma.items()})
 
 
 def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[Observed]) -> Solution:

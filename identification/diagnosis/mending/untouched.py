@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,21 +54,23 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     }
 
 
-def objections(tried: Mapping[int, Untouched], elastic: bool = False) -> list[str]:
+def objections(tried: Mapping[int, Untouched], elastic: bool = False, unwritten: Collection[int] = ()) -> list[str]:
     """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
 
     A share is that of the torque's spread. Of a robot with ``elastic`` joints a rigid model leaves more than noise,
-    on the other joints too, which the links' inertia couples with them.
+    on the other joints too, which the links' inertia couples with them; so does one without what was found and is
+    ``unwritten``, on joints by number.
     """
     worse = [
-        f"joint {number} ({one.before.relative_to_mean:.3g} % before, {one.after.relative_to_mean:.3g} % after)"
+        f"joint {number} ({one.before.relative_to_mean:.3g} % without what was found, "
+        f"{one.after.relative_to_mean:.3g} % with it)"
         for number, one in tried.items()
         if one.after.relative_to_mean > _WORSE * one.before.relative_to_mean
     ]
     lacking = [
         f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
         for number, one in tried.items()
-        if not elastic and one.after.relative_to_mean > _LACKING * one.relative_floor
+        if not elastic and number not in unwritten and one.after.relative_to_mean > _LACKING * one.relative_floor
     ]
     notes = []
     if worse:

@@ -21,8 +21,8 @@ def pulls(effect: str) -> bool:
 
 
 def common(variant: Variant) -> bool:
-    """Whether nearly every robot has the effect."""
-    return variant.hypothesis.kind == BODY or _occurs(variant) == EVERYWHERE
+    """Whether nearly every robot has the effect, or this one by what its file says."""
+    return variant.hypothesis.kind == BODY or variant.hypothesis.stated or _occurs(variant) == EVERYWHERE
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:

@@ -36,8 +36,9 @@ _LEFT, _PULLED = 1.0, 0.15
 #: Size of a finding, in parts of the noise's rms, below which it is not firm where nothing repeats: the noise is then
 #: not known apart from the model. Where rows are too few to take what may act out of it as well.
 _APERIODIC, _SHORT = 0.5, 1.0
-#: Size, in parts of the noise's rms, below which a torque of the position is any.
-_FAINT = 0.3
+#: Size, in parts of the noise's rms, below which a torque of the position is any; what is left on its joint, in those
+#: parts too, and standard deviation of its values, in parts of them, from which it is.
+_FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms, from which its law is not sure; and the standard
 #: deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _GAP = 1.0, 0.25
@@ -253,7 +254,9 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     any_torque = pulls(effect) and (
-        remains > _PULLED or not set(one.joints).isdisjoint(several) or any(map(_vague, one.main))
+        remains > min(_PULLED, _SHOWS / one.evidence.size)
+        or not set(one.joints).isdisjoint(several)
+        or any(_vague(value, _LOOSE) for value in one.main)
     )
     any_torque |= balances(effect) and not one.determined
     any_torque |= pulls(effect) and one.evidence.size < _FAINT
@@ -290,8 +293,8 @@ def _unknown(one: Value) -> bool:
     return (one.std or 0.0) >= abs(one.value or 0.0)
 
 
-def _vague(one: Value) -> bool:
-    return not one.value or (one.std or 0.0) > _VAGUE * abs(one.value)
+def _vague(one: Value, part: float = _VAGUE) -> bool:
+    return not one.value or (one.std or 0.0) > part * abs(one.value)
 
 
 def _alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
