@@ -78,6 +78,8 @@ def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[st
     for each in gone:
         hypothesis = each.evidence.variant.hypothesis
         yield f"{hypothesis.named} is taken back: the runs that test contradict it, or what it stood beside"
+    if any(one.hypothesis.effect == "torque_delay" for one in found):
+        yield "a filter of the drive or of the log that lags as long looks like a delay between torque and position"
 
 
 def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]:
