@@ -31,6 +31,7 @@ class Integrator:
 
     @property
     def evaluations(self) -> int:
+        """Evaluations of the accelerations a step: the last stage, which is the result, needs none."""
         return len(self.stages) - 1
 
 

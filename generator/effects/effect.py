@@ -39,6 +39,7 @@ class LinearParameter:
     refines: bool = False
 
     def unit(self, joint: Joint) -> str:
+        """The unit on this joint, which is revolute or prismatic."""
         return self.units[joint.sigma == PRISMATIC]
 
 
@@ -72,6 +73,7 @@ class Shape:
     scale: bool = False
 
     def unit_on(self, joint: Joint) -> str:
+        """The unit on this joint: ``prismatic``, if there is one, on a prismatic joint, else ``unit``."""
         return self.prismatic if self.prismatic and joint.sigma == PRISMATIC else self.unit
 
 
@@ -87,6 +89,7 @@ class State:
     meaning: str
 
     def unit(self, joint: Joint) -> str:
+        """The unit on this joint, which is revolute or prismatic."""
         return self.units[joint.sigma == PRISMATIC]
 
 
@@ -104,18 +107,24 @@ class Site:
 
     @property
     def q(self) -> sympy.Symbol:
+        """Position of the joint [rad, m]. On an elastic joint it is q_a of the link, for effects on the motor side q_m
+        (report eq. 7).
+        """
         return self.joint.variable
 
     @property
     def qd(self) -> sympy.Symbol:
+        """Speed of the joint [rad/s, m/s], of the same side as ``q``."""
         return sympy.Symbol(f"qd{self.joint.number}", real=True)
 
     @property
     def qdd(self) -> sympy.Symbol:
+        """Acceleration of the joint [rad/s2, m/s2], of the same side as ``q``."""
         return sympy.Symbol(f"qdd{self.joint.number}", real=True)
 
     @property
     def elongation(self) -> sympy.Symbol:
+        """Elongation q_e = q_a - q_m of an elastic joint [rad, m], from the motor to the link (report eq. 7)."""
         return sympy.Symbol(f"qe{self.joint.number}", real=True)
 
     @property

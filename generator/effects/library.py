@@ -30,10 +30,12 @@ class Instance:
 
     @property
     def joint(self) -> Joint:
+        """The joint that it sits on."""
         return self.site.joint
 
     @property
     def names(self) -> tuple[str, ...]:
+        """Names of its parameters, in their order: stem, ``suffix`` and the joint's number."""
         return tuple(f"{p.stem}{self.suffix}{self.joint.number}" for p in self.effect.parameters)
 
     @property
@@ -43,6 +45,7 @@ class Instance:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
+        """Its parameters under these names, in the units of its kind of joint."""
         side = ", motor side" if self.suffix else ""
         return tuple(
             Parameter(name, p.unit(self.joint), self.joint.number, p.meaning + side, p.lower, p.upper)
@@ -50,6 +53,7 @@ class Instance:
         )
 
     def columns(self) -> tuple[Column, ...]:
+        """Torque [N m, N] per unit of each parameter, in their order, by joint number."""
         return self.effect.columns(self.site)
 
 
@@ -63,6 +67,7 @@ class StateUse:
 
     @property
     def name(self) -> str:
+        """Name of its symbol: the stem and the joint's number."""
         return f"{self.state.stem}{self.joint.number}"
 
 

@@ -34,6 +34,7 @@ class BaseParameter:
 
     @property
     def alone(self) -> bool:
+        """Whether no other standard parameter is grouped with its head."""
         return len(self.terms) == 1
 
 

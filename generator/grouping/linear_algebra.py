@@ -34,14 +34,17 @@ class Span:
 
     @property
     def basis(self) -> Matrix:
+        """The basis as rows of ``size`` entries, by ascending pivots, at which a row is 1 and all others are 0."""
         return [self._rows[pivot] for pivot in sorted(self._rows)]
 
     @property
     def pivots(self) -> list[int]:
+        """Places of the rows' leading ones, ascending, counted from 0."""
         return sorted(self._rows)
 
     @property
     def full(self) -> bool:
+        """Whether it is the whole space."""
         return len(self._rows) == self.size
 
     def add(self, vector: Sequence[Scalar]) -> bool:
@@ -63,6 +66,7 @@ class Span:
         return True
 
     def add_all(self, vectors: Iterable[Sequence[Scalar]]) -> Span:
+        """Takes every vector in; returns the span itself."""
         for vector in vectors:
             self.add(vector)
         return self

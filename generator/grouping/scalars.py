@@ -75,6 +75,7 @@ class Numbers:
         self.one = Scalar(self._field.one, Fraction(1))
 
     def integer(self, value: int) -> Scalar:
+        """The scalar of an integer."""
         return Scalar(self._field(value), Fraction(value))
 
     def length(self, expression: sympy.Expr) -> Scalar:

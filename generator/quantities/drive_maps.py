@@ -30,6 +30,7 @@ def inverse(matrix: Rationals) -> Rationals:
 
 
 def transpose(matrix: Rationals) -> Rationals:
+    """The transpose: that of N takes motor torques to joint torques (report eq. 17)."""
     return [list(column) for column in zip(*matrix, strict=True)]
 
 

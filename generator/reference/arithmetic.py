@@ -46,6 +46,7 @@ def floats(values: object) -> NDArray[np.float64]:
 
 
 def zeros(*shape: int) -> Array:
+    """Decimal zeros in an array of that shape."""
     return np.full(shape, Decimal(0), dtype=object)
 
 

@@ -98,16 +98,19 @@ def _number(expression: sympy.Expr, lengths: Mapping[sympy.Symbol, Decimal]) -> 
 
 
 def rotation_z(angle: Decimal) -> Array:
+    """Homogeneous matrix (4 x 4) of the right-handed rotation by ``angle`` [rad] about z."""
     c, s = cosine(angle), sine(angle)
     return decimals([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
 
 
 def rotation_x(angle: Decimal) -> Array:
+    """Homogeneous matrix (4 x 4) of the right-handed rotation by ``angle`` [rad] about x."""
     c, s = cosine(angle), sine(angle)
     return decimals([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
 
 
 def translation(x: Decimal | int, y: Decimal | int, z: Decimal | int) -> Array:
+    """Homogeneous matrix (4 x 4) of the translation by x, y, z [m]."""
     return decimals([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]])
 
 

@@ -34,6 +34,7 @@ class Flexible:
 
     @property
     def dof(self) -> int:
+        """Number of moving joints n: the size of q_m."""
         return self.link.chain.dof
 
     def sliding(self, direction: Array) -> Flexible:

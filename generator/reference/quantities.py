@@ -38,27 +38,33 @@ class Case:
 
     @property
     def state(self) -> tuple[Array, Array]:
+        """q and qd (n each) [SI]; of the elastic robot [q_m; q_e] and its speeds."""
         return self["q"], self["qd"]
 
     @property
     def motion(self) -> tuple[Array, Array, Array]:
+        """q, qd and qdd (n each) [SI]; of the elastic robot [q_m; q_e], its speeds and accelerations."""
         return self["q"], self["qd"], self["qdd"]
 
     @cached_property
     def rigid(self) -> Rigid:
+        """The rigid robot in the effects' ``states`` and ``warmth`` among the signals, without them as at rest."""
         states, warmth = self.signals.get("states", ()), self.signals.get("warmth", self.resting.warmth)
         return replace(self.resting, states=tuple(states), warmth=warmth)
 
     @property
     def loaded(self) -> Rigid:
+        """The rigid robot with ``payload`` in its tool frame, whose tool exerts ``wrench``."""
         return self.rigid.loaded(self["payload"]).holding(_held(self))
 
     @property
     def flexible(self) -> Flexible:
+        """The robot with its elastic joints, whose links are ``rigid``."""
         return flexible(self.robot, self.rigid)
 
     @property
     def drives(self) -> DriveTrain:
+        """The maps between motors and joints, torque constants at this warmth; raises ValueError without drives."""
         return drive_train(self.robot, self.values, self.rigid.warmth)
 
 

@@ -31,4 +31,5 @@ class Count:
         return self.mul + self.add + self.div
 
     def as_dict(self) -> dict[str, int]:
+        """Numbers of operations by kind: mul, add, div, trig, other, in this order."""
         return asdict(self)

@@ -52,6 +52,7 @@ class Dynamics:
 
     @cached_property
     def still(self) -> list[Node]:
+        """Zeros (n): speeds or accelerations of a robot that has none."""
         return [self.chain.program.zero] * self.chain.dof
 
     def joint_motion(self, qd: Nodes, qdd: Nodes, load: Array | None = None) -> JointMotion:

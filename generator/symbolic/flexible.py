@@ -38,6 +38,7 @@ class FlexibleDynamics:
 
     @property
     def dof(self) -> int:
+        """Number of moving joints n: the size of q_m."""
         return self.link.chain.dof
 
     @cached_property

@@ -33,14 +33,17 @@ class Frame:
 
     @property
     def number(self) -> int:
+        """Number j of the joint and its frame, from 1."""
         return self.joint.number
 
     @property
     def revolute(self) -> bool:
+        """Whether the joint turns about its axis z_j."""
         return self.joint.sigma == REVOLUTE
 
     @property
     def prismatic(self) -> bool:
+        """Whether the joint slides along its axis z_j."""
         return self.joint.sigma == PRISMATIC
 
     def path(self) -> Iterator[Frame]:
@@ -51,6 +54,7 @@ class Frame:
             frame = frame.parent
 
     def has_body(self) -> bool:
+        """Whether the frame carries a body of its own: all but tool frames do."""
         return not self.joint.tool
 
 
@@ -77,6 +81,7 @@ class Chain:
 
     @property
     def tool(self) -> Frame:
+        """The frame where wrenches act and payloads sit: the file's tool frame, else the last frame."""
         return self.frames[self.robot.tool.number - 1]
 
 

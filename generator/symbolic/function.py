@@ -24,6 +24,7 @@ class Signal:
 
     @property
     def size(self) -> int:
+        """Number of entries, 1 of a scalar."""
         return prod(self.shape)
 
 
@@ -72,6 +73,7 @@ class Function:
 
     @property
     def uses_parameters(self) -> bool:
+        """Whether any output depends on the signal ``parameters``."""
         return any(node.operation == "input" and node.source[0] == PARAMETERS for node in self.nodes)
 
     @cached_property

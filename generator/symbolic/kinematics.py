@@ -17,6 +17,7 @@ class Velocity:
 
 
 def velocities(chain: Chain, qd: Nodes) -> dict[int, Velocity]:
+    """Velocities of all frames relative to frame 0, by frame number, at the joint speeds ``qd`` (n) [rad/s, m/s]."""
     program = chain.program
     result: dict[int, Velocity] = {}
     for frame in chain.frames:

@@ -140,6 +140,7 @@ class Model:
 
     @cached_property
     def symbolic_lengths(self) -> tuple[Parameter, ...]:
+        """Lengths [m] and angles [rad] of the geometry that are parameters of the code, in the file's order."""
         return tuple(
             Parameter(length.name, length.unit, 0, f"{'length' if length.unit == 'm' else 'angle'} of the geometry")
             for length in self.robot.lengths
@@ -189,6 +190,7 @@ class Model:
 
     @property
     def dof(self) -> int:
+        """Number of moving joints n: the size of q."""
         return len(self.robot.moving)
 
     @cached_property
@@ -203,18 +205,22 @@ class Model:
 
     @cached_property
     def q(self) -> Array:
+        """Joint positions (n) [rad, m]: the nodes of the input signal ``q``, in the order of ``robot.moving``."""
         return self.signal("q", self.dof)
 
     @cached_property
     def qd(self) -> Array:
+        """Joint speeds (n) [rad/s, m/s]: the nodes of the input signal ``qd``."""
         return self.signal("qd", self.dof)
 
     @cached_property
     def qdd(self) -> Array:
+        """Joint accelerations (n) [rad/s2, m/s2]: the nodes of the input signal ``qdd``."""
         return self.signal("qdd", self.dof)
 
     @cached_property
     def tau(self) -> Array:
+        """Motor torques (n) [N m, N], on the joint side, positive along z: the nodes of the input signal ``tau``."""
         return self.signal("tau", self.dof)
 
     # -- models ---------------------------------------------------------------------------------------------------
@@ -236,6 +242,7 @@ class Model:
 
     @cached_property
     def chain(self) -> Chain:
+        """The chain at the joint positions ``q``."""
         return self.chain_at(self.q)
 
     @cached_property
@@ -245,6 +252,7 @@ class Model:
 
     @cached_property
     def standard_nodes(self) -> dict[str, Node]:
+        """Nodes of the standard parameters by name: the input signal ``standard_parameters``."""
         return {p.name: self.program.input(STANDARD, index) for index, p in enumerate(self.standard_parameters)}
 
     @cached_property

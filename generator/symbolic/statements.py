@@ -145,6 +145,7 @@ class Program:
         return self._intern("input", (), (signal, index))
 
     def node(self, operand: Operand) -> Node:
+        """The node of a node or an exact number."""
         return operand if type(operand) is Node else self.constant(operand)  # type: ignore[arg-type]
 
     def operand(self, operand: object) -> Node | None:
@@ -156,6 +157,7 @@ class Program:
     # -- operations -----------------------------------------------------------------------------------------------
 
     def negate(self, a: Node) -> Node:
+        """-a; of a negated node its argument."""
         if a.operation == "neg":
             return a.arguments[0]
         if a.number is not None:
@@ -163,12 +165,15 @@ class Program:
         return self._intern("neg", (a,))
 
     def add(self, a: Node, b: Node) -> Node:
+        """a + b, the same node as b + a."""
         return self._sum(a, b, False)
 
     def subtract(self, a: Node, b: Node) -> Node:
+        """a - b; of a node from itself 0."""
         return self._sum(a, b, True)
 
     def multiply(self, a: Node, b: Node) -> Node:
+        """a b, the same node as b a."""
         if a is self.zero or b is self.zero:
             return self.zero
         if a.number is not None and b.number is not None:
@@ -191,6 +196,7 @@ class Program:
         return self._intern("mul", (size_a, size_b))
 
     def divide(self, a: Node, b: Node) -> Node:
+        """a / b; raises ZeroDivisionError where b is the constant 0."""
         if b is self.zero:
             raise ZeroDivisionError("a program divides by the constant 0")
         if b.number is not None:

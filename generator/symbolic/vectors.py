@@ -27,10 +27,12 @@ def array(program: Program, rows: Sequence[Any]) -> Array:
 
 
 def zeros(program: Program, *shape: int) -> Array:
+    """An array of that shape of the program's zero."""
     return np.full(shape, program.zero, dtype=object)
 
 
 def identity(program: Program, size: int) -> Array:
+    """The unit matrix (size x size)."""
     return array(program, np.eye(size, dtype=int).tolist())
 
 

@@ -47,6 +47,7 @@ class Machine:
 
     @property
     def robot(self) -> Robot:
+        """The robot of the model."""
         return self.model.robot
 
 

@@ -49,6 +49,7 @@ class Argument:
 
     @property
     def size(self) -> int:
+        """Number of entries of the array, 1 of a number."""
         return self.signal.size
 
 
@@ -77,6 +78,7 @@ class CFunction:
 
     @property
     def name(self) -> str:
+        """Name of the quantity, without the robot's prefix."""
         return self.source.name
 
 

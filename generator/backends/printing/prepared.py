@@ -71,6 +71,7 @@ def index(node: Node) -> int:
 
 
 def is_parameter(node: Node) -> bool:
+    """Whether a node is an entry of the input signal ``parameters``."""
     return node.operation == "input" and signal_of(node) == PARAMETERS
 
 

@@ -63,6 +63,7 @@ class PythonFunction:
 
     @property
     def name(self) -> str:
+        """Name of the function: that of the quantity."""
         return self.source.name
 
 

@@ -29,11 +29,14 @@ class Beside(Protocol):
     """What acts beside the model: coefficients by name, torques and loads (n x N) [N m, N] along a scene."""
 
     @property
-    def coefficients(self) -> Mapping[str, float]: ...
+    def coefficients(self) -> Mapping[str, float]:
+        """Their values by name [SI]."""
 
-    def torque(self, scene: Scene) -> Array: ...
+    def torque(self, scene: Scene) -> Array:
+        """Torques of what acts (n x N) [N m, N], on the joint side, along the scene's motion."""
 
-    def load(self, scene: Scene) -> Array: ...
+    def load(self, scene: Scene) -> Array:
+        """The part of these torques that loads the drives (n x N) [N m, N]."""
 
 
 @dataclass(frozen=True)

@@ -368,6 +368,7 @@ def _beyond(drop: float, less: float, count: int) -> bool:
 
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
+    """Numbers of the variants' columns in their bank, one variant after the other."""
     return [number for one in chosen for number in one.columns]
 
 
