@@ -17,6 +17,7 @@ from tests.commands import ROOT
 
 PACKAGES = ("generator", "identification")
 CODE = [path for folder in (*PACKAGES, "tests", "benchmarks") for path in sorted((ROOT / folder).rglob("*.py"))]
+TEMPLATES = [path for path in sorted((ROOT / "templates").rglob("*")) if path.is_file()]
 
 #: Makers' and models' names; what holds for one robot must hold for its whole structure.
 ROBOT_NAMES = {"kuka", "kr270", "kr300", "kr500", "iiwa", "panda", "puma", "scara", "stanford", "staubli", "tx40"}
@@ -47,7 +48,7 @@ def test_types() -> None:
     run("-m", "mypy")
 
 
-@pytest.mark.parametrize("path", CODE, ids=lambda path: str(path.relative_to(ROOT)))
+@pytest.mark.parametrize("path", [*CODE, *TEMPLATES], ids=lambda path: str(path.relative_to(ROOT)))
 def test_no_file_over_400_lines(path: Path) -> None:
     assert len(path.read_text().splitlines()) <= 400
 
