@@ -280,7 +280,13 @@ typedef struct {
     kr500_real value[KR500_NPARAMETERS];
 } kr500_params;
 
-/** What the functions need of the parameters, computed once by kr500_prepare(). */
+/**
+ * What the functions need of the parameters, computed once by kr500_prepare().
+ *
+ * Behind the parameters stand what the equations make of parameters alone: inertias and first moments of composed
+ * bodies (S, MS, then the frame, a suffix being another origin or unit) and their sums and products (p). They differ
+ * between generations; only the functions read them.
+ */
 typedef struct {
     kr500_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     kr500_real Fv1; /**< [N m s/rad] viscous friction coefficient */
