@@ -13,12 +13,13 @@ from functools import cached_property
 
 import numpy as np
 
+from benchmarks.nearest_consistent import Estimate, Knowledge, nearest
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
-from identification.consistency import Estimate, Knowledge, grouped, nearest
+from identification.consistency import grouped
 from identification.pseudo_inertia import Matrix, of_body, uniform_bar
 from identification.robot_file import rounded
 

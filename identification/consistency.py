@@ -1,9 +1,8 @@
-"""The physically consistent standard parameters nearest to an estimate of base parameters.
+"""What makes standard parameters physically consistent, as terms of a semidefinite program.
 
-Least squares knows nothing of matter: it may find an inertia that no body can have. Here the standard parameters are
-sought whose groupings come nearest to the estimate while every body's pseudo-inertia P is positive semidefinite and
-every drive-train inertia, friction coefficient and stiffness keeps its sign: a semidefinite program (Sousa and
-Cortesao 2014, IJRR 33(6), 931-944; Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67). What the estimate leaves open
+Least squares knows nothing of matter: it may find an inertia that no body can have. Here every body's pseudo-inertia P
+is positive semidefinite and every drive-train inertia, friction coefficient and stiffness keeps its sign (Sousa and
+Cortesao 2014, IJRR 33(6), 931-944; Wensing, Kim and Slotine 2018, IEEE RA-L 3(1), 60-67). What an estimate leaves open
 is settled by the divergence of P from a prior body's P0, tr(P0^-1 P) - log det(P0^-1 P) - 4, which is zero at P0 and
 grows without bound towards bodies that are flat or without mass (Lee, Wensing and Park 2020, IEEE T-RO 36(2), 348-365).
 """
@@ -11,13 +10,11 @@ grows without bound towards bodies that are flat or without mass (Lee, Wensing a
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import cvxpy
 import numpy as np
 
-from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
 from identification.pseudo_inertia import Matrix, basis
 
@@ -25,81 +22,11 @@ from identification.pseudo_inertia import Matrix, basis
 cp: Any = cvxpy
 Expression: TypeAlias = Any
 
-#: With bodies to keep to: the gap that is asked for, and one that will do where rounding errors allow no more. The
-#: divergence is so flat that the solver's own 1e-8 would leave parameters open in their fourth digit.
-_GAP, _ENOUGH = 1e-12, 1e-9
-_ACCURACY = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), _GAP) | dict.fromkeys(
-    ("reduced_tol_gap_abs", "reduced_tol_gap_rel", "reduced_tol_feas"), _ENOUGH
-)
 
-
-@dataclass(frozen=True)
-class Estimate:
-    """Base parameters by name: value and standard deviation, in the parameter's unit, the latter positive."""
-
-    values: Mapping[str, float]
-    std: Mapping[str, float]
-
-    def shifts(self, base: Mapping[str, float]) -> dict[str, float]:
-        """How far ``base`` lies above each value, in its standard deviations."""
-        return {name: (base[name] - value) / self.std[name] for name, value in self.values.items()}
-
-    def distance(self, base: Mapping[str, float]) -> float:
-        """Root of the sum of the squared shifts."""
-        return float(np.linalg.norm(list(self.shifts(base).values())))
-
-
-@dataclass(frozen=True)
-class Knowledge:
-    """What is known beside the estimate.
-
-    ``bodies`` are positive definite pseudo-inertias (4 x 4), one for every body by its number: what to keep to where
-    the estimate says nothing. A unit of divergence from one costs ``weight`` squared standard deviations. ``given`` are
-    base or standard parameters with exact values.
-    """
-
-    bodies: Mapping[int, Matrix]
-    weight: float
-    given: Mapping[str, float] = field(default_factory=dict)
-
-
-def grouped(model: Model, standard: Mapping[str, float]) -> dict[str, float]:
-    """Base parameters [SI] from standard ones."""
+def grouped(model: Model, standard: Mapping[str, Expression]) -> dict[str, Expression]:
+    """Base parameters by name from standard ones, numbers [SI] or expressions of them."""
     groupings = model.grouping.numeric()
     return {base: sum(c * standard[name] for name, c in terms.items()) for base, terms in groupings.items()}
-
-
-def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str, float]:
-    """The standard parameters by name [SI] that minimise squared distance plus weighted divergence.
-
-    A weight of 0 gives the smallest distance there is, by bodies that are one choice of many. The parameter of an
-    effect is zero where no estimated and no given value involves it.
-
-    Raises ValueError where no physically consistent parameters have the given values.
-    """
-    s = {parameter.name: cp.Variable(name=parameter.name) for parameter in model.standard_parameters}
-    base = {name: _sum(terms, s) for name, terms in model.grouping.numeric().items()}
-    shifts = [(base[name] - value) / estimate.std[name] for name, value in estimate.values.items()]
-    relative = [
-        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in knowledge.bodies.items()
-    ]
-    cost = cp.sum_squares(cp.hstack(shifts))
-    if knowledge.weight > 0:
-        cost += knowledge.weight * cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
-    constraints = [X >> 0 for X in relative]
-    constraints += [(s | base)[name] == value for name, value in knowledge.given.items()]
-    constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
-    constraints += [s[p.name] <= p.upper for p in model.standard_parameters if p.upper is not None]
-    constraints += [s[name] == 0 for name in _silent(model, estimate, knowledge)]
-    problem = cp.Problem(cp.Minimize(cost), constraints)
-    problem.solve(solver=cp.CLARABEL, **(_ACCURACY if knowledge.weight > 0 else {}))
-    if problem.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE):
-        raise ValueError(f"no physically consistent parameters with {dict(knowledge.given)}: {problem.status}")
-    return {name: float(variable.value) for name, variable in s.items()}
-
-
-def _sum(terms: Mapping[str, float], s: Mapping[str, Expression]) -> Expression:
-    return cp.sum([coefficient * s[name] for name, coefficient in terms.items()])
 
 
 def relative_to(prior: Matrix, ten: Sequence[Expression]) -> Expression:
@@ -109,10 +36,14 @@ def relative_to(prior: Matrix, ten: Sequence[Expression]) -> Expression:
     return cp.sum([parameter * unit for parameter, unit in zip(ten, units, strict=True)])
 
 
-def _silent(model: Model, estimate: Estimate, knowledge: Knowledge) -> list[str]:
-    """Effects' parameters that nothing known involves."""
-    groupings = model.grouping.numeric()
-    known = {*estimate.values, *knowledge.given}
-    involved = known.union(*(groupings[name] for name in known if name in groupings))
-    of_bodies = {f"{stem}{number}" for number in knowledge.bodies for stem in INERTIAL}
-    return [p.name for p in model.standard_parameters if p.name not in involved | of_bodies]
+def divergence(relative: Sequence[Expression]) -> Expression:
+    """Sum of the bodies' divergences from their prior ones, each given ``relative_to`` it (4 x 4)."""
+    return cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
+
+
+def possible(model: Model, s: Mapping[str, Expression], relative: Sequence[Expression]) -> list[Expression]:
+    """Constraints: bodies, each given ``relative_to`` any other, can be; standard parameters ``s`` keep their signs."""
+    constraints = [X >> 0 for X in relative]
+    constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
+    constraints += [s[p.name] <= p.upper for p in model.standard_parameters if p.upper is not None]
+    return constraints

@@ -66,7 +66,7 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     """
     import cvxpy
 
-    from identification.consistency import relative_to
+    from identification.consistency import divergence, grouped, possible, relative_to
 
     cp: Any = cvxpy
     if not found.problem.names:
@@ -76,10 +76,7 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     names = [p.name for p in model.standard_parameters]
     names += [name for one in payloads for name in one.names().values()]
     s = {name: cp.Variable(name=name) for name in names}
-    base = {
-        name: cp.sum([coefficient * s[one] for one, coefficient in terms.items()])
-        for name, terms in model.grouping.numeric().items()
-    }
+    base = grouped(model, s)
     R = _rows(found)
     start = np.array([found.full.solution.values[name] for name in found.problem.names])
     values = base | {name: s[name] for one in payloads for name in one.names().values()}
@@ -90,11 +87,8 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
         relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in _bodies(found, prior).items()
     ]
     relative += [relative_to(_ball(found), [s[name] for name in one.names().values()]) for one in payloads]
-    cost = cp.sum_squares((R / scale) @ away)
-    cost += weight * cp.sum([cp.trace(X) - cp.log_det(X) - 4 for X in relative])
-    constraints = [X >> 0 for X in relative]
-    constraints += [s[p.name] >= p.lower for p in model.standard_parameters if p.lower is not None]
-    constraints += [s[p.name] <= p.upper for p in model.standard_parameters if p.upper is not None]
+    cost = cp.sum_squares((R / scale) @ away) + weight * divergence(relative)
+    constraints = possible(model, s, relative)
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
     _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
     bodies = [*(str(joint.number) for joint in found.robot.bodies), *(one.name for one in payloads)]

@@ -141,19 +141,25 @@ def read(path: Path) -> Recipe:
         values["standstill"] = _number(keys["standstill"], "standstill")
     for name, least in (("order", 1), ("factor", 1), ("dropped_first", 0), ("dropped_last", 0)):
         if name in keys:
-            values[name] = whole(fields.integer(keys[name].value, name), name, least, keys[name].value.place)
+            values[name] = _whole(keys[name], name, least)
+    if "factor" in keys:
+        check_stages(fields.integer(keys["factor"].value, "factor"), keys["factor"].value.place)
     for name, known in (("weights", (JOINT, NONE)), ("freedom", (PARAMETERS, SAMPLES))):
         if name in keys:
             values[name] = fields.word(keys[name].value, name, known)
     return Recipe().changed(**values)
 
 
-def whole(value: int, name: str, least: int, place: Place) -> int:
-    """``value`` itself; raises InputError where it is less than ``least`` or a factor without stages."""
+def check_stages(factor: int, place: Place) -> None:
+    """Raises InputError where decimation has no stages for a ``factor``."""
+    if not _has_stages(factor):
+        raise InputError(place, f"factor is {factor}", "a product of numbers up to 13")
+
+
+def _whole(entry: Entry, name: str, least: int) -> int:
+    value = fields.integer(entry.value, name)
     if value < least:
-        raise InputError(place, f"{name} is {value}", f"at least {least}")
-    if name == "factor" and not _has_stages(value):
-        raise InputError(place, f"factor is {value}", "a product of numbers up to 13")
+        raise InputError(entry.value.place, f"{name} is {value}", f"a whole number from {least} on")
     return value
 
 
@@ -167,5 +173,5 @@ def _number(entry: Entry, name: str) -> float:
 def _positive(entry: Entry, name: str) -> float:
     value = _number(entry, name)
     if not value:
-        raise InputError(entry.value.place, f"{name} is 0", "a positive number")
+        raise InputError(entry.value.place, f"{name} is 0", "a number above 0")
     return value

@@ -166,11 +166,14 @@ REFUSED = {
     ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected one in ",
     ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
+    ("--order", "0"): "error: --order:1:1: 0, expected a whole number from 1 on",
+    ("--factor", "0"): "error: --factor:1:1: 0, expected a whole number from 1 on",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
-    ("--bootstrap", "0"): "error: --bootstrap:1:1: 0 draws, expected 50 to 100000",
+    ("--standstill", "inf"): "error: --standstill:1:1: inf, expected a number that is not negative",
+    ("--bootstrap", "0"): "error: --bootstrap:1:1: 0, expected a whole number from 50 to 100000",
     ("--payload", "M=-3"): "error: --payload:1:1: M=-3, expected a number that is not negative",
-    ("--bootstrap", "3"): "error: --bootstrap:1:1: 3 draws, expected 50 to 100000",
+    ("--bootstrap", "3"): "error: --bootstrap:1:1: 3, expected a whole number from 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
     ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
 }
@@ -187,8 +190,9 @@ def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str
     for text, message in (
         ("", "1:1: the file is empty, expected a recipe"),
         ("cutof: 3\n", "1:1: unknown key 'cutof' in the recipe, expected perhaps 'cutoff'"),
-        ("dynamics: 0\n", "1:11: dynamics is 0, expected a positive number"),
-        ("order: 0\n", "1:8: order is 0, expected at least 1"),
+        ("dynamics: 0\n", "1:11: dynamics is 0, expected a number above 0"),
+        ("order: 0\n", "1:8: order is 0, expected a whole number from 1 on"),
+        ("factor: 17\n", "1:9: factor is 17, expected a product of numbers up to 13"),
         ("weights: all\n", "1:10: weights is 'all', expected one of joint, none"),
     ):
         path = folder / "bad.yaml"

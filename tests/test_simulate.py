@@ -295,7 +295,7 @@ REFUSED = {
     ("--delay", "-1"): "--delay:1:1: -1, expected a number that is not negative",
     ("--link-delay", "1e-3"): "--link-delay:1:1: no encoders of the links are logged, expected --also qs",
     ("--friction-drift", "-1"): "--friction-drift:1:1: -1, expected a number above -1",
-    ("--seed", "-1"): "--seed:1:1: -1, expected a whole number that is not negative",
+    ("--seed", "-1"): "--seed:1:1: -1, expected a whole number from 0 on",
     ("--out", "run.mat"): "--out:1:1: a file that ends in '.mat', expected one that ends in .csv",
 }
 

@@ -12,6 +12,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from generator.cli.bounds import above, not_negative, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
 from generator.errors import InputError
@@ -113,16 +114,15 @@ def _check(arguments: argparse.Namespace) -> None:
         ("--speed", arguments.speed),
         ("--acceleration", arguments.acceleration),
     ):
-        if value is not None and not 0 < value < float("inf"):
-            raise InputError(command_line(option), f"{value:g}", "a number above 0")
+        if value is not None:
+            above(value, option, 0)
     for option, count, least, most in (
         ("--harmonics", arguments.harmonics, 2, 50),
         ("--periods", arguments.periods, 1, 1000),
         ("--evaluations", arguments.evaluations, 1, 10**7),
         ("--seed", arguments.seed, 0, 2**63),
     ):
-        if not least <= count <= most:
-            raise InputError(command_line(option), f"{count}", f"a whole number from {least} to {most}")
+        whole_number(count, option, least, most)
     if not (samples := arguments.periods / arguments.frequency * arguments.rate) <= _MOST:
         problem = f"{arguments.periods} periods of {1 / arguments.frequency:g} s make {samples:g} rows"
         raise InputError(command_line("--periods"), problem, f"at most {_MOST:g}")
@@ -139,8 +139,7 @@ def _check_noise(arguments: argparse.Namespace, robot: Robot) -> None:
     if len(noise) not in (0, 1, n):
         raise InputError(command_line("--noise"), f"{len(noise)} numbers", f"one, or one for each of {n} motors")
     for option, value in (*(("--noise", one) for one in noise), ("--noise-part", 0.0 if part is None else part)):
-        if not 0 <= value < float("inf"):
-            raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
+        not_negative(value, option)
     if not part and noise and not all(noise):
         raise InputError(command_line("--noise"), "a motor without noise", "noise on every motor, or --noise-part")
     if part == 0 and not noise:

@@ -13,9 +13,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from generator.cli.bounds import above, not_negative, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import stage
-from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification.extras import needing
@@ -127,7 +127,7 @@ def run(arguments: argparse.Namespace) -> None:
         found = identify(robot, arguments.data, arguments.test, options, regressors)
     consistent = None
     if arguments.consistent:
-        weight = _more(arguments.prior_weight, "--prior-weight", 0.0)
+        weight = above(arguments.prior_weight, "--prior-weight", 0)
         with stage("making the parameters physically consistent"):
             try:
                 consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
@@ -159,13 +159,13 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     ratio = (
         {}
         if arguments.essential is None
-        else {"ratio": _more(arguments.essential, "--essential", 1.0), "growth": float("inf")}
+        else {"ratio": above(arguments.essential, "--essential", 1), "growth": float("inf")}
     )
     return Options(
         recipe=_recipe(arguments, regressors),
         fixed=fixed(arguments.fix, prior, regressors.model, place),
         robust=arguments.robust,
-        draws=0 if arguments.bootstrap is None else _draws(arguments.bootstrap),
+        draws=0 if arguments.bootstrap is None else whole_number(arguments.bootstrap, "--bootstrap", 50, 100_000),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
@@ -194,26 +194,16 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     base = recipes.recipe_of(robot, arguments.recipe)
     for name in ("dynamics", "cutoff"):
         if getattr(arguments, name) is not None:
-            _more(getattr(arguments, name), f"--{name}", 0.0)
+            above(getattr(arguments, name), f"--{name}", 0)
     for name in ("order", "factor"):
         if getattr(arguments, name) is not None:
-            recipes.whole(getattr(arguments, name), name, 1, command_line(f"--{name}"))
-    if arguments.standstill is not None and not arguments.standstill >= 0:
-        raise InputError(command_line("--standstill"), f"{arguments.standstill:g}", "a number that is not negative")
+            whole_number(getattr(arguments, name), f"--{name}", 1)
+    if arguments.factor is not None:
+        recipes.check_stages(arguments.factor, command_line("--factor"))
+    if arguments.standstill is not None:
+        not_negative(arguments.standstill, "--standstill")
     names = ("dynamics", "cutoff", "order", "factor", "standstill", "weights")
     return base.changed(**{name: getattr(arguments, name) for name in names})
-
-
-def _draws(count: int) -> int:
-    if not 50 <= count <= 100_000:
-        raise InputError(command_line("--bootstrap"), f"{count} draws", "50 to 100000")
-    return count
-
-
-def _more(value: float, option: str, least: float) -> float:
-    if not least < value < float("inf"):
-        raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
-    return value
 
 
 def _summary(found: Identification, consistent: ConsistentFit | None) -> str:

@@ -11,6 +11,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from generator.cli.bounds import above, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import counter, stage
 from generator.errors import InputError
@@ -111,12 +112,12 @@ def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
         )
     for name, least in (("iterations", 1), ("starts", 1), ("seed", 0)):
         value = getattr(arguments, name)
-        if value is not None and value < least:
-            raise InputError(command_line(f"--{name}"), str(value), f"at least {least}")
+        if value is not None:
+            whole_number(value, f"--{name}", least)
     for name in ("seconds", "spread", "margin"):
         value = getattr(arguments, name)
-        if value is not None and not 0 < value < float("inf"):
-            raise InputError(command_line(f"--{name}"), f"{value:g}", "a positive number")
+        if value is not None:
+            above(value, f"--{name}", 0)
     recipe = recipes.recipe_of(robot.name, arguments.recipe)
     given = {}
     if arguments.fix:

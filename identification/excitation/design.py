@@ -1,8 +1,7 @@
-"""Search for the motion that shows a robot's parameters best: random starts, then evolution (CMA-ES, Hansen 2016)."""
+"""Search for the motion that shows a robot's parameters best: random starts, then covariance matrix adaptation."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.covariance_adaptation import strategy
 from identification.excitation.criterion import Criterion, sizes_and_rank
 from identification.excitation.shapes import BETWEEN, CHECKED, Shapes
 from identification.fourier_series import FourierSeries
@@ -74,18 +74,7 @@ def _improved(
     start: Array, costs: Callable[[Array], Array], budget: int, draw: np.random.Generator, progress: Progress
 ) -> tuple[float, Array]:
     """The best cost and vector of an evolution from ``start``."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it plots where matplotlib is
-        import cma
-
-    options = {
-        "verbose": -9,
-        "popsize": _GENERATION,
-        "seed": np.nan,
-        "randn": lambda *size: draw.normal(size=size),
-        "updatecovwait": _WAIT,
-    }
-    evolution = cma.CMAEvolutionStrategy(start, _STEP, options)
+    evolution = strategy(start, _STEP, draw, popsize=_GENERATION, updatecovwait=_WAIT)
     done = 0
     while done < budget and not evolution.stop():
         generation = evolution.ask()

@@ -52,5 +52,5 @@ class Processes:
 def opened(text: str) -> Iterator[Processes]:
     """The executor; raises InputError for what is no number of processes."""
     if not text.isdecimal() or not 1 <= int(text) <= 1024:
-        raise InputError(command_line(OPTION), repr(text), "1 to 1024")
+        raise InputError(command_line(OPTION), repr(text), "a whole number from 1 to 1024")
     yield Processes(int(text))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from generator.cli.bounds import above, not_negative, whole_number
 from generator.cli.place import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
@@ -54,18 +55,17 @@ def check(settings: Settings, robot: Robot) -> None:
 
 
 def _check_numbers(settings: Settings) -> None:
-    for option, value, least in (
-        ("--duration", settings.duration, 0.0),
-        ("--rate", settings.rate, 0.0),
-        ("--bandwidth", settings.bandwidth, 0.0),
-        ("--temperature", settings.temperature, 0.0),
-        *((("--warm-up", settings.warm_up, 0.0),) if settings.warm_up is not None else ()),
-        *(("--largest", one, 0.0) for one in settings.largest if one != np.inf),
-        ("--friction-drift", settings.friction_drift, -1.0),
-        ("--torque-constant-drift", settings.constant_drift, -1.0),
+    for option, value, bound in (
+        ("--duration", settings.duration, 0),
+        ("--rate", settings.rate, 0),
+        ("--bandwidth", settings.bandwidth, 0),
+        ("--temperature", settings.temperature, 0),
+        *((("--warm-up", settings.warm_up, 0),) if settings.warm_up is not None else ()),
+        *(("--largest", one, 0) for one in settings.largest if one != np.inf),
+        ("--friction-drift", settings.friction_drift, -1),
+        ("--torque-constant-drift", settings.constant_drift, -1),
     ):
-        if not least < value < np.inf:
-            raise InputError(command_line(option), f"{value:g}", f"a number above {least:g}")
+        above(value, option, bound)
     for option, values in (
         ("--resolution", settings.resolution),
         ("--noise", settings.noise),
@@ -75,14 +75,12 @@ def _check_numbers(settings: Settings) -> None:
         ("--temperature-rise", [settings.rise]),
     ):
         for value in values:
-            if not 0 <= value < np.inf:
-                raise InputError(command_line(option), f"{value:g}", "a number that is not negative")
+            not_negative(value, option)
     for option, delay in (("--delay", settings.delay), ("--link-delay", settings.link_delay)):
         if delay > settings.duration:
             raise InputError(command_line(option), f"{delay:g} s", f"no more than the run, {settings.duration:g} s")
     for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
-        if seed < 0:
-            raise InputError(command_line(option), f"{seed}", "a whole number that is not negative")
+        whole_number(seed, option, 0)
 
 
 def _check_rates(settings: Settings) -> None:

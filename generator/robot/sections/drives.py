@@ -135,7 +135,7 @@ def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) 
     for number, item in zip(moving, fields.items(node, f"torque constants {key}", len(moving), "values"), strict=True):
         value = _fraction(item, f"torque constant of joint {number}") * Fraction(int(factor.p), int(factor.q))
         if value <= 0:
-            raise InputError(item.place, f"torque constant of joint {number} is not positive", "a positive number")
+            raise InputError(item.place, f"torque constant of joint {number} is not positive", "a number above 0")
         constants.append(value)
     return tuple(constants)
 

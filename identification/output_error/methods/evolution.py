@@ -1,17 +1,14 @@
-"""Covariance matrix adaptation, a search that does not need to begin near the minimum, then Gauss-Newton to its end.
-
-Hansen, The CMA evolution strategy: a tutorial, arXiv 1604.00772; by the package cma.
-"""
+"""Covariance matrix adaptation, a search that does not need to begin near the minimum, then Gauss-Newton to its end."""
 
 from __future__ import annotations
 
 import time
-import warnings
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.covariance_adaptation import strategy
 from identification.output_error.methods import gauss_newton
 from identification.output_error.search import Minimum, Search
 
@@ -25,19 +22,13 @@ _GENERATIONS = 100
 
 def minimise(search: Search, start: Array) -> Minimum:
     """The minimum found from ``start`` (b) on; its first step is the settings' spread, in standard deviations."""
-    with warnings.catch_warnings():
-        # It misses matplotlib, which only its own plots need.
-        warnings.simplefilter("ignore")
-        from cma import CMAEvolutionStrategy
-
     settings, criterion = search.settings, search.criterion
     if search.weighted:
         criterion = criterion.weighted(criterion.errors(criterion.begin(start)))
     end = time.monotonic() + (settings.seconds or np.inf)
     most = settings.iterations or (_GENERATIONS if settings.seconds is None else 10**9)
-    # Its seed 0 means the clock.
-    options = {"seed": settings.seed + 1, "verbose": -9, "maxiter": most}
-    evolution = CMAEvolutionStrategy(np.zeros(len(start)), settings.spread, options)
+    draw = np.random.RandomState(settings.seed + 1)
+    evolution = strategy(np.zeros(len(start)), settings.spread, draw, maxiter=most)
     best, least, generations = start, criterion.value(criterion.begin(start)), 0
     while not evolution.stop() and time.monotonic() < end:
         asked = evolution.ask()

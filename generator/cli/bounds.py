@@ -1,0 +1,33 @@
+"""Bounds of numbers on the command line, so that one mistake has one wording in every command.
+
+Each returns the value itself; ``argument`` is what it was given for, as ``command_line`` takes it.
+"""
+
+from __future__ import annotations
+
+from math import inf
+
+from generator.cli.place import command_line
+from generator.errors import InputError
+
+
+def above(value: float, argument: str, bound: float) -> float:
+    """A finite number; raises InputError where it is not above ``bound``."""
+    if not bound < value < inf:
+        raise InputError(command_line(argument), f"{value:g}", f"a number above {bound:g}")
+    return value
+
+
+def not_negative(value: float, argument: str) -> float:
+    """A finite number; raises InputError where it is below zero."""
+    if not 0 <= value < inf:
+        raise InputError(command_line(argument), f"{value:g}", "a number that is not negative")
+    return value
+
+
+def whole_number(value: int, argument: str, least: int, most: int | None = None) -> int:
+    """A whole number; raises InputError where it is below ``least``, or above ``most`` if there is one."""
+    if value < least or (most is not None and value > most):
+        end = "on" if most is None else f"to {most}"
+        raise InputError(command_line(argument), f"{value}", f"a whole number from {least} {end}")
+    return value
