@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from generator.robot.readers import read
+from identification.excitation.design import improved
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.readers import csv
@@ -227,3 +228,15 @@ def test_a_robot_without_drives_or_limits(tmp_path: Path, capsys: pytest.Capture
     assert "torque limits    none in the robot file" in done.out.splitlines()
     expected = json.loads((tmp_path / "out" / "excitation.json").read_text())["expected"]
     assert all(0 < one["relative_std_percent"] < 50 for one in expected.values())
+
+
+def test_a_search_in_few_directions_ends() -> None:
+    """Their axes learn fast: ten generations summed would make variances negative."""
+
+    def costs(x: Array) -> Array:
+        rough = np.sum(np.abs(x - 0.3) ** np.linspace(0.5, 4.0, x.shape[1]), axis=1)
+        return np.asarray(rough + 0.1 * np.abs(np.sin(9 * x)).sum(axis=1))
+
+    start = np.ones(12)
+    cost, best = improved(start, costs, 20000, np.random.default_rng(0))
+    assert cost == costs(best[None])[0] < 0.1 * costs(start[None])[0]

@@ -20,8 +20,9 @@ Progress = Callable[[float], None]
 
 #: Random motions looked at before the best ones are improved; how many are, and motions of a generation.
 _DRAWN, _STARTS, _GENERATION = 256, 2, 24
-#: Generations for which the axes of the evolution stay as they are: finding them costs as much as one.
-_WAIT = 10
+#: Generations for which the axes of the evolution stay as they are, at most, since finding them costs as much as one;
+#: and drawn numbers for each: with fewer of them, axes learn faster than several generations may be summed.
+_WAIT, _EACH = 10, 6
 #: First step of the search, in units of the drawn numbers.
 _STEP = 0.3
 #: Halvings by which a motion is made small enough for the torques.
@@ -64,17 +65,24 @@ def designed(
     budget = max(evaluations - _DRAWN, 0) // _STARTS
     for k, start in enumerate(np.argsort(first)[:_STARTS]):
         if budget >= _GENERATION:
-            found.append(_improved(x[start], costs, budget, draw, _part_of(progress, k)))
+            found.append(improved(x[start], costs, budget, draw, _part_of(progress, k)))
     cost, best = min(found, key=lambda one: one[0])
     series, load = _allowed(shapes.series(best), criterion, shapes)
     return Design(series, cost, float(first.min()), load)
 
 
-def _improved(
-    start: Array, costs: Callable[[Array], Array], budget: int, draw: np.random.Generator, progress: Progress
+def improved(
+    start: Array,
+    costs: Callable[[Array], Array],
+    budget: int,
+    draw: np.random.Generator,
+    progress: Progress = lambda part: None,
 ) -> tuple[float, Array]:
-    """The best cost and vector of an evolution from ``start``."""
-    evolution = strategy(start, _STEP, draw, popsize=_GENERATION, updatecovwait=_WAIT)
+    """The best cost and vector (n) of an evolution from ``start`` (n); ``costs`` are of vectors (m x n), ``budget`` is how
+    many it may look at.
+    """
+    wait = min(_WAIT, max(len(start) // _EACH, 1))
+    evolution = strategy(start, _STEP, draw, popsize=_GENERATION, updatecovwait=wait)
     done = 0
     while done < budget and not evolution.stop():
         generation = evolution.ask()
