@@ -11,7 +11,7 @@ from generator.robot.description import Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.subject import subject
-from tests.test_dynamics import check_core
+from tests.test_dynamics import CORE, check_core
 
 ARM = """\
 name: arm
@@ -54,8 +54,8 @@ def test_a_special_nominal_value_is_refused_at_its_length(name: str, tmp_path: P
 
 @pytest.mark.parametrize("name", SPECIAL)
 def test_a_number_may_be_special(name: str, tmp_path: Path) -> None:
-    check_core(subject(arm(tmp_path, symbolic=False, values=SPECIAL[name]), 1), 1)
+    check_core(subject(arm(tmp_path, symbolic=False, values=SPECIAL[name]), 1, CORE), 1)
 
 
 def test_other_values_hold_away_from_the_nominal_ones(tmp_path: Path) -> None:
-    check_core(subject(arm(tmp_path, symbolic=True, values={"A": "0.4 m", "B": "0.3 m"}), 1), 1)
+    check_core(subject(arm(tmp_path, symbolic=True, values={"A": "0.4 m", "B": "0.3 m"}), 1, CORE), 1)

@@ -78,8 +78,9 @@ def improved(
     draw: np.random.Generator,
     progress: Progress = lambda part: None,
 ) -> tuple[float, Array]:
-    """The best cost and vector (n) of an evolution from ``start`` (n); ``costs`` are of vectors (m x n), ``budget`` is how
-    many it may look at.
+    """The best cost and vector (n) of an evolution from ``start`` (n).
+
+    ``costs`` are of vectors (m x n), of which it looks at a ``budget``.
     """
     wait = min(_WAIT, max(len(start) // _EACH, 1))
     evolution = strategy(start, _STEP, draw, popsize=_GENERATION, updatecovwait=wait)
