@@ -21,7 +21,7 @@ def rows(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def choice(effect: str, joints: tuple[int, ...], size: float) -> Any:
-    hypothesis = SimpleNamespace(kind="effect", effect=effect, named=f"{effect} of a joint")
+    hypothesis = SimpleNamespace(kind="effect", effect=effect, stated=False, named=f"{effect} of a joint")
     return SimpleNamespace(
         evidence=SimpleNamespace(variant=SimpleNamespace(joints=joints, hypothesis=hypothesis), size=size)
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -27,7 +28,7 @@ class Coefficient:
     """A parameter that the columns multiply: its name in the robot's parameters or in the correction, its unit [SI],
     and closed physical bounds, None where free. Without one that is ``essential`` the effect would be another one; one
     that ``refines`` is taken only where it explains beyond chance. ``variable`` is what it shows over where that is
-    not what its effect shows over.
+    not what its effect shows over. A free fit that takes it for larger than ``believed`` has mistaken it.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Coefficient:
     essential: bool = False
     refines: bool = False
     variable: str = ""
+    believed: float = math.inf
 
 
 @dataclass(frozen=True)

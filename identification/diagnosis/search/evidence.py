@@ -232,6 +232,8 @@ class Weighing:
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
+        if self._prior is None and any(abs(v) > c.believed for v, c in zip(x, variant.coefficients, strict=True)):
+            return replace(one, why_not="larger than a free fit can tell")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
         if not self._beyond_friction(drop, variant, others):
