@@ -20,11 +20,10 @@ def rows(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(few_rows, "few_rows", lambda bank: {1: (90, 12)})
 
 
-def choice(effect: str, joints: tuple[int, ...], size: float) -> Any:
+def choice(effect: str, joints: tuple[int, ...], size: float, believed: bool = True) -> Any:
     hypothesis = SimpleNamespace(kind="effect", effect=effect, stated=False, named=f"{effect} of a joint")
-    return SimpleNamespace(
-        evidence=SimpleNamespace(variant=SimpleNamespace(joints=joints, hypothesis=hypothesis), size=size)
-    )
+    variant = SimpleNamespace(joints=joints, hypothesis=hypothesis)
+    return SimpleNamespace(evidence=SimpleNamespace(variant=variant, size=size, believed=believed))
 
 
 def test_what_is_small_there_is_left_out_but_for_what_every_robot_has() -> None:
@@ -32,13 +31,14 @@ def test_what_is_small_there_is_left_out_but_for_what_every_robot_has() -> None:
         choice("viscous_friction", (1,), 0.3),
         choice("stribeck_friction", (1,), 0.3),
         choice("torque_delay", (0, 1, 2), 0.7),
+        choice("torque_gain", (1,), 2.0, believed=False),
         choice("stribeck_friction", (1,), 0.9),
         choice("stribeck_friction", (2,), 0.3),
     ]
     found: Any = SimpleNamespace(bank=BANK, choices=choices, keeping=lambda kept: kept)
     kept, small = few_rows.without_small(found)
-    assert (kept, small) == ([choices[0], *choices[3:]], choices[1:3])
-    found.choices = choices[3:]
+    assert (kept, small) == ([choices[0], *choices[4:]], choices[1:4])
+    found.choices = choices[4:]
     assert few_rows.without_small(found) == (found, [])
 
 
@@ -52,5 +52,7 @@ def test_what_was_left_out_is_told_and_makes_findings_beside_it_tentative() -> N
     assert few_rows.doubted(BANK, [firm], [])[0].status == FIRM
     plain, left_out = few_rows.notes(BANK, [whole])
     assert plain.startswith("rows are too few for the base parameters that act there, 90 for 12 on joint 2")
-    assert left_out.startswith("left out there, smaller than 0.75 of the noise: torque_delay of a joint;")
+    assert left_out.startswith(
+        "left out there, smaller than 0.75 of the noise or larger than is believed: torque_delay of a joint;"
+    )
     assert few_rows.notes(BANK, []) == [plain]

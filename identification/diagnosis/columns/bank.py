@@ -76,6 +76,10 @@ class Variant:
             return bounded(A, b, *self.bounds, least)
         return self.preset, max(lowered(A, b, self.preset), 0.0)
 
+    def believed(self, x: Array) -> bool:
+        """Whether none of its coefficients x (k) is larger than is believed of a free fit."""
+        return all(abs(value) <= one.believed for value, one in zip(x, self.coefficients, strict=True))
+
     def only(self, used: Sequence[int]) -> Variant:
         """With some of its columns, by their places among them."""
         return Variant(

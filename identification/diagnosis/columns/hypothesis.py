@@ -28,7 +28,8 @@ class Coefficient:
     """A parameter that the columns multiply: its name in the robot's parameters or in the correction, its unit [SI],
     and closed physical bounds, None where free. Without one that is ``essential`` the effect would be another one; one
     that ``refines`` is taken only where it explains beyond chance. ``variable`` is what it shows over where that is
-    not what its effect shows over. A free fit that takes it for larger than ``believed`` has mistaken it.
+    not what its effect shows over. A free fit that makes it larger than ``believed`` may make it of
+    what is common.
     """
 
     name: str

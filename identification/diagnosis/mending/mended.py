@@ -88,7 +88,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, fit.written)
         before, after = _beside(found.roles.test, Player(old_regressors), values, played)
-        without = _beside(found.roles.test, Player(old_regressors), refitted, played)
+        without = before, after
+        if prior is not None:
+            without = _beside(found.roles.test, Player(old_regressors), refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
     left_out = {j for one in found.findings if one not in written for j in one.amplitude}

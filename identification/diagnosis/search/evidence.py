@@ -58,7 +58,8 @@ _SHAPES, _NEAR = 6, 0.03
 class Evidence:
     """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation.
 
-    ``sizes`` are the rms beside the noise's, by the coordinate on which it acts.
+    ``sizes`` are the rms beside the noise's, by the coordinate on which it acts; what is not ``believed`` is as large
+    as a free fit makes it of other things.
     """
 
     variant: Variant
@@ -70,6 +71,7 @@ class Evidence:
     sizes: Mapping[int, float]
     passes: bool
     why_not: str = ""
+    believed: bool = True
 
     @property
     def score(self) -> float:
@@ -229,11 +231,10 @@ class Weighing:
         p = _chance(drop, variant)
         free = len(x) + variant.hypothesis.free
         bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
-        one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False)
+        believed = self._prior is not None or variant.believed(x)
+        one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
-        if self._prior is None and any(abs(v) > c.believed for v, c in zip(x, variant.coefficients, strict=True)):
-            return replace(one, why_not="larger than a free fit can tell")
         if not self._itself(drop, variant, others):
             return replace(one, why_not="what it explains is another effect")
         if not self._beyond_friction(drop, variant, others):

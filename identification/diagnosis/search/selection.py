@@ -304,6 +304,8 @@ def _displaces(one: Evidence, mine: Evidence, others: Sequence[Variant]) -> bool
 
 
 def _outweighs(rare: Evidence, usual: Evidence) -> bool:
-    """Whether what is rare explains more than what is common by far, in the fitted runs and with the others."""
+    """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with the
+    others.
+    """
     margin = _BETTER + _RARE * usual.drop
-    return rare.bic > usual.bic + margin and rare.score > usual.score + margin
+    return rare.believed and rare.bic > usual.bic + margin and rare.score > usual.score + margin

@@ -40,22 +40,24 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
     if small:
         left_out = listed([one.evidence.variant.hypothesis.named for one in small])
         told.append(
-            f"left out there, smaller than {_LEAST:g} of the noise: {left_out}; other values on the same joints may "
+            f"left out there, smaller than {_LEAST:g} of the noise or larger than is believed: {left_out}; "
+            "other values on the same joints may "
             "contain a part of it"
         )
     return told
 
 
 def without_small(found: Search) -> tuple[Search, list[Choice]]:
-    """The search without the choices that are small beside the noise of such joints and that not every robot has; and
-    those.
+    """The search without the choices that are small beside the noise of such joints, or not believed, and that not
+    every robot has; and those.
     """
     few = few_rows(found.bank).keys()
     kept: list[Choice] = []
     small: list[Choice] = []
     for one in found.choices:
         there = not few.isdisjoint(one.evidence.variant.joints) and not common(one.evidence.variant)
-        (small if there and one.evidence.size < _LEAST else kept).append(one)
+        doubtful = one.evidence.size < _LEAST or not one.evidence.believed
+        (small if there and doubtful else kept).append(one)
     return (found.keeping(kept), small) if small else (found, small)
 
 
