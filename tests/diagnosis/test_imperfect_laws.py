@@ -16,7 +16,13 @@ def variant(
     effect: str, joints: tuple[int, ...], variable: str = "qd", preset: Mapping[str, Value] | None = None
 ) -> Any:
     hypothesis = SimpleNamespace(
-        effect=effect, joint=joints[0] + 1, kind="effect", variable=variable, preset=preset or {}, beyond=()
+        effect=effect,
+        joint=joints[0] + 1,
+        kind="effect",
+        stated=False,
+        variable=variable,
+        preset=preset or {},
+        beyond=(),
     )
     return SimpleNamespace(hypothesis=hypothesis, joints=joints, coefficients=(), used=(), key=(effect, joints[0] + 1))
 
