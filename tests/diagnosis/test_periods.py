@@ -113,7 +113,8 @@ def test_the_shorter_period_is_not_skipped() -> None:
 def recorded(name: str, start: float = 0.0, seconds: float = 10.0) -> Run:
     """One joint that swings all the time."""
     q = np.sin(2 * np.pi * 0.7 * np.arange(round(seconds / 0.01) + 1) * 0.01)[None]
-    return Run(name, Place(name), start, 0.01, q, np.zeros_like(q), sha256=name)
+    tau = np.random.default_rng(list(name.encode())).normal(size=q.shape)
+    return Run(name, Place(name), start, 0.01, q, tau, sha256=name)
 
 
 def parts(names: tuple[str, ...]) -> list[tuple[str, float, float]]:
