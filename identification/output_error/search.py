@@ -26,8 +26,8 @@ class Settings:
     """How parameters are sought.
 
     ``segment`` [s] is the time after which the simulation begins anew at a state of its own, None for one simulation a
-    run. ``method`` is a module of ``methods``. A search ends after ``iterations`` or ``seconds`` where they are given,
-    what polishes its result by itself.
+    run. ``method`` is a module of ``methods``. A search ends after ``iterations`` or ``seconds`` where they are given;
+    what polishes its result has no such end.
     ``margin`` [kg m2, kg] is the least eigenvalue of M(q) that is allowed, a tenth of the start's where it is None.
     ``fixed`` are values [SI] of parameters that are not sought; ``spread`` is that of further starts about the first,
     in its standard deviations, ``seed`` that of their draws. Torques are as measured, or ``filtered`` by the recipe as

@@ -87,10 +87,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, fit.written)
-        before, after = _beside(found.roles.test, Player(old_regressors), values, played)
-        without = before, after
-        if prior is not None:
-            without = _beside(found.roles.test, Player(old_regressors), refitted, played)
+        runs, old = [*_prepared(found.roles.test, old_regressors)], Player(old_regressors)
+        before, after = _beside(runs, old, values, played)
+        without = (before, after) if prior is None else _beside(runs, old, refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
     left_out = {j for one in found.findings if one not in written for j in one.amplitude}
@@ -168,10 +167,10 @@ def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
 
 
 def _beside(
-    sources: Sequence[str], old: Player, values: Mapping[str, float], new: Sequence[Played]
+    runs: Sequence[Prepared], old: Player, values: Mapping[str, float], new: Sequence[Played]
 ) -> tuple[tuple[Played, ...], tuple[Played, ...]]:
     """Runs as an old model plays them and as the ``new`` one did, over the rows that both have."""
-    pairs = [aligned(one, now) for one, now in zip(_played(sources, old, values), new, strict=True)]
+    pairs = [aligned(play(one, old, values), now) for one, now in zip(runs, new, strict=True)]
     before, after = zip(*pairs, strict=True)
     return before, after
 

@@ -41,8 +41,7 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
         left_out = listed([one.evidence.variant.hypothesis.named for one in small])
         told.append(
             f"left out there, smaller than {_LEAST:g} of the noise or larger than is believed: {left_out}; "
-            "other values on the same joints may "
-            "contain a part of it"
+            "other values on the same joints may contain a part of it"
         )
     return told
 
