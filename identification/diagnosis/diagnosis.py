@@ -81,7 +81,9 @@ def diagnose(
     """
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
-    found, small = few_rows.without_small(search(runs, train, validate, regressors, prior, progress, dry))
+    found = search(runs, train, validate, regressors, prior, progress, dry)
+    robot, few = regressors.model.robot, few_rows.few_rows(found.bank)
+    found, small = few_rows.without_small(found, few)
     trial = None if dry else along(found, test)
     found, gone = confirmed(found, trial)
     progress("looking where the residual is")
@@ -93,12 +95,12 @@ def diagnose(
     left = NOT_JUDGED if dry else unexplained(found, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
-    named = few_rows.doubted(found.bank, findings(found, not left.lacks, disagreeing, beyond), small)
+    named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)
     if named:
         before = led(before, named[0])
     notes = [
         *roles.notes,
-        *few_rows.notes(found.bank, small),
+        *few_rows.notes(few, robot, small),
         *remarks.of_tests(found, trial, test),
         *note(other),
         *remarks.of_elasticity(found),
@@ -109,7 +111,7 @@ def diagnose(
         *(odd_run.notes(found) if left.lacks else ()),
     ]
     return Diagnosis(
-        robot=regressors.model.robot,
+        robot=robot,
         mode=FREE if prior is None else KNOWN,
         verdict=verdict,
         findings=named,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from generator.review.words import listed
+from generator.robot.description import Robot
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.may_act import counts, enough
 from identification.diagnosis.search.likely import common
@@ -16,9 +17,12 @@ from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 #: Size of an effect where it is largest, in parts of the noise's rms, from which it is named on such a joint.
 _LEAST = 0.75
 
+#: Rows in all runs and number of base parameters that act, by coordinates of which the rows are too few.
+Few = Mapping[int, tuple[int, int]]
 
-def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
-    """Rows in all runs and base parameters that act, by coordinates of which the rows are too few."""
+
+def few_rows(bank: Bank) -> Few:
+    """Of the joints of a bank; nothing where all have rows enough."""
     result = {}
     for k in range(bank.dof):
         rows, model = counts(bank, k)
@@ -27,10 +31,9 @@ def few_rows(bank: Bank) -> dict[int, tuple[int, int]]:
     return result
 
 
-def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
-    """What is to be told of such joints, and of what was ``small`` there."""
-    moving = bank.robot.moving
-    said = [f"{rows} for {model} on joint {moving[k].number}" for k, (rows, model) in few_rows(bank).items()]
+def notes(few: Few, robot: Robot, small: Sequence[Choice]) -> list[str]:
+    """What is to be told of the joints of few rows, and of what was ``small`` there."""
+    said = [f"{rows} for {model} on joint {robot.numbers[k]}" for k, (rows, model) in few.items()]
     if not said:
         return []
     told = [
@@ -46,24 +49,23 @@ def notes(bank: Bank, small: Sequence[Choice]) -> list[str]:
     return told
 
 
-def without_small(found: Search) -> tuple[Search, list[Choice]]:
-    """The search without the choices that are small beside the noise of such joints, or not believed, and that not
-    every robot has; and those.
+def without_small(found: Search, few: Few) -> tuple[Search, list[Choice]]:
+    """The search without the choices that are small beside the noise of joints of few rows, or not believed, and that
+    not every robot has; and those.
     """
-    few = few_rows(found.bank).keys()
     kept: list[Choice] = []
     small: list[Choice] = []
     for one in found.choices:
-        there = not few.isdisjoint(one.evidence.variant.joints) and not common(one.evidence.variant)
+        there = not few.keys().isdisjoint(one.evidence.variant.joints) and not common(one.evidence.variant)
         doubtful = one.evidence.size < _LEAST or not one.evidence.believed
         (small if there and doubtful else kept).append(one)
     return (found.keeping(kept), small) if small else (found, small)
 
 
-def doubted(bank: Bank, named: Sequence[Finding], small: Sequence[Choice]) -> tuple[Finding, ...]:
+def doubted(few: Few, robot: Robot, named: Sequence[Finding], small: Sequence[Choice]) -> tuple[Finding, ...]:
     """Findings, tentative where they act on a joint of few rows on which what was ``small`` was left out of the fit."""
-    beside = {k for one in small for k in one.evidence.variant.joints} & few_rows(bank).keys()
-    numbers = {bank.robot.numbers[k] for k in beside}
+    beside = {k for one in small for k in one.evidence.variant.joints} & few.keys()
+    numbers = {robot.numbers[k] for k in beside}
     return tuple(
         one if numbers.isdisjoint(one.amplitude) else replace(one, status=TENTATIVE, sure=False) for one in named
     )
