@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from generator.errors import InputError, Place
+from generator.errors import InputError
 from generator.robot.description import Joint, Robot
 from identification.neighbours import ARITHMETIC, in_a_row
-from identification.recording import Array
+from identification.recording import Array, Where
 from identification.signals import Measured
 
 #: Beyond the limits, in parts of the range, that a position may be.
@@ -27,20 +27,12 @@ _ABRUPT = 2.5
 _WINDOW = 0.05
 #: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
 _STUCK, _MOST = 10, 0.2
-#: Rows in a row in which nothing changes that a log repeated, by how much more than a usual stretch without a change,
-#: and part of what the steps about them would have made of them by which a position jumps behind.
-_FROZEN, _RARELY, _CAUGHT_UP = 5, 5, 0.5
 #: Rows on each side of a jump, and by how much more than they a position moves in it, and than it usually does.
 _ABOUT, _ALONE, _FASTER = 4, 5.0, 2.0
 #: How much longer than one step from its extreme a signal that is cut off stays there.
 _LONGER = 3
-#: Part of the lengths of time for which a signal that was logged more slowly keeps a value that are alike, part of the
-#: usual one that they differ by, part of them that may be one sample, and changes from which that is told.
-_EVEN, _ALIKE, _SHORTER, _CHANGES = 0.6, 0.2, 0.05, 20
 #: Distance to the wrong reference over that to the right one, from which columns count as swapped.
 _SWAPPED = 3.0
-
-Where = Callable[[int | None, str], Place]
 
 
 @dataclass(frozen=True)
@@ -64,25 +56,6 @@ def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
         value = dict(columns)[name][row]
         expected = "a finite number" if not np.isfinite(value) else f"a number within +-{_HUGE:g}"
         raise InputError(where(row, name), f"{name} is {value:g}", expected)
-
-
-def live(at: Measured, effort: Measured, where: Where) -> None:
-    """Raises InputError where a log repeated a row while the robot moved: nothing changes in many rows, and positions
-    then jump to where they would have been.
-    """
-    same = np.all(np.diff(np.concatenate([at.values, effort.values])) == 0, axis=0)
-    usual = float(np.median(np.diff(np.flatnonzero(~same)))) if np.count_nonzero(~same) > 1 else np.inf
-    for one in in_a_row(same):
-        rows = one.stop - one.start
-        if rows < max(_FROZEN, _RARELY * usual) or one.start == 0 or one.stop + 1 >= len(same):
-            continue
-        steps = np.abs(np.diff(at.values[:, [one.start - 1, one.start, one.stop, one.stop + 1, one.stop + 2]]))
-        before, _, jump, after = steps.T
-        moving = np.minimum(before, after)
-        if np.any((moving > 0) & (jump > _CAUGHT_UP * (rows + 1) * moving)):
-            name = at.names[int(np.argmax(jump))]
-            problem = f"nothing changes from here for {rows} rows, and {name} then jumps"
-            raise InputError(where(one.start + 1, name), problem, "each row of its own time; FILE@FROM:TO takes a part")
 
 
 def whole(found: Measured, where: Where) -> None:
@@ -225,19 +198,6 @@ def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
         if match != k and distance[k, k] > _SWAPPED * max(distance[k, match], 1e-12):
             problem = f"{found.names[k]} follows {other.names[match]}, not {other.names[k]}"
             raise InputError(where(None, found.names[k]), problem, "columns in the joints' order; are two swapped?")
-
-
-def repeats(values: Array) -> int:
-    """How many samples in a row an effort typically keeps its value: 1, or more where it was logged more slowly.
-
-    One that takes coarse steps keeps its values for as long as they last.
-    """
-    lengths = np.diff(np.flatnonzero(np.diff(values)))
-    if len(lengths) < _CHANGES:
-        return 1
-    count = int(np.median(lengths))
-    alike = np.mean(np.abs(lengths - count) <= max(1.0, _ALIKE * count))
-    return count if np.quantile(lengths, _SHORTER) > 1 and alike > _EVEN else 1
 
 
 def left_out(stretches: Sequence[Stretch], shape: tuple[int, int]) -> NDArray[np.bool_] | None:

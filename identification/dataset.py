@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError, Place
-from generator.review.words import listed
 from generator.robot.description import Robot
-from identification import checks, corrections, glitches, readers, sidecar
+from identification import checks, corrections, glitches, readers, sidecar, stale_rows
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
-from identification.recording import Array, Recording
+from identification.recording import Array, Recording, Where
 from identification.resolution import Resolution, resolution
 from identification.sidecar import Payload, Sidecar
 from identification.signals import (
@@ -208,7 +207,7 @@ def _run(
     named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
     times = [("t", recording.columns["t"])] if "t" in recording.columns else []
     checks.finite([*times, *named, *others.items()], where)
-    checks.live(at, effort, where)
+    stale_rows.live(at, effort, where)
     ticks = clock(recording, beginning.first)
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     checks.positions(q, at, robot, ticks.period, where, resting)
@@ -222,7 +221,8 @@ def _run(
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     stretches = checks.torques(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
-    notes = [*recording.notes, *_told(stretches, effort, where), *of_positions, *of_efforts]
+    notes = [*recording.notes, *_told(stretches, effort, where)]
+    notes += [*stale_rows.slower(effort, where), *of_positions, *of_efforts]
     unusable = checks.left_out(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
@@ -252,7 +252,7 @@ def _run(
 
 
 def _without_jitter(
-    at: Measured, ticks: Clock, robot: Robot, recording: Recording, where: checks.Where
+    at: Measured, ticks: Clock, robot: Robot, recording: Recording, where: Where
 ) -> tuple[Clock, Measured, list[str]]:
     """The times, even where positions are smoother so; positions without glitches; and what is to be told."""
     clean, notes = glitches.without(at, ticks, where)
@@ -299,20 +299,14 @@ def _known(name: str, robot: Robot) -> bool:
     return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
 
 
-def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: checks.Where) -> Iterator[str]:
-    """What is to be told of efforts that are cut off, or were logged more slowly than positions."""
+def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: Where) -> Iterator[str]:
+    """What is to be told of efforts that are cut off."""
     for k, name in enumerate(effort.names):
         mine = [one for one in stretches if one.coordinate == k]
         if mine:
             rows = sum(one.end - one.start for one in mine)
             several = f" in {len(mine)} stretches, of which here is the first" if len(mine) > 1 else ""
             yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{several}, which are left out"
-    repeats = {name: checks.repeats(values) for name, values in zip(effort.names, effort.values, strict=True)}
-    for rows in sorted({count for count in repeats.values() if count > 1}):
-        names = [name for name, count in repeats.items() if count == rows]
-        keep = f"{names[0]} keeps" if len(names) == 1 else f"{listed(names)} keep"
-        were = "it was" if len(names) == 1 else "they were"
-        yield f"{where(None, names[0])}: {keep} each value for {rows} rows: {were} logged more slowly"
 
 
 def _evened(ticks: Clock, x: Array) -> Array:

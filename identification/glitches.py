@@ -9,12 +9,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from generator.review.words import plural
-from identification.checks import Where
 from identification.neighbours import ARITHMETIC, off_cubics
+from identification.recording import Array, Where
 from identification.signals import Measured
 from identification.timing import Clock
-
-Array = NDArray[np.float64]
 
 #: What one wrong sample makes of the distances of itself and of two neighbours each way from cubics through theirs.
 _ALONE = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 6

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from generator.errors import Place
 
 Array: TypeAlias = NDArray[np.float64]
+#: The place of a value by its row, from 0, and its column; of the column's name without a row.
+Where: TypeAlias = Callable[[int | None, str], Place]
 
 _CHUNK = 1 << 20
 
@@ -22,14 +24,13 @@ _CHUNK = 1 << 20
 class Recording:
     """Columns by name (N each), as written.
 
-    ``where(row, column)`` is the place of a value, rows from 0, or of the column's name where ``row`` is None.
-    ``sha256`` is of the file; ``notes`` tell what was repaired in reading.
+    ``where`` tells the place of a value; ``sha256`` is of the file; ``notes`` tell what was repaired in reading.
     """
 
     file: str
     columns: Mapping[str, Array]
     sha256: str
-    where: Callable[[int | None, str], Place]
+    where: Where
     notes: tuple[str, ...] = ()
 
     @property
