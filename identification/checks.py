@@ -1,17 +1,15 @@
-"""Signals that cannot be what they are called: each one line with its row, or a repair that is told."""
+"""Signals that cannot be what they are called: each one line with its row."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError
 from generator.robot.description import Joint, Robot
-from identification.neighbours import ARITHMETIC, in_a_row
+from identification.neighbours import ARITHMETIC, at_extremes
 from identification.recording import Array, Where
 from identification.signals import Measured
 
@@ -25,23 +23,10 @@ _HUGE = 1e30
 _ABRUPT = 2.5
 #: Time [s] over which a speed is looked at.
 _WINDOW = 0.05
-#: Samples in a row at the extreme value that are saturation, and the part of a run that may be.
-_STUCK, _MOST = 10, 0.2
 #: Rows on each side of a jump, and by how much more than they a position moves in it, and than it usually does.
 _ABOUT, _ALONE, _FASTER = 4, 5.0, 2.0
-#: How much longer than one step from its extreme a signal that is cut off stays there.
-_LONGER = 3
 #: Distance to the wrong reference over that to the right one, from which columns count as swapped.
 _SWAPPED = 3.0
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """Samples ``start`` to ``end`` (not included) of joint ``coordinate``."""
-
-    coordinate: int
-    start: int
-    end: int
 
 
 def finite(columns: Sequence[tuple[str, Array]], where: Where) -> None:
@@ -129,62 +114,14 @@ def _held(x: Array, steps: Array, name: str, where: Where) -> None:
     """
     moving = np.quantile(steps, 0.9)
     resolution = np.min(steps, where=steps > 1e-3 * moving, initial=np.inf)
-    for stretch in _flat(x):
-        if stretch.start == 0 or stretch.end == len(x):
+    for one in at_extremes(x):
+        if one.start == 0 or one.stop == len(x):
             continue
-        before, after = steps[stretch.start - 1], steps[stretch.end - 1]
-        inner = steps[stretch.start - 2] if stretch.start > 1 else 0.0
+        before, after = steps[one.start - 1], steps[one.stop - 1]
+        inner = steps[one.start - 2] if one.start > 1 else 0.0
         if min(before + inner, after) > max(0.3 * moving, _ABRUPT * resolution) > 0:
-            problem = f"{name} stays at {x[stretch.start]:.6g} from here for {stretch.end - stretch.start} rows"
-            raise InputError(where(stretch.start, name), problem, "a position that is not cut off")
-
-
-def _flat(x: Array) -> list[Stretch]:
-    """Stretches of at least ``_STUCK`` equal samples at the largest or smallest value."""
-    found = [one for extreme in (x.max(), x.min()) for one in in_a_row(x == extreme)]
-    return [Stretch(0, one.start, one.stop) for one in found if one.stop - one.start >= _STUCK]
-
-
-def _cut_off(x: Array, moves: NDArray[np.bool_]) -> list[Stretch]:
-    """Where an effort is cut off: it stays at an extreme while joints move, and hardly one step from it.
-
-    At a smooth extreme a signal in coarse steps stays at most 1 + sqrt(2) times as long at the last one as at the one
-    before.
-    """
-    values = np.unique(x)
-    ends = {values[0]: values[1], values[-1]: values[-2]}
-    piled = {extreme for extreme, before in ends.items() if _piled(x, moves, extreme, before)}
-    return [one for one in _flat(x) if x[one.start] in piled and moves[one.start : one.end].mean() > 0.5]
-
-
-def _piled(x: Array, moves: NDArray[np.bool_], extreme: float, before: float) -> bool:
-    """Whether an effort that gets to its extreme is far longer there than at the value before it."""
-    there, near = (x == extreme) & moves, ((x == extreme) | (x == before)) & moves
-    excursions = [there[one] for one in in_a_row(near)]
-    last = sum(int(one.sum()) for one in excursions)
-    both = sum(len(one) for one in excursions if one.any())
-    return last > _LONGER * (both - last)
-
-
-def torques(found: Measured, q: Array, where: Where, resting: bool = False) -> list[Stretch]:
-    """Where an effort stays at its largest or smallest value while the joints move: it is cut off there.
-
-    Raises InputError for an effort that is the same in all rows, and, unless the robot is ``resting``, for one that is
-    cut off in more than a fifth.
-    """
-    result = []
-    moves = np.concatenate([[False], np.any(np.diff(q, axis=-1) != 0, axis=0)])
-    for k, name in enumerate(found.names):
-        x = found.values[k]
-        if np.ptp(x) == 0:
-            raise InputError(where(0, name), f"{name} is {x[0]:.6g} in all rows", "a measured signal")
-        stretches = _cut_off(x, moves)
-        if not resting and sum(one.end - one.start for one in stretches) > _MOST * len(x):
-            first = stretches[0]
-            problem = f"{name} stays at {x[first.start]:.6g} from here, as in more than a fifth of all rows"
-            raise InputError(where(first.start, name), problem, "a signal that is not cut off")
-        result += [Stretch(k, one.start, one.end) for one in stretches]
-    return result
+            problem = f"{name} stays at {x[one.start]:.6g} from here for {one.stop - one.start} rows"
+            raise InputError(where(one.start, name), problem, "a position that is not cut off")
 
 
 def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
@@ -198,13 +135,3 @@ def order(q: Array, found: Measured, other: Measured, where: Where) -> None:
         if match != k and distance[k, k] > _SWAPPED * max(distance[k, match], 1e-12):
             problem = f"{found.names[k]} follows {other.names[match]}, not {other.names[k]}"
             raise InputError(where(None, found.names[k]), problem, "columns in the joints' order; are two swapped?")
-
-
-def left_out(stretches: Sequence[Stretch], shape: tuple[int, int]) -> NDArray[np.bool_] | None:
-    """Samples (n x N) that the stretches cover; None without any."""
-    if not stretches:
-        return None
-    result = np.zeros(shape, dtype=bool)
-    for one in stretches:
-        result[one.coordinate, one.start : one.end] = True
-    return result

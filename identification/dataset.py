@@ -6,7 +6,7 @@ A run is a file, or a part of it: ``A.csv@2:8`` is the run from 2 s to 8 s by th
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
-from identification import checks, corrections, glitches, readers, sidecar, stale_rows
+from identification import checks, corrections, cut_off, glitches, readers, sidecar, stale_rows
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording, Where
@@ -219,11 +219,11 @@ def _run(
     coarse = resolution(effort, robot, recording)
     effort, of_efforts = glitches.without(effort, ticks, where)
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)
-    stretches = checks.torques(effort, q, where, resting)
+    stretches = cut_off.stretches(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
-    notes = [*recording.notes, *_told(stretches, effort, where)]
+    notes = [*recording.notes, *cut_off.told(stretches, effort, where)]
     notes += [*stale_rows.slower(effort, where), *of_positions, *of_efforts]
-    unusable = checks.left_out(stretches, tau.shape)
+    unusable = cut_off.marks(stretches, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
     if how := _uneven(ticks):
@@ -297,16 +297,6 @@ def _corrected(run: Run, robot: Robot) -> Run:
 def _known(name: str, robot: Robot) -> bool:
     """Whether a column's name has a meaning beside the positions and efforts."""
     return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
-
-
-def _told(stretches: Sequence[checks.Stretch], effort: Measured, where: Where) -> Iterator[str]:
-    """What is to be told of efforts that are cut off."""
-    for k, name in enumerate(effort.names):
-        mine = [one for one in stretches if one.coordinate == k]
-        if mine:
-            rows = sum(one.end - one.start for one in mine)
-            several = f" in {len(mine)} stretches, of which here is the first" if len(mine) > 1 else ""
-            yield f"{where(mine[0].start, name)}: {name} is cut off for {rows} rows{several}, which are left out"
 
 
 def _evened(ticks: Clock, x: Array) -> Array:

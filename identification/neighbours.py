@@ -9,6 +9,8 @@ Array = NDArray[np.float64]
 
 #: Part of a signal's range that is the rounding of its arithmetic.
 ARITHMETIC = 1e-11
+#: Samples in a row at its extreme value for which something holds a signal there.
+_STUCK = 10
 
 
 def off_cubics(x: Array, t: Array | None = None) -> Array:
@@ -27,3 +29,9 @@ def in_a_row(there: NDArray[np.bool_]) -> list[slice]:
     """Samples (of N) one beside the other that are ``there``."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8))).tolist()
     return [slice(start, end) for start, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def at_extremes(x: Array) -> list[slice]:
+    """Stretches of a signal (N) that are held at the largest value, then those at the smallest."""
+    found = [one for extreme in (x.max(), x.min()) for one in in_a_row(x == extreme)]
+    return [one for one in found if one.stop - one.start >= _STUCK]
