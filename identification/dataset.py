@@ -131,9 +131,8 @@ def load(
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
-    began = {name: float(values[0]) for name, values in recording.columns.items() if len(values)}
-    recording, first = _part(recording, source, start, end)
-    return _run(source, recording, robot, beside, _Beginning(first, began), efforts, resting)
+    began = _beginning(recording)
+    return _run(source, _part(recording, source, start, end), robot, beside, began, efforts, resting)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -166,25 +165,21 @@ def _seconds(t: float) -> str:
     return f"{round(t, 6):.16g}"
 
 
-def _part(recording: Recording, source: str, start: float, end: float) -> tuple[Recording, int]:
-    """The rows from ``start`` to ``end`` [s], and the number of the first."""
+def _part(recording: Recording, source: str, start: float, end: float) -> Recording:
+    """The rows from ``start`` to ``end`` [s]."""
     if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
-        return recording, 0
+        return recording
     t = recording.columns["t"]
     inside = np.flatnonzero((t >= start - _CLOSE) & (t <= end + _CLOSE))
     if not inside.size:
         raise InputError(Place(source), f"no sample from {start:g} s to {end:g} s", f"times from {t[0]:g} to {t[-1]:g}")
-    first, last = int(inside[0]), int(inside[-1]) + 1
-    columns = {name: values[first:last] for name, values in recording.columns.items()}
-    return Recording(recording.file, columns, recording.sha256, recording.where, recording.notes), first
+    return recording.part(int(inside[0]), int(inside[-1]) + 1)
 
 
-@dataclass(frozen=True)
-class _Beginning:
-    """Of a run in its file: the number of its ``first`` row, and what the whole recording ``began`` with, by column."""
-
-    first: int
-    began: Mapping[str, float]
+def _beginning(recording: Recording) -> dict[str, float]:
+    """Time and temperatures in the first row, by column."""
+    told = {name: values for name, values in recording.columns.items() if name == "t" or name.startswith("temp")}
+    return {name: float(values[0]) for name, values in told.items() if len(values)}
 
 
 def _run(
@@ -192,15 +187,12 @@ def _run(
     recording: Recording,
     robot: Robot,
     beside: Sidecar,
-    beginning: _Beginning,
+    began: Mapping[str, float],
     efforts: Sequence[str],
     resting: bool,
 ) -> Run:
     """The run of a recording, checked, repaired, brought to the joints and to even times, as it truly was."""
-
-    def where(row: int | None, column: str) -> Place:
-        return recording.where(None if row is None else row + beginning.first, column)
-
+    where = recording.where
     at = measured(recording, POSITIONS, robot, "positions")
     effort = measured(recording, efforts, robot, "efforts")
     others = {name: values for name, values in recording.columns.items() if _known(name, robot)}
@@ -208,7 +200,7 @@ def _run(
     times = [("t", recording.columns["t"])] if "t" in recording.columns else []
     checks.finite([*times, *named, *others.items()], where)
     stale_rows.live(at, effort, where)
-    ticks = clock(recording, beginning.first)
+    ticks = clock(recording)
     q = corrections.true_positions(joint_positions(at, robot, recording), robot)
     checks.positions(q, at, robot, ticks.period, where, resting)
     for stem in ("qs", "qr"):
@@ -231,7 +223,6 @@ def _run(
         q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
         unusable = _left_out(ticks, unusable, len(tau))
     place = where(None, "t")
-    began = {name: value for name, value in beginning.began.items() if name == "t" or name.startswith("temp")}
     run = Run(
         source,
         place,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -37,6 +37,15 @@ class Recording:
     def rows(self) -> int:
         """N."""
         return min(map(len, self.columns.values()), default=0)
+
+    def part(self, first: int, last: int) -> Recording:
+        """Rows ``first`` to ``last`` (not included), each at its place in the file."""
+
+        def where(row: int | None, column: str) -> Place:
+            return self.where(None if row is None else row + first, column)
+
+        columns = {name: values[first:last] for name, values in self.columns.items()}
+        return replace(self, columns=columns, where=where)
 
 
 def digest(path: Path) -> str:

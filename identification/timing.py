@@ -64,8 +64,8 @@ class Clock:
         return result
 
 
-def clock(recording: Recording, first: int = 0) -> Clock:
-    """The clock of the rows from ``first`` of a recording.
+def clock(recording: Recording) -> Clock:
+    """The clock of a recording's rows.
 
     Raises InputError for a missing column, times that do not increase, gaps of more than a few samples and a change of
     the rate.
@@ -80,7 +80,7 @@ def clock(recording: Recording, first: int = 0) -> Clock:
     if bad.size:
         k = int(bad[0])
         problem = f"time goes from {t[k]:.9g} s to {t[k + 1]:.9g} s"
-        raise InputError(recording.where(first + k + 1, "t"), problem, "times that increase")
+        raise InputError(recording.where(k + 1, "t"), problem, "times that increase")
     usual = float(np.median(steps))
     early = float(np.median(steps[: max(2, len(steps) // 50)]))
     reference = early if abs(early / usual - 1) > _GAP else usual
@@ -95,9 +95,7 @@ def clock(recording: Recording, first: int = 0) -> Clock:
             return Clock(start, period, t, np.arange(len(t)))
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
-        raise InputError(
-            recording.where(first + k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part"
-        )
+        raise InputError(recording.where(k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part")
     return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
 
 
