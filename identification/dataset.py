@@ -19,9 +19,9 @@ from generator.robot.description import Robot
 from identification import checks, corrections, cut_off, glitches, readers, sidecar, stale_rows
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
-from identification.recording import Array, Recording, Where
+from identification.recording import Array, Recording
 from identification.resolution import Resolution, resolution
-from identification.sidecar import Payload, Sidecar
+from identification.sidecar import Payload
 from identification.signals import (
     EFFORTS,
     FURTHER,
@@ -131,8 +131,9 @@ def load(
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
-    began = _beginning(recording)
-    return _run(source, _part(recording, source, start, end), robot, beside, began, efforts, resting)
+    recorded = _recorded(source, _part(recording, source, start, end), robot, efforts, resting)
+    known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording))
+    return _corrected(known, robot)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
@@ -182,70 +183,77 @@ def _beginning(recording: Recording) -> dict[str, float]:
     return {name: float(values[0]) for name, values in told.items() if len(values)}
 
 
-def _run(
-    source: str,
-    recording: Recording,
-    robot: Robot,
-    beside: Sidecar,
-    began: Mapping[str, float],
-    efforts: Sequence[str],
-    resting: bool,
-) -> Run:
-    """The run of a recording, checked, repaired, brought to the joints and to even times, as it truly was."""
+def _recorded(source: str, recording: Recording, robot: Robot, efforts: Sequence[str], resting: bool) -> Run:
+    """The run of a recording, checked, repaired, brought to the joints and to even times."""
     where = recording.where
     at = measured(recording, POSITIONS, robot, "positions")
     effort = measured(recording, efforts, robot, "efforts")
     others = {name: values for name, values in recording.columns.items() if _known(name, robot)}
-    named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
-    times = [("t", recording.columns["t"])] if "t" in recording.columns else []
-    checks.finite([*times, *named, *others.items()], where)
+    _check_numbers(recording, at, effort, others)
     stale_rows.live(at, effort, where)
     ticks = clock(recording)
-    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
-    checks.positions(q, at, robot, ticks.period, where, resting)
-    for stem in ("qs", "qr"):
-        if at.stem == "q" and all(f"{stem}{joint.number}" in others for joint in robot.moving):
-            checks.order(q, at, measured(recording, (stem,), robot, "positions"), where)
-    ticks, at, of_positions = _without_jitter(at, ticks, robot, recording, where)
+    _check_positions(at, ticks, robot, recording, resting)
+    ticks, at, of_positions = _without_jitter(at, ticks, robot, recording)
     checks.whole(at, where)
     coarse = resolution(effort, robot, recording)
     effort, of_efforts = glitches.without(effort, ticks, where)
-    q = corrections.true_positions(joint_positions(at, robot, recording), robot)
-    stretches = cut_off.stretches(effort, q, where, resting)
+    q = _true_positions(at, robot, recording)
+    cut = cut_off.stretches(effort, q, where, resting)
     tau = joint_torques(effort, robot, recording)
-    notes = [*recording.notes, *cut_off.told(stretches, effort, where)]
-    notes += [*stale_rows.slower(effort, where), *of_positions, *of_efforts]
-    unusable = cut_off.marks(stretches, tau.shape)
+    unusable = cut_off.marks(cut, tau.shape)
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
-    if how := _uneven(ticks):
-        notes.append(f"{where(None, 't')}: {how}; samples were interpolated to {ticks.rate:.6g} Hz")
-        q, tau, others = _evened(ticks, q), _evened(ticks, tau), {n: _evened(ticks, x) for n, x in others.items()}
-        unusable = _left_out(ticks, unusable, len(tau))
-    place = where(None, "t")
+    told = [*cut_off.told(cut, effort, where), *stale_rows.slower(effort, where), *of_positions, *of_efforts]
     run = Run(
         source,
-        place,
+        where(None, "t"),
         ticks.start,
         ticks.period,
         q,
         tau,
-        beside.payload,
-        beside.empty,
-        unusable,
+        unusable=unusable,
         by_motors=at.stem == "qm" and effort.stem != "tau",
         others=others,
-        began=began,
         sha256=recording.sha256,
+        notes=(*recording.notes, *told),
         coarse=coarse,
     )
-    return replace(_corrected(run, robot), notes=tuple(notes))
+    return _evened(run, ticks)
+
+
+def _known(name: str, robot: Robot) -> bool:
+    """Whether a column's name has a meaning beside the positions and efforts."""
+    return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
+
+
+def _check_numbers(recording: Recording, at: Measured, effort: Measured, others: Mapping[str, Array]) -> None:
+    """Raises InputError where a column that is used holds what is no number of a sensor."""
+    named = [(name, values) for one in (at, effort) for name, values in zip(one.names, one.values, strict=True)]
+    times = [("t", recording.columns["t"])] if "t" in recording.columns else []
+    checks.finite([*times, *named, *others.items()], recording.where)
+
+
+def _check_positions(at: Measured, ticks: Clock, robot: Robot, recording: Recording, resting: bool) -> None:
+    """Raises InputError where positions cannot be those of the joints, or are in another order than what goes with
+    them.
+    """
+    q = _true_positions(at, robot, recording)
+    checks.positions(q, at, robot, ticks.period, recording.where, resting)
+    for stem in ("qs", "qr"):
+        if at.stem == "q" and all(f"{stem}{joint.number}" in recording.columns for joint in robot.moving):
+            checks.order(q, at, measured(recording, (stem,), robot, "positions"), recording.where)
+
+
+def _true_positions(at: Measured, robot: Robot, recording: Recording) -> Array:
+    """Of the joints (n x N) [rad, m]."""
+    return corrections.true_positions(joint_positions(at, robot, recording), robot)
 
 
 def _without_jitter(
-    at: Measured, ticks: Clock, robot: Robot, recording: Recording, where: Where
+    at: Measured, ticks: Clock, robot: Robot, recording: Recording
 ) -> tuple[Clock, Measured, list[str]]:
     """The times, even where positions are smoother so; positions without glitches; and what is to be told."""
+    where = recording.where
     clean, notes = glitches.without(at, ticks, where)
     if not jitters(ticks, joint_positions(clean, robot, recording)):
         return ticks, clean, notes
@@ -254,12 +262,41 @@ def _without_jitter(
     return ticks.steady, clean, [jitter, *notes]
 
 
+def _evened(run: Run, ticks: Clock) -> Run:
+    """The run with a sample at each even time, those of which there is no row unusable."""
+    how = _uneven(ticks)
+    if not how:
+        return run
+    return replace(
+        run,
+        q=_splined(ticks, run.q),
+        tau=_splined(ticks, run.tau),
+        unusable=_left_out(ticks, run.unusable, len(run.tau)),
+        others={name: _splined(ticks, values) for name, values in run.others.items()},
+        notes=(*run.notes, f"{run.place}: {how}; samples were interpolated to {ticks.rate:.6g} Hz"),
+    )
+
+
 def _uneven(ticks: Clock) -> str:
     """What times are beside even and complete, in words; empty where they are both."""
     lost = ticks.lost
     uneven = ["times are uneven"] if ticks.uneven else []
     gone = [f"{int(lost.sum())} of {len(lost)} samples are missing"] if lost.any() else []
     return " and ".join([*uneven, *gone])
+
+
+def _splined(ticks: Clock, x: Array) -> Array:
+    """Samples at even times, by a cubic spline through the rows."""
+    result: Array = make_interp_spline(ticks.t, x, k=min(3, len(ticks.t) - 1), axis=-1)(ticks.even)
+    return result
+
+
+def _left_out(ticks: Clock, unusable: NDArray[np.bool_] | None, n: int) -> NDArray[np.bool_] | None:
+    """Samples (n x N) that are lost, or whose row is ``unusable``; None without any."""
+    result = np.tile(ticks.lost, (n, 1))
+    if unusable is not None:
+        result[:, ticks.sample] = unusable
+    return result if result.any() else None
 
 
 def _corrected(run: Run, robot: Robot) -> Run:
@@ -283,22 +320,3 @@ def _corrected(run: Run, robot: Robot) -> Run:
         warmth=None if warmth is None else warmth[:, kept],
         others={name: values[kept] for name, values in others.items()},
     )
-
-
-def _known(name: str, robot: Robot) -> bool:
-    """Whether a column's name has a meaning beside the positions and efforts."""
-    return name in WRENCH or any(name == f"{stem}{joint.number}" for stem in FURTHER for joint in robot.moving)
-
-
-def _evened(ticks: Clock, x: Array) -> Array:
-    """Samples at even times, by a cubic spline through the rows."""
-    result: Array = make_interp_spline(ticks.t, x, k=min(3, len(ticks.t) - 1), axis=-1)(ticks.even)
-    return result
-
-
-def _left_out(ticks: Clock, unusable: NDArray[np.bool_] | None, n: int) -> NDArray[np.bool_] | None:
-    """Samples (n x N) that are lost, or whose row is ``unusable``; None without any."""
-    result = np.tile(ticks.lost, (n, 1))
-    if unusable is not None:
-        result[:, ticks.sample] = unusable
-    return result if result.any() else None
