@@ -1,14 +1,9 @@
-"""Runs: what a robot's controller recorded, checked, on the joint side, in SI units, at one rate.
-
-A run is a file, or a part of it: ``A.csv@2:8`` is the run from 2 s to 8 s by the file's own times.
-"""
+"""Runs: what a robot's controller recorded, checked, on the joint side, in SI units, at one rate."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +16,7 @@ from identification.drive_train import driven
 from identification.formula import Formula, renamed
 from identification.recording import Array, Recording
 from identification.resolution import Resolution, resolution
+from identification.run_source import RunSource
 from identification.sidecar import Payload
 from identification.signals import (
     EFFORTS,
@@ -33,10 +29,6 @@ from identification.signals import (
     measured,
 )
 from identification.timing import Clock, clock, jitters
-
-#: Time [s] to which parts of runs are told.
-_CLOSE = 1e-6
-_PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
 
 
 @dataclass(frozen=True)
@@ -72,7 +64,7 @@ class Run:
     @property
     def file(self) -> str:
         """The file's name, without folders and without the part that was taken."""
-        return _parsed(self.name)[0].name
+        return RunSource.of(self.name).path.name
 
     @property
     def samples(self) -> int:
@@ -113,7 +105,7 @@ def load(
     efforts: Sequence[str] = EFFORTS,
     resting: bool = False,
 ) -> Run:
-    """The run that ``source`` names: a path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
+    """The run that ``source`` names: a path, or ``PATH@FROM:TO`` (``run_source``).
 
     ``columns`` are formulas for a file with names of its own; they are used where the file has what they need and lacks
     what they make. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
@@ -121,60 +113,23 @@ def load(
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
-    path, start, end = _parsed(source)
-    recording = readers.read(path)
-    beside = sidecar.read(path)
+    named = RunSource.of(source)
+    recording = readers.read(named.path)
+    beside = sidecar.read(named.path)
     if beside.robot and beside.robot != robot.name:
-        place = Place(str(sidecar.path_of(path)))
+        place = Place(str(sidecar.path_of(named.path)))
         raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
     recording = renamed(recording, beside.columns)
-    recorded = _recorded(source, _part(recording, source, start, end), robot, efforts, resting)
+    recorded = _recorded(source, named.rows_of(recording), robot, efforts, resting)
     known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording))
     return _corrected(known, robot)
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
     return all(symbol.name in recording.columns for symbol in formula.expression.free_symbols)
-
-
-def _parsed(source: str) -> tuple[Path, float, float]:
-    match = None if Path(source).exists() else _PART.match(source)
-    if match is None:
-        return Path(source), -np.inf, np.inf
-    try:
-        start, end = float(match["start"] or "-inf"), float(match["end"] or "inf")
-    except ValueError:
-        raise InputError(Place(source), "this is no part of a run", "FILE@FROM:TO with times in s") from None
-    return Path(match["path"]), start, end
-
-
-def sidecar_of(source: str) -> Path:
-    """Where the sidecar of the run that ``source`` names is, if there is one."""
-    return sidecar.path_of(_parsed(source)[0])
-
-
-def part_of(source: str, start: float, end: float) -> str:
-    """The source of a part of ``source``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
-    return f"{_parsed(source)[0]}@{_seconds(start)}:{_seconds(end)}"
-
-
-def _seconds(t: float) -> str:
-    """To a microsecond, whatever the clock counts from."""
-    return f"{round(t, 6):.16g}"
-
-
-def _part(recording: Recording, source: str, start: float, end: float) -> Recording:
-    """The rows from ``start`` to ``end`` [s]."""
-    if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
-        return recording
-    t = recording.columns["t"]
-    inside = np.flatnonzero((t >= start - _CLOSE) & (t <= end + _CLOSE))
-    if not inside.size:
-        raise InputError(Place(source), f"no sample from {start:g} s to {end:g} s", f"times from {t[0]:g} to {t[-1]:g}")
-    return recording.part(int(inside[0]), int(inside[-1]) + 1)
 
 
 def _beginning(recording: Recording) -> dict[str, float]:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from generator.robot.description import Robot
 from generator.writing import spare
-from identification.dataset import sidecar_of
+from identification import sidecar
+from identification.run_source import RunSource
 
 
 def destination(out: Path | None, name: str, robot: Robot, files: Sequence[Path | None], runs: Sequence[str]) -> Path:
@@ -24,6 +25,7 @@ def spare_inputs(folder: Path, robot: Robot, files: Sequence[Path | None], runs:
     """Raises InputError where the new robot file in ``folder`` would be written over one of ``files`` or over the
     sidecar of one of ``runs``, a path or ``PATH@FROM:TO`` each.
     """
-    for source in (*files, *map(sidecar_of, runs)):
+    beside = [sidecar.path_of(RunSource.of(run).path) for run in runs]
+    for source in (*files, *beside):
         if source is not None and source.exists():
             spare(source, [folder / f"{robot.name}.yaml"])

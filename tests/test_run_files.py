@@ -12,7 +12,7 @@ import scipy.io
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification.dataset import Run, load, part_of
+from identification.dataset import Run, load
 from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
@@ -79,25 +79,6 @@ def test_further_columns_are_kept_and_unknown_ones_are_not(good: Recorded, robot
         qs1=good.columns["q1"] + 1e-4, fz=good.columns["t"], temp2=good.columns["t"], x=good.columns["t"]
     )
     assert sorted(load(str(more.save(tmp_path / "a.csv")), robot).others) == ["fz", "qs1", "temp2"]
-
-
-def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
-    path = good.save(tmp_path / "a.csv")
-    run = load(f"{path}@2:5", robot)
-    assert (run.start, run.samples) == (2.0, 601)
-    assert load(f"{path}@:5", robot).samples == 1001
-    with pytest.raises(InputError, match=r"no sample from 20 s to inf s, expected times from 0 to 7.995"):
-        load(f"{path}@20:", robot)
-    with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
-        load(f"{path}@2:x", robot)
-
-
-@pytest.mark.parametrize("first", [0.0, 1700000000.0])
-def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp_path: Path, first: float) -> None:
-    """Also at a rate whose period is no whole number of microseconds."""
-    t = first + good.columns["t"] * 5 / 7
-    path = str(good.with_columns(t=t).save(tmp_path / "a.csv"))
-    assert load(part_of(path, t[200], t[801]), robot).samples == 602
 
 
 def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot, tmp_path: Path) -> None:

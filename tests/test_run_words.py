@@ -1,4 +1,4 @@
-"""Runs with columns of words, and paths that name no run."""
+"""Runs with columns of words, or of names that are spelt otherwise."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 
 from generator.errors import InputError
-from identification.dataset import load, sidecar_of
+from identification.dataset import load
 from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 
@@ -24,13 +24,6 @@ def test_a_column_without_a_number_is_left_out_and_told(tmp_path: Path) -> None:
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
     (note,) = run.notes
     assert note.endswith("b.csv: mode held no number and is left out")
-
-
-@pytest.mark.parametrize("source", ["", ".", "/"])
-def test_a_path_without_a_name_is_refused(source: str, tmp_path: Path) -> None:
-    sidecar_of(source)
-    with pytest.raises(InputError, match="a run file ending in ''"):
-        load(source, two_links(tmp_path).model.robot)
 
 
 @pytest.mark.parametrize(("spelt", "near"), [(str.upper, "Q1"), (lambda name: f"{name[:-1]}_{name[-1]}", "q_1")])

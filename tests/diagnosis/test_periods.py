@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from generator.errors import InputError, Place
 from generator.resources import find_robot
 from generator.robot.readers import read
-from identification.dataset import Run, part_of
+from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
@@ -255,7 +255,3 @@ def test_parts_that_only_touch_are_apart() -> None:
 def test_no_run_is_spent_where_nothing_is_tested() -> None:
     found = roles([recorded(name) for name in "ABC"], [], [], tested=False)
     assert (found.train, found.test, found.searched) == (("A", "B", "C"), (), ("A", "B", "C"))
-
-
-def test_a_folder_may_look_like_a_part() -> None:
-    assert part_of("data@1:2/run.csv", 0.0, 5.0) == str(Path("data@1:2/run.csv@0:5"))

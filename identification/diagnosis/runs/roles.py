@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from generator.errors import InputError
-from identification.dataset import Run, part_of
+from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of
 from identification.diagnosis.runs.prepared import SHORTEST
+from identification.run_source import part_of
 from identification.shared_samples import unshared
 
 #: Part of a run's time that tests, where there are too few runs, and how long it must be [s] to tell anything.

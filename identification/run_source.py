@@ -1,0 +1,63 @@
+"""Names of runs: a run is a file, or a part of it; ``A.csv@2:8`` is that from 2 s to 8 s by the file's own times."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from generator.errors import InputError, Place
+from identification.recording import Recording
+
+#: Time [s] to which parts of runs are told.
+_CLOSE = 1e-6
+_PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
+
+
+@dataclass(frozen=True)
+class RunSource:
+    """What ``name`` says: a file's ``path`` and the times from ``start`` to ``end`` [s], infinite where it is whole."""
+
+    name: str
+    path: Path
+    start: float = -np.inf
+    end: float = np.inf
+
+    @classmethod
+    def of(cls, name: str) -> RunSource:
+        """A path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
+
+        Raises InputError where one of the times is no number.
+        """
+        match = None if Path(name).exists() else _PART.match(name)
+        if match is None:
+            return cls(name, Path(name))
+        try:
+            start, end = float(match["start"] or "-inf"), float(match["end"] or "inf")
+        except ValueError:
+            raise InputError(Place(name), "this is no part of a run", "FILE@FROM:TO with times in s") from None
+        return cls(name, Path(match["path"]), start, end)
+
+    def rows_of(self, recording: Recording) -> Recording:
+        """The rows of the file's ``recording`` that belong to the run; raises InputError where there are none."""
+        start, end = self.start, self.end
+        if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
+            return recording
+        t = recording.columns["t"]
+        inside = np.flatnonzero((t >= start - _CLOSE) & (t <= end + _CLOSE))
+        if not inside.size:
+            problem = f"no sample from {start:g} s to {end:g} s"
+            raise InputError(Place(self.name), problem, f"times from {t[0]:g} to {t[-1]:g}")
+        return recording.part(int(inside[0]), int(inside[-1]) + 1)
+
+
+def part_of(name: str, start: float, end: float) -> str:
+    """The name of a part of the run ``name``, which may be a part itself, from ``start`` to ``end`` [s] of the file."""
+    return f"{RunSource.of(name).path}@{_seconds(start)}:{_seconds(end)}"
+
+
+def _seconds(t: float) -> str:
+    """To a microsecond, whatever the clock counts from."""
+    return f"{round(t, 6):.16g}"

@@ -1,0 +1,59 @@
+"""Names of runs: files, parts of them by times, and what names none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from generator.errors import InputError
+from generator.robot.description import Robot
+from identification import sidecar
+from identification.dataset import load
+from identification.run_source import RunSource, part_of
+from tests.recorded import TRUTH, Recorded, recorded, two_links
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("runs")
+
+
+@pytest.fixture(scope="module")
+def robot(folder: Path) -> Robot:
+    return two_links(folder).model.robot
+
+
+@pytest.fixture(scope="module")
+def good(folder: Path) -> Recorded:
+    return recorded(two_links(folder), TRUTH, duration=8.0)
+
+
+def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = good.save(tmp_path / "a.csv")
+    run = load(f"{path}@2:5", robot)
+    assert (run.start, run.samples) == (2.0, 601)
+    assert load(f"{path}@:5", robot).samples == 1001
+    with pytest.raises(InputError, match=r"no sample from 20 s to inf s, expected times from 0 to 7.995"):
+        load(f"{path}@20:", robot)
+    with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
+        load(f"{path}@2:x", robot)
+
+
+@pytest.mark.parametrize("first", [0.0, 1700000000.0])
+def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp_path: Path, first: float) -> None:
+    """Also at a rate whose period is no whole number of microseconds."""
+    t = first + good.columns["t"] * 5 / 7
+    path = str(good.with_columns(t=t).save(tmp_path / "a.csv"))
+    assert load(part_of(path, t[200], t[801]), robot).samples == 602
+
+
+@pytest.mark.parametrize("source", ["", ".", "/"])
+def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
+    sidecar.path_of(RunSource.of(source).path)
+    with pytest.raises(InputError, match="a run file ending in ''"):
+        load(source, robot)
+
+
+def test_a_folder_may_look_like_a_part() -> None:
+    assert part_of("data@1:2/run.csv", 0.0, 5.0) == str(Path("data@1:2/run.csv@0:5"))
