@@ -36,51 +36,60 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--parameters", metavar="SET", default="twin", help="parameter set of the robot file (default: twin)"
     )
-    motion = parser.add_argument_group("motion")
-    motion.add_argument("--frequency", metavar="HZ", type=float, default=0.1, help="lowest frequency (default: 0.1)")
-    motion.add_argument("--harmonics", metavar="N", type=int, default=5, help="number of its multiples (default: 5)")
-    motion.add_argument("--periods", metavar="N", type=int, default=2, help="periods in the run (default: 2)")
-    motion.add_argument(
+    _motion(parser.add_argument_group("motion"))
+    _measured(parser.add_argument_group("what is measured"))
+    _search(parser.add_argument_group("search"))
+
+
+def _motion(group: argparse._ActionsContainer) -> None:
+    group.add_argument("--frequency", metavar="HZ", type=float, default=0.1, help="lowest frequency (default: 0.1)")
+    group.add_argument("--harmonics", metavar="N", type=int, default=5, help="number of its multiples (default: 5)")
+    group.add_argument("--periods", metavar="N", type=int, default=2, help="periods in the run (default: 2)")
+    group.add_argument(
         "--rate", metavar="HZ", type=float, default=1000.0, help="sampling rate of the run and its log (default: 1000)"
     )
-    motion.add_argument(
+    group.add_argument(
         "--speed",
         metavar="RAD/S",
         type=float,
         help="largest speed of any joint [rad/s, m/s] (default: the file's limit, else 1)",
     )
-    motion.add_argument(
+    group.add_argument(
         "--acceleration",
         metavar="RAD/S2",
         type=float,
         help="largest acceleration of any joint [rad/s2, m/s2] (default: the file's limit, else 2)",
     )
-    measured = parser.add_argument_group("what is measured")
-    measured.add_argument(
+
+
+def _measured(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--noise",
         metavar="A",
         type=float,
         nargs="+",
         help="rms of the noise, one value or one per motor [A; N m or N without torque constants]",
     )
-    measured.add_argument(
+    group.add_argument(
         "--noise-part",
         metavar="R",
         type=float,
         help="rms of the model's error, in parts of the rms torque of random motions (default: 0.02 without --noise)",
     )
-    measured.add_argument(
+    group.add_argument(
         "--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings (default: as for identify)"
     )
-    search = parser.add_argument_group("search")
-    search.add_argument(
+
+
+def _search(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--criterion",
         choices=("determinant", "condition"),
         default="determinant",
         help="what makes a motion good (default: determinant)",
     )
-    search.add_argument("--evaluations", metavar="N", type=int, default=20000, help="motions to try (default: 20000)")
-    search.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the search (default: 0)")
+    group.add_argument("--evaluations", metavar="N", type=int, default=20000, help="motions to try (default: 20000)")
+    group.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the search (default: 0)")
 
 
 def run(arguments: argparse.Namespace) -> None:

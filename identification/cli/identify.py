@@ -35,66 +35,68 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
     parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT)")
-    filters = parser.add_argument_group("filters")
-    filters.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the settings below")
-    filters.add_argument(
+    _filters(parser.add_argument_group("filters"))
+    _method(parser.add_argument_group("method"))
+
+
+def _filters(group: argparse._ActionsContainer) -> None:
+    group.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the settings below")
+    group.add_argument(
         "--dynamics",
         metavar="HZ",
         type=float,
         help="highest frequency of the motion's dynamics (default: the recipe's, else 2)",
     )
-    filters.add_argument(
+    group.add_argument(
         "--cutoff",
         metavar="HZ",
         type=float,
         help="cut-off of the Butterworth filter (default: the recipe's, else 5 times --dynamics)",
     )
-    filters.add_argument(
+    group.add_argument(
         "--order", metavar="N", type=int, help="order of the Butterworth filter (default: the recipe's, else 4)"
     )
-    filters.add_argument(
+    group.add_argument(
         "--factor",
         metavar="N",
         type=int,
         help="factor of the decimation (default: the recipe's, else to 5 times --dynamics)",
     )
-    filters.add_argument(
+    group.add_argument(
         "--standstill",
         metavar="SPEED",
         type=float,
         help="speed below which a joint's rows are left out [rad/s, m/s] (default: the recipe's, else 0.03, 0.005)",
     )
-    filters.add_argument(
-        "--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor"
-    )
-    method = parser.add_argument_group("method")
-    method.add_argument(
+    group.add_argument("--sensitivity", action="store_true", help="also try half and twice the cut-off and the factor")
+
+
+def _method(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--weights", choices=("joint", "none"), help="weights by joint, or none (default: the recipe's, else joint)"
     )
-    method.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
-    method.add_argument(
-        "--bootstrap", metavar="N", type=int, help="standard deviations by a block bootstrap of N draws"
-    )
-    method.add_argument(
+    group.add_argument("--robust", action="store_true", help="Huber's weights against outliers")
+    group.add_argument("--bootstrap", metavar="N", type=int, help="standard deviations by a block bootstrap of N draws")
+    group.add_argument(
         "--essential",
         metavar="RATIO",
         type=float,
         help="largest allowed ratio of relative standard deviations; ignores the residual's growth",
     )
-    method.add_argument(
+    group.add_argument(
         "--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="given parameters, such as Fv* or bodies"
     )
-    method.add_argument("--prior", metavar="SET", help="parameter set of the robot from which --fix takes values")
-    method.add_argument(
+    group.add_argument("--prior", metavar="SET", help="parameter set of the robot from which --fix takes values")
+    group.add_argument(
         "--consistent",
         action=argparse.BooleanOptionalAction,
         default=True,
         help="also estimate physically consistent parameters, near the bodies of --prior if it has standard parameters",
     )
-    method.add_argument(
+    group.add_argument(
         "--prior-weight", metavar="W", type=float, default=0.03, help="weight of these bodies (default: 0.03)"
     )
-    method.add_argument(
+    group.add_argument(
         "--payload",
         metavar="NAME=VALUE",
         nargs="*",

@@ -33,42 +33,48 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_output_error)"
     )
-    search = parser.add_argument_group("search")
-    search.add_argument(
+    _search(parser.add_argument_group("search"))
+    _starts(parser.add_argument_group("starts"))
+
+
+def _search(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--method",
         metavar="NAME",
         default="gauss-newton",
         help="gauss-newton, nelder-mead or evolution (default: gauss-newton)",
     )
-    search.add_argument("--filtered", action="store_true", help="torques pass the recipe's filter, as in the report")
-    search.add_argument("--segment", metavar="S", default="1", help="time of one simulation, or none (default: 1)")
-    search.add_argument("--iterations", metavar="N", type=int, help="largest number of iterations of each start")
-    search.add_argument("--seconds", metavar="S", type=float, help="longest time of each start")
-    search.add_argument(
+    group.add_argument("--filtered", action="store_true", help="torques pass the recipe's filter, as in the report")
+    group.add_argument("--segment", metavar="S", default="1", help="time of one simulation, or none (default: 1)")
+    group.add_argument("--iterations", metavar="N", type=int, help="largest number of iterations of each start")
+    group.add_argument("--seconds", metavar="S", type=float, help="longest time of each start")
+    group.add_argument(
         "--margin",
         metavar="KGM2",
         type=float,
         help="smallest allowed eigenvalue of M(q) [kg m2, kg] (default: a tenth of the start's)",
     )
-    search.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="given parameters")
-    search.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
-    many = parser.add_argument_group("starts")
-    many.add_argument(
+    group.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="given parameters")
+    group.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+
+
+def _starts(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--starts",
         metavar="N",
         type=int,
         default=1,
         help="number of starts; the first is the inverse model's estimate (default: 1)",
     )
-    many.add_argument(
+    group.add_argument(
         "--spread",
         metavar="K",
         type=float,
         default=2.0,
         help="spread of the other starts, in standard deviations of the first (default: 2)",
     )
-    many.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the other starts (default: 0)")
-    executors.configure(many)
+    group.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the other starts (default: 0)")
+    executors.configure(group)
 
 
 def run(arguments: argparse.Namespace) -> None:

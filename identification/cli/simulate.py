@@ -40,21 +40,35 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="SET",
         help="parameter set of the robot file (default: twin; twin_flexible with --flexible)",
     )
-    motion = parser.add_argument_group("motion")
-    motion.add_argument("--trajectory", metavar="NAME", default="fourier", help="the motion (default: fourier)")
-    motion.add_argument("--set", metavar="NAME=VALUE", nargs="+", default=[], help="settings of the trajectory")
-    motion.add_argument(
+    _motion(parser.add_argument_group("motion"))
+    _controller(parser.add_argument_group("controller"))
+    _log(parser.add_argument_group("what is measured"))
+    parser.add_argument(
+        "--payload",
+        metavar="NAME=VALUE",
+        nargs="+",
+        help="a body on the tool with these values, such as M=150 MZ=-15 [kg, kg m, kg m2]",
+    )
+    _temperature(parser.add_argument_group("temperature"))
+
+
+def _motion(group: argparse._ActionsContainer) -> None:
+    group.add_argument("--trajectory", metavar="NAME", default="fourier", help="the motion (default: fourier)")
+    group.add_argument("--set", metavar="NAME=VALUE", nargs="+", default=[], help="settings of the trajectory")
+    group.add_argument(
         "--pose", metavar="Q", type=float, nargs="+", help="start or centre [rad, m] (default: middle of the limits)"
     )
-    motion.add_argument("--duration", metavar="S", type=float, default=20.0, help="time of the run (default: 20)")
-    motion.add_argument("--seed", metavar="N", type=int, default=0, help="seed of trajectory and noise (default: 0)")
-    motion.add_argument("--noise-seed", metavar="N", type=int, help="seed of the noise (default: that of --seed)")
-    control = parser.add_argument_group("controller")
-    control.add_argument("--rate", metavar="HZ", type=float, default=1000.0, help="sampling rate (default: 1000)")
-    control.add_argument(
+    group.add_argument("--duration", metavar="S", type=float, default=20.0, help="time of the run (default: 20)")
+    group.add_argument("--seed", metavar="N", type=int, default=0, help="seed of trajectory and noise (default: 0)")
+    group.add_argument("--noise-seed", metavar="N", type=int, help="seed of the noise (default: that of --seed)")
+
+
+def _controller(group: argparse._ActionsContainer) -> None:
+    group.add_argument("--rate", metavar="HZ", type=float, default=1000.0, help="sampling rate (default: 1000)")
+    group.add_argument(
         "--bandwidth", metavar="HZ", type=float, default=6.0, help="bandwidth of the speed loops (default: 6)"
     )
-    control.add_argument(
+    group.add_argument(
         "--largest",
         metavar="A",
         type=float,
@@ -62,16 +76,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[float("inf")],
         help="limit of the currents (default: none)",
     )
-    log = parser.add_argument_group("what is measured")
-    log.add_argument("--log-rate", metavar="HZ", type=float, help="rate of the log (default: as --rate)")
-    log.add_argument(
+
+
+def _log(group: argparse._ActionsContainer) -> None:
+    group.add_argument("--log-rate", metavar="HZ", type=float, help="rate of the log (default: as --rate)")
+    group.add_argument(
         "--also",
         metavar="STEM",
         nargs="+",
         default=[],
         help="further columns; qr: reference, qs: encoders of the links, temp: temperatures of the drives",
     )
-    log.add_argument(
+    group.add_argument(
         "--resolution",
         metavar="RAD",
         type=float,
@@ -79,7 +95,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[0.0],
         help="step of the motors' encoders [rad, m] (default: 0)",
     )
-    log.add_argument(
+    group.add_argument(
         "--noise",
         metavar="A",
         type=float,
@@ -87,7 +103,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[0.0],
         help="rms of the noise [A; N m or N without torque constants] (default: 0)",
     )
-    log.add_argument(
+    group.add_argument(
         "--wrench-noise",
         metavar="N",
         type=float,
@@ -95,39 +111,37 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[0.0],
         help="rms of the wrench's noise: forces [N], then moments [N m] (default: 0)",
     )
-    log.add_argument("--delay", metavar="S", type=float, default=0.0, help="delay of motor positions (default: 0)")
-    log.add_argument("--link-delay", metavar="S", type=float, default=0.0, help="delay of link positions (default: 0)")
-    parser.add_argument(
-        "--payload",
-        metavar="NAME=VALUE",
-        nargs="+",
-        help="a body on the tool with these values, such as M=150 MZ=-15 [kg, kg m, kg m2]",
+    group.add_argument("--delay", metavar="S", type=float, default=0.0, help="delay of motor positions (default: 0)")
+    group.add_argument(
+        "--link-delay", metavar="S", type=float, default=0.0, help="delay of link positions (default: 0)"
     )
-    drift = parser.add_argument_group("temperature")
-    drift.add_argument(
+
+
+def _temperature(group: argparse._ActionsContainer) -> None:
+    group.add_argument(
         "--friction-drift",
         metavar="R",
         type=float,
         default=0.0,
         help="relative change of friction at warmth 1, such as -0.2 (default: 0)",
     )
-    drift.add_argument(
+    group.add_argument(
         "--torque-constant-drift",
         metavar="R",
         type=float,
         default=0.0,
         help="relative change of the torque constants at warmth 1, such as -0.05 (default: 0)",
     )
-    drift.add_argument(
+    group.add_argument(
         "--warm-up",
         metavar="S",
         type=float,
         help="warmth is 1 - exp(-t/S) (default: it grows evenly to 1 at the end)",
     )
-    drift.add_argument(
+    group.add_argument(
         "--temperature", metavar="K", type=float, default=293.15, help="of the drives at the start (default: 293.15)"
     )
-    drift.add_argument(
+    group.add_argument(
         "--temperature-rise", metavar="K", type=float, default=30.0, help="rise at warmth 1 (default: 30)"
     )
 
