@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 from generator.review.words import plural
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

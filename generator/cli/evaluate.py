@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
+from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
 
@@ -31,7 +32,7 @@ _COMMAND = "counterpoise evaluate"
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT QUANTITY and the options of the quantity's inputs."""
     parser.usage = "counterpoise evaluate ROBOT QUANTITY [--SIGNAL NUMBER ...] [--parameters SET]"
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument("quantity", metavar="QUANTITY", help="inverse_dynamics, regressor, inertia_matrix, ...")
     options = parser.add_argument("options", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
     options.required = False

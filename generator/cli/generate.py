@@ -10,12 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, --plain, --build-in, --self-test and --library."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument(
         "--out", metavar="DIR", type=Path, default=Path("generated"), help="where the files go (default: generated)"
     )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

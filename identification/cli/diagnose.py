@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 from identification.extras import needing
 
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, RUN, --validate, --test, --prior, --dry-run, --out."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument("data", metavar="RUN", nargs="+", help="runs to fit")
     parser.add_argument(
         "--validate",

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from generator.cli.bounds import above, not_negative, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
+from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.writing import spare
@@ -31,7 +32,7 @@ _MOST = 1e7
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, the motion, its limits, what is known and measured, the search."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: excitation/ROBOT)")
     parser.add_argument(
         "--parameters", metavar="SET", default="twin", help="parameter set of the robot file (default: twin)"

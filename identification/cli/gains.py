@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.cli.shared_arguments import takes_recipe
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --empty, --loaded, --payload, --out, the filters."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument("--empty", metavar="RUN", nargs="+", required=True, help="runs without the payload")
     parser.add_argument("--loaded", metavar="RUN", nargs="+", required=True, help="runs with the payload")
     parser.add_argument(
@@ -42,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="standard deviations of these values, such as M=0.1 [kg, kg m, kg m2]",
     )
-    parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+    takes_recipe(parser)
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_gains)")
 
 

@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING
 from generator.cli.bounds import above, not_negative, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.cli.shared_arguments import takes_data, takes_test
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -31,9 +33,9 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --data, --test, --out, the filters, the method."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
-    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
+    takes_robot(parser)
+    takes_data(parser)
+    takes_test(parser)
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT)")
     _filters(parser.add_argument_group("filters"))
     _method(parser.add_argument_group("method"))

@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING
 from generator.cli.bounds import above, whole_number
 from generator.cli.place import command_line
 from generator.cli.progress import counter, stage
+from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification import executors
+from identification.cli.shared_arguments import takes_data, takes_recipe, takes_test
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -27,9 +29,9 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --data, --test, --out, the search, the starts, where they run."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
-    parser.add_argument("--test", metavar="RUN", nargs="+", default=[], help="runs to try the result on")
+    takes_robot(parser)
+    takes_data(parser)
+    takes_test(parser)
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_output_error)"
     )
@@ -55,7 +57,7 @@ def _search(group: argparse._ActionsContainer) -> None:
         help="smallest allowed eigenvalue of M(q) [kg m2, kg] (default: a tenth of the start's)",
     )
     group.add_argument("--fix", metavar="NAME=VALUE", nargs="+", default=[], help="given parameters")
-    group.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+    takes_recipe(group)
 
 
 def _starts(group: argparse._ActionsContainer) -> None:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
+from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.review.words import plural
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, the model, the trajectory, the controller, what is measured."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
+    takes_robot(parser)
     parser.add_argument(
         "--out", metavar="FILE", type=Path, help="the run (default: simulated/ROBOT/TRAJECTORY_SEED.csv)"
     )

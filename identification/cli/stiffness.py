@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING
 
 from generator.cli.place import command_line
 from generator.cli.progress import stage
+from generator.cli.shared_arguments import takes_robot
 from generator.resources import find_robot
 from generator.review.words import plural
+from identification.cli.shared_arguments import takes_data, takes_recipe
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -26,8 +28,8 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --data, --locked, --pressed or --link-encoders, --prior, --recipe, --out."""
-    parser.add_argument("robot", metavar="ROBOT", help="a name in robots/ or the path of a robot file")
-    parser.add_argument("--data", metavar="RUN", nargs="+", required=True, help="runs to identify from")
+    takes_robot(parser)
+    takes_data(parser)
     how = parser.add_mutually_exclusive_group(required=True)
     how.add_argument("--locked", metavar="J", type=int, help="the output of joint J is blocked")
     how.add_argument("--pressed", action="store_true", help="the tool presses on a rigid stop")
@@ -37,7 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="SET",
         help="parameter set of the robot with known balancers, inertias of rotors or viscous friction",
     )
-    parser.add_argument("--recipe", metavar="FILE", type=Path, help="a YAML file with the filters' settings")
+    takes_recipe(parser)
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_stiffness)"
     )
