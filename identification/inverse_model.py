@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from identification import recipe as recipes
 from identification.bootstrap import bootstrapped
@@ -83,6 +83,10 @@ class Identification:
         """The robot as its file says."""
         return self.regressors.model.robot
 
+    def noting(self, more: Iterable[str]) -> Identification:
+        """The same with ``more`` to be told."""
+        return replace(self, notes=(*self.notes, *more))
+
 
 def identify(
     robot: Robot,
@@ -109,41 +113,27 @@ def identify(
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
     notes += fitted_too(fitted, tested)
-    regressors, aside = under_own_load(
-        [one.sampled for one in trained],
-        given,
-        lambda factors: _problem(factors, given, payloads, recipe, options).solve(),
-    )
+
+    def posed(factors: tuple[Factor, ...]) -> Problem:
+        return _problem(factors, given.names, payloads, recipe, options)
+
+    sampled_runs, place = [one.sampled for one in trained], fitted[0].place
+    regressors, told = under_own_load(sampled_runs, given, lambda factors: posed(factors).solve())
+    notes += told
     if regressors is not given:
         trained, tried = (tuple(Observed(one.sampled, regressors) for one in runs) for runs in (trained, tried))
-    notes += aside
-    factors = _added(trained)
-    if not any(one.rows for one in factors):
-        slow = "no row is left: joints are never faster than the standstill threshold, or their efforts are cut off"
-        raise InputError(trained[0].sampled.run.place, slow, "faster motion, a smaller threshold, lower efforts")
-    problem = _problem(factors, regressors, payloads, recipe, options)
-    problem, aside = _separable(problem, _payloads(trained))
-    notes += aside
-    rows: Callable[[Observed], Iterable[Rows]] = Observed.rows
-    if options.robust:
-        found = robust(problem, trained)
-        problem, rows = found.problem, found.rows
-        notes.append(f"{found.outliers} of {sum(one.rows for one in factors)} rows count less than fully")
-    tests = _added(tried)
-    solution = problem.solve()
-    if options.draws:
-        solution = bootstrapped(problem, solution, trained, options.draws, rows)
+    factors, tests = _added(trained), _added(tried)
+    _check_rows(factors, place)
+    problem, told = _separable(posed(factors), _payloads(trained))
+    notes += told
+    problem, solution, told = _solved(problem, trained, options)
+    notes += told
     full = _estimate(problem, solution, factors, tests)
-    notes += suspect([one.sampled for one in trained], regressors, full.train)
+    notes += suspect(sampled_runs, regressors, full.train)
     std = {name: solution.std(name) for name in full.sought if name not in solution.hidden}
-    directed(trained[0].sampled.run.place, regressors.model, solution.values, std)
-    reduced, solution = essential(problem, options.ratio, options.growth)
-    best = _estimate(reduced, solution, factors, tests)
-    notes += _doubts(regressors, full)
-    if full.test is not None:
-        notes += beyond(full.train, full.test, regressors.model.robot.numbers)
-    if best.train.total.norm > _COSTLY * full.train.total.norm:
-        notes.append("the essential parameters leave far more of the torques than all do; a larger ratio keeps more")
+    directed(place, regressors.model, solution.values, std)
+    best = _estimate(*essential(problem, options.ratio, options.growth), factors, tests)
+    notes += _doubts(regressors, full, best)
     return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))
 
 
@@ -184,14 +174,22 @@ def _known_payloads(trained: Sequence[Observed], tried: Sequence[Observed]) -> d
     return result
 
 
+def _check_rows(factors: Sequence[Factor], place: Place) -> None:
+    """Raises InputError where no joint has a row."""
+    if not any(one.rows for one in factors):
+        slow = "no row is left: joints are never faster than the standstill threshold, or their efforts are cut off"
+        raise InputError(place, slow, "faster motion, a smaller threshold, lower efforts")
+
+
 def _problem(
     factors: tuple[Factor, ...],
-    regressors: Regressors,
+    base: Sequence[str],
     payloads: Mapping[str, Payload],
     recipe: Recipe,
     options: Options,
 ) -> Problem:
-    names = [*regressors.names, *(name for one in payloads.values() for name in one.names().values())]
+    """For the parameters named in ``base`` and those of the payloads, but for what is known or fixed."""
+    names = [*base, *(name for one in payloads.values() for name in one.names().values())]
     fixed = {one.names()[stem]: value for one in payloads.values() for stem, value in one.known.items()}
     fixed |= options.fixed
     free = tuple(name for name in names if name not in fixed)
@@ -213,6 +211,22 @@ def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Probl
             for name in mixed:
                 problem = problem.without(name)
     return problem, notes
+
+
+def _solved(problem: Problem, runs: Sequence[Observed], options: Options) -> tuple[Problem, Solution, list[str]]:
+    """The problem with rows that are outliers weighed down, its solution with the standard deviations that are asked
+    for, and what is to be told.
+    """
+    rows: Callable[[Observed], Iterable[Rows]] = Observed.rows
+    notes = []
+    if options.robust:
+        found = robust(problem, runs)
+        notes.append(f"{found.outliers} of {sum(one.rows for one in problem.factors)} rows count less than fully")
+        problem, rows = found.problem, found.rows
+    solution = problem.solve()
+    if options.draws:
+        solution = bootstrapped(problem, solution, runs, options.draws, rows)
+    return problem, solution, notes
 
 
 def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], test: Sequence[Factor]) -> Estimate:
@@ -237,8 +251,10 @@ def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
     return notes
 
 
-def _doubts(regressors: Regressors, full: Estimate) -> list[str]:
-    """Parameters that nothing shows, and those that matter cannot have."""
+def _doubts(regressors: Regressors, full: Estimate, best: Estimate) -> list[str]:
+    """Parameters that nothing shows, and those that matter cannot have; tests and the essential parameters' ``best``
+    fit where they leave far more than the ``full`` model of the fitted runs.
+    """
     solution = full.solution
     notes = [f"{name} cannot be identified: no motion in the data shows it alone" for name in solution.hidden]
     for parameter in regressors.model.base_parameters:
@@ -248,4 +264,8 @@ def _doubts(regressors: Regressors, full: Estimate) -> list[str]:
         below = parameter.lower - solution.values[name]
         if below > 3 * solution.std(name) and np.isfinite(below):
             notes.append(f"{name} is {solution.values[name]:.4g}, below its bound {parameter.lower:g}")
+    if full.test is not None:
+        notes += beyond(full.train, full.test, regressors.model.robot.numbers)
+    if best.train.total.norm > _COSTLY * full.train.total.norm:
+        notes.append("the essential parameters leave far more of the torques than all do; a larger ratio keeps more")
     return notes

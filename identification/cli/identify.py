@@ -9,7 +9,6 @@ in it.
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -111,7 +110,6 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     with needing(command_line("counterpoise identify")):
-        from identification.consistent_fit import consistent_fit, doubts
         from identification.destination import destination
         from identification.inverse_model import identify
         from identification.observation import Regressors
@@ -129,21 +127,13 @@ def run(arguments: argparse.Namespace) -> None:
     options = _options(arguments, regressors)
     with stage(f"identifying from {plural(len(arguments.data), 'run')}"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
-    consistent = None
-    if arguments.consistent:
-        weight = above(arguments.prior_weight, "--prior-weight", 0)
-        with stage("making the parameters physically consistent"):
-            try:
-                consistent = consistent_fit(found, _bodies(arguments.prior, robot), weight)
-                found = replace(found, notes=(*found.notes, *doubts(found, consistent)))
-            except ValueError as error:
-                found = replace(found, notes=(*found.notes, str(error)))
-    found = replace(found, notes=(*found.notes, *older_sets(found, consistent)))
+    found, consistent = _consistent(arguments, found) if arguments.consistent else (found, None)
+    found = found.noting(older_sets(found, consistent))
     variations: list[Variation] = []
     if arguments.sensitivity:
         with stage("trying other filters"):
             variations, untried = sensitivity(found, arguments.data)
-        found = replace(found, notes=(*found.notes, *untried))
+        found = found.noting(untried)
     with stage("writing the report"):
         page = {REPORT: report(found, consistent, variations)}
     files = save(found, path, folder, consistent, variations, page)
@@ -181,6 +171,19 @@ def _prior(name: str, regressors: Regressors) -> dict[str, float]:
 
     model = regressors.model
     return resolved(model, named_set(model.robot, name, command_line("--prior")).values)
+
+
+def _consistent(arguments: argparse.Namespace, found: Identification) -> tuple[Identification, ConsistentFit | None]:
+    """The physically consistent parameters beside what was found, which tells why where there are none."""
+    from identification.consistent_fit import consistent_fit, doubts
+
+    weight = above(arguments.prior_weight, "--prior-weight", 0)
+    with stage("making the parameters physically consistent"):
+        try:
+            consistent = consistent_fit(found, _bodies(arguments.prior, found.robot), weight)
+        except ValueError as error:
+            return found.noting([str(error)]), None
+        return found.noting(doubts(found, consistent)), consistent
 
 
 def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:
