@@ -7,7 +7,7 @@ rows of all joints.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -76,11 +76,10 @@ def _blocks(
     length = min(_LENGTH, duration / _BLOCKS)
     place = {name: k for k, name in enumerate(solution.names)}
     rank = whitening.shape[1]
-    values: Mapping[str, float] = solution.values
     result: dict[tuple[int, int], _Block] = {}
     for index, run in enumerate(runs):
         for part in rows(run):
-            error = part.Y - part.W @ np.array([values[name] for name in part.names])
+            error = part.errors(solution.values)
             mine = [k for k, name in enumerate(part.names) if name in place]
             Q = part.W[:, mine] @ whitening[[place[part.names[k]] for k in mine]] / solution.sigma[part.joint]
             numbers = ((part.t - run.sampled.run.start) / length).astype(int)

@@ -59,26 +59,19 @@ def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
     return Robust(problem, solution, outliers, at, scale)
 
 
-def _errors(
-    run: Observed, values: Mapping[str, float]
-) -> Iterator[tuple[Rows, np.ndarray[tuple[int], np.dtype[np.float64]]]]:
-    for part in run.rows():
-        yield part, part.Y - part.W @ np.array([values[name] for name in part.names])
-
-
 def _scales(runs: Sequence[Observed], values: Mapping[str, float]) -> dict[int, float]:
     found: dict[int, list[float]] = {}
     for run in runs:
-        for part, error in _errors(run, values):
-            found.setdefault(part.joint, []).extend(np.abs(error).tolist())
+        for part in run.rows():
+            found.setdefault(part.joint, []).extend(np.abs(part.errors(values)).tolist())
     return {joint: float(np.median(errors)) / _MAD + 1e-300 for joint, errors in found.items()}
 
 
 def _weighted(run: Observed, values: Mapping[str, float], scale: Mapping[int, float]) -> tuple[int, list[Rows]]:
     """The rows times the roots of their weights, and how many weights are below 1."""
     outliers, parts = 0, []
-    for part, error in _errors(run, values):
-        size = np.abs(error) / scale[part.joint]
+    for part in run.rows():
+        size = np.abs(part.errors(values)) / scale[part.joint]
         root = np.sqrt(np.minimum(1.0, _KNEE / np.maximum(size, 1e-300)))
         outliers += int((size > _KNEE).sum())
         parts.append(replace(part, W=part.W * root[:, None], Y=part.Y * root))

@@ -6,7 +6,7 @@ with so much of its neighbours that the filter has forgotten where the part ends
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +36,10 @@ class Rows:
     W: Array
     Y: Array
     t: Array
+
+    def errors(self, values: Mapping[str, float]) -> Array:
+        """What parameters by name [SI] leave of the torques (rows) [N m, N]: Y - W chi."""
+        return np.asarray(self.Y - self.W @ np.array([values[name] for name in self.names]))
 
 
 @dataclass(frozen=True)

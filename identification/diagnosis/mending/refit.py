@@ -198,7 +198,7 @@ def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[
     for run in observed:
         errors: dict[int, list[Array]] = defaultdict(list)
         for one in run.rows():
-            errors[one.joint].append(one.Y - one.W @ [values[name] for name in one.names])
+            errors[one.joint].append(one.errors(values))
         for joint, parts in errors.items():
             e = np.concatenate(parts)
             power[joint] += float(e @ e)
