@@ -50,9 +50,8 @@ _TURNING = 0.2
 
 @dataclass(frozen=True)
 class Pose:
-    """A run about its mean, filtered and decimated: positions ``q``, torques of
-    the wrench (``wrench_torque``) and of the rotors' acceleration (``rotors``) on the joint side; currents ``i``, None
-    without (n x N each).
+    """A run about its mean, filtered and decimated: positions ``q``, torques of the wrench (``wrench_torque``) and of
+    the rotors' acceleration (``rotors``) on the joint side; currents ``i``, None without (n x N each).
 
     ``turning`` (n x N) is 1 where a motor turns forward, -1 where backward, 0 where it stands, nearly does, or its
     sample is unusable. ``at`` are the motors' mean positions (n), ``wrench`` is the whole wrench (6 x N), ``load`` the
@@ -154,7 +153,7 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     if with_current:
         current = motor_torques(robot, run.tau)
         signals.append(smoothed(current, filters.order, filters.cutoff, run.rate))
-    inner = slice(filters.first, run.samples - filters.last)
+    inner = filters.inner(run.samples)
     signals = [decimated(one[:, inner], filters.factor) for one in signals]
     level, wrench, rotors = signals[:3]
     # Not of the decimated signal: the decimation's ripple shrinks a constant by 1 %.

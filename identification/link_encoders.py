@@ -133,7 +133,7 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
         own = [qd, np.sign(qd), derivative(qd, run.period)]
         if joint.sigma != PRISMATIC:
             own += [np.sin(q), np.cos(q)]
-        inner = slice(filters.first, run.samples - filters.last)
+        inner = filters.inner(run.samples)
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
         bad = np.zeros(q.shape, dtype=bool) if run.unusable is None else run.unusable[k]
         turning = np.zeros(columns.shape[1], dtype=bool)

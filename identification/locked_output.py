@@ -152,7 +152,7 @@ def _rows(run: Run, filters: Filters, k: int, removed: float) -> Array:
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)
     columns = np.stack([qdd, qd, np.sign(qd), q, np.ones_like(q), run.tau[k] - removed])
-    within = slice(filters.first, run.samples - filters.last)
+    within = filters.inner(run.samples)
     inner = columns[:, within]
     speed = np.abs(inner[1])
     bad = speed < _STANDSTILL * speed.max()

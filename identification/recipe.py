@@ -45,9 +45,9 @@ class Recipe:
     ``dynamics`` [Hz] is the highest frequency of the motion's dynamics. ``cutoff`` [Hz] and ``order`` are those of the
     Butterworth filter, ``factor`` is that of the decimation. ``dropped_first`` and ``dropped_last`` samples are left
     out before it. Where a joint is slower than ``standstill`` [rad/s, m/s] its rows are left out; None is 0.03 rad/s or
-    0.005 m/s. ``weights`` is
-    "joint" or "none". The residual's variance divides by rows minus estimated ``parameters``, or, as MATLAB's std, by
-    rows minus one (``freedom`` = "samples"). ``columns`` are formulas for files with names of their own.
+    0.005 m/s. ``weights`` is "joint" or "none". The residual's variance divides by rows minus estimated ``parameters``,
+    or, as MATLAB's std, by rows minus one (``freedom`` = "samples"). ``columns`` are formulas for files with names of
+    their own.
     """
 
     dynamics: float = 2.0
@@ -107,6 +107,10 @@ class Filters:
             needed = max(needed, before * stage.fewest)
             before *= stage.factor
         return self.first + self.last + needed
+
+    def inner(self, samples: int) -> slice:
+        """The samples of a run that its filter's ends leave."""
+        return slice(self.first, samples - self.last)
 
 
 def possible_factor(ratio: float) -> int:

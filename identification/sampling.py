@@ -76,7 +76,7 @@ def sampled(
         raise InputError(run.place, problem, "a lower order")
     qd = rate(q, run.period)
     qdd = rate(qd, run.period)
-    inner = slice(filters.first, run.samples - filters.last)
+    inner = filters.inner(run.samples)
     slow = recipe.standstills(regressors.model.robot)
     still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= slow[k])
     for k in still:

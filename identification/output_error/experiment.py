@@ -77,8 +77,8 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None, fi
     if run.payload is not None:
         raise InputError(run.place, f"the run carries payload {run.payload.name}", "a run without payload")
     filters = recipe.at(run.rate)
-    inner = slice(filters.first, run.samples - filters.last)
-    samples = run.samples - filters.first - filters.last
+    inner = filters.inner(run.samples)
+    samples = inner.stop - inner.start
     stride = max(1, round(_STEP / run.period))
     length = samples if segment is None else round(segment / run.period)
     if length < _FEWEST * stride:

@@ -172,7 +172,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
         left_out[[one.k for one in swinging], : round(fading)] = True
     if run.unusable is not None:
-        left_out |= run.unusable[:, one.filters.first : run.samples - one.filters.last]
+        left_out |= run.unusable[:, one.filters.inner(run.samples)]
     left_out = _unsettled(left_out, run.rate)
     tau = windowed(one.tau, factor)
     kept = windowed(left_out.astype(float), factor) == 0

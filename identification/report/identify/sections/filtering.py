@@ -37,7 +37,7 @@ def render(subject: Subject) -> Markup:
 
 def _panel(subject: Subject, run: ShownRun, joint: int, number: int) -> Markup:
     sampled = run.observed.sampled
-    inner = slice(sampled.filters.first, sampled.filters.first + sampled.motion.samples)
+    inner = sampled.filters.inner(sampled.run.samples)
     raw = derivative(sampled.run.q[joint], sampled.run.period)
     rows, t, place = run.torques[joint], sampled.times, subject.position_units[number]
     speed, acceleration = sampled.motion.qd[joint], sampled.motion.qdd[joint]
