@@ -200,12 +200,9 @@ def _names(regressors: Regressors, runs: Sequence[Run]) -> tuple[str, ...]:
 
 
 def _known(runs: Sequence[Run]) -> dict[str, float]:
-    return {
-        run.payload.names()[stem]: value
-        for run in runs
-        if run.payload is not None
-        for stem, value in run.payload.known.items()
-    }
+    """Values [SI] of all payloads' parameters that are known."""
+    carried = [run.payload for run in runs if run.payload is not None]
+    return {name: value for payload in carried for name, value in payload.fixed.items()}
 
 
 def _sought(names: Sequence[str], runs: Sequence[Run]) -> list[str]:

@@ -190,7 +190,7 @@ def _problem(
 ) -> Problem:
     """For the parameters named in ``base`` and those of the payloads, but for what is known or fixed."""
     names = [*base, *(name for one in payloads.values() for name in one.names().values())]
-    fixed = {one.names()[stem]: value for one in payloads.values() for stem, value in one.known.items()}
+    fixed = {name: value for one in payloads.values() for name, value in one.fixed.items()}
     fixed |= options.fixed
     free = tuple(name for name in names if name not in fixed)
     weighted = recipe.weights == recipes.JOINT

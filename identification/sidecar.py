@@ -41,6 +41,12 @@ class Payload:
         """Stem -> parameter name, all ten."""
         return {stem: f"{stem}{self.name}" for stem in UNITS}
 
+    @property
+    def fixed(self) -> dict[str, float]:
+        """The ``known`` values by parameter name [SI], as a fit is given them."""
+        names = self.names()
+        return {names[stem]: value for stem, value in self.known.items()}
+
 
 @dataclass(frozen=True)
 class Sidecar:

@@ -72,16 +72,12 @@ def refit(
     are fitted like any other.
     """
     given = {name: one for name, one in (given or {}).items() if name in regressors.names}
-    known = {
-        one.run.payload.names()[stem]: value
-        for one in runs
-        if one.run.payload is not None
-        for stem, value in one.run.payload.known.items()
-    }
-    payloads = [name for one in runs if one.run.payload is not None for name in one.run.payload.names().values()]
+    payloads = [one.run.payload for one in runs if one.run.payload is not None]
+    known = {name: value for payload in payloads for name, value in payload.fixed.items()}
+    carried = [name for payload in payloads for name in payload.names().values()]
     sought = [name not in given for name in regressors.names]
     known |= {name: one.value or 0.0 for name, one in given.items()}
-    free = tuple(dict.fromkeys(name for name in (*regressors.names, *payloads) if name not in known))
+    free = tuple(dict.fromkeys(name for name in (*regressors.names, *carried) if name not in known))
     near = None if prior is None else prior.only(np.flatnonzero(sought))
 
     def fit(factors: tuple[Factor, ...]) -> Solution:
