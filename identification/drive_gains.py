@@ -110,17 +110,18 @@ def drive_gains(
         raise InputError(robot.place, f"{robot.name} has no drives", "gear ratios, to know what currents do")
     N = coupling(robot)
     as_current = with_unit_constants(robot)
-    runs = [_run(source, as_current, recipe) for source in (*empty, *loaded)]
-    for run in runs[: len(empty)]:
+    unloaded, carrying = ([_run(source, as_current, recipe) for source in sources] for sources in (empty, loaded))
+    for run in unloaded:
         _check_empty(run)
-    runs = runs[: len(empty)] + [_carrying(run, payload) for run in runs[len(empty) :]]
+    carrying = [_carrying(run, payload) for run in carrying]
     stds = dict(payload_std or {})
-    _check_known(runs[len(empty) :], stds)
+    _check_known(carrying, stds)
+    runs = [*unloaded, *carrying]
     regressors = regressors or Regressors(robot)
     seen = [sampled(run, recipe, regressors) for run in runs]
     names = _names(regressors, runs)
     rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
-    fit, refused, parts = _observable(rows, names, len(N), robot, runs[len(empty)])
+    fit, refused, parts = _observable(rows, names, len(N), robot, carrying[0])
     from_payload = _of_payload(rows, names, fit, refused, stds)
     variance = np.diag(fit.covariance) + from_payload**2
     n = len(N)
