@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy
 
-from generator.grouping.observability import ROTOR_INERTIA, base_reach, carried, invisible, moved
+from generator.grouping.linear_algebra import Matrix
+from generator.grouping.observability import ROTOR_INERTIA, STEMS, Reach, base_reach, carried, invisible, moved
 from generator.grouping.rigid_motion import transport
 from generator.grouping.rules import elimination_order, rule_of
 from generator.grouping.scalars import Numbers, Scalar
 from generator.robot.description import Robot
 
-#: Stems of the twelve parameters of a joint, in the order of ``observability``.
-STEMS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia", "Off")
+#: A linear form: coefficients of standard parameters by name.
+Form = dict[str, Scalar]
 
 
 @dataclass(frozen=True)
@@ -84,49 +85,66 @@ def group(robot: Robot, standard: tuple[str, ...]) -> Grouping:
     return Grouping(tuple(base), eliminated, values)
 
 
-def _regroup(
-    robot: Robot, standard: frozenset[str], numbers: Numbers
-) -> tuple[dict[str, dict[str, Scalar]], dict[str, str]]:
+def _regroup(robot: Robot, standard: frozenset[str], numbers: Numbers) -> tuple[dict[str, Form], dict[str, str]]:
     """Linear forms of the kept parameters, and the rule of each eliminated one, by the recursion from the tips."""
-    gravity = _gravity_in_frame_0(robot, numbers)
-    reach = {0: base_reach(gravity, numbers)}
     transports = {joint.number: transport(joint, numbers) for joint in robot.joints}
-    by_antecedent = {}
-    for joint in robot.joints:
-        by_antecedent[joint.number] = carried(joint, reach[joint.antecedent], transports[joint.number], numbers)
-        reach[joint.number] = moved(joint, by_antecedent[joint.number], numbers)
-    received: dict[int, list[dict[str, Scalar]]] = {j.number: [{} for _ in STEMS] for j in robot.joints}
-    forms: dict[str, dict[str, Scalar]] = {}
+    by_antecedent = _by_antecedents(robot, transports, numbers)
+    received: dict[int, list[Form]] = {joint.number: [{} for _ in STEMS] for joint in robot.joints}
+    forms: dict[str, Form] = {}
     rules: dict[str, str] = {}
     for joint in reversed(robot.joints):
-        j = joint.number
+        j, order = joint.number, elimination_order(joint)
         names = [f"{stem}{j}" for stem in STEMS]
         present = [k for k, name in enumerate(names) if name in standard or (k < ROTOR_INERTIA and joint.tool)]
         entries = received[j]
         for k, name in enumerate(names):
             if name in standard:
                 entries[k] = _sum(entries[k], {name: numbers.one}, numbers.one)
-        leaving = invisible(joint, by_antecedent[j], present, elimination_order(joint), numbers)
-        onward: list[dict[str, Scalar]] = [{} for _ in range(10)]
-        for vector in leaving:
-            pivot = next(index for index in elimination_order(joint) if vector[index])
-            amount = entries[pivot]
-            for k, coefficient in enumerate(vector):
-                if coefficient:
-                    entries[k] = _sum(entries[k], amount, -coefficient)
-                    if k < ROTOR_INERTIA:
-                        onward[k] = _sum(onward[k], amount, coefficient)
-            if names[pivot] in standard:
-                rules[names[pivot]] = rule_of(joint, STEMS, pivot, vector)
+        leaving = invisible(joint, by_antecedent[j], present, order, numbers)
+        onward = _taken_out(entries, leaving, order)
         if joint.antecedent:
             _hand_over(received[joint.antecedent], onward, transports[j])
-        for k, name in enumerate(names):
+        for vector in leaving:
+            pivot = _pivot(vector, order)
+            if names[pivot] in standard:
+                rules[names[pivot]] = rule_of(joint, pivot, vector)
+        for name, form in zip(names, entries, strict=True):
             if name in standard and name not in rules:
-                forms[name] = entries[k]
+                forms[name] = form
     return forms, rules
 
 
-def _hand_over(receiver: list[dict[str, Scalar]], amounts: list[dict[str, Scalar]], matrix: list[list[Scalar]]) -> None:
+def _by_antecedents(robot: Robot, transports: Mapping[int, Matrix], numbers: Numbers) -> dict[int, Reach]:
+    """What its antecedent's motion alone makes each joint's frame do, by the joint's number."""
+    reach = {0: base_reach(_gravity_in_frame_0(robot, numbers), numbers)}
+    result = {}
+    for joint in robot.joints:
+        result[joint.number] = carried(joint, reach[joint.antecedent], transports[joint.number], numbers)
+        reach[joint.number] = moved(joint, result[joint.number], numbers)
+    return result
+
+
+def _pivot(vector: Sequence[Scalar], order: Sequence[int]) -> int:
+    """The parameter that an invisible combination eliminates."""
+    return next(index for index in order if vector[index])
+
+
+def _taken_out(entries: list[Form], leaving: Matrix, order: Sequence[int]) -> list[Form]:
+    """Takes the invisible combinations ``leaving`` out of a joint's twelve linear forms; returns what they hold of the
+    body's ten, which acts as parts of the antecedent.
+    """
+    onward: list[Form] = [{} for _ in range(ROTOR_INERTIA)]
+    for vector in leaving:
+        amount = entries[_pivot(vector, order)]
+        for k, coefficient in enumerate(vector):
+            if coefficient:
+                entries[k] = _sum(entries[k], amount, -coefficient)
+                if k < ROTOR_INERTIA:
+                    onward[k] = _sum(onward[k], amount, coefficient)
+    return onward
+
+
+def _hand_over(receiver: list[Form], amounts: list[Form], matrix: Matrix) -> None:
     """Adds ten linear forms, seen from the antecedent, to the antecedent's."""
     for row, line in enumerate(matrix):
         for coefficient, amount in zip(line, amounts, strict=True):
@@ -134,7 +152,7 @@ def _hand_over(receiver: list[dict[str, Scalar]], amounts: list[dict[str, Scalar
                 receiver[row] = _sum(receiver[row], amount, coefficient)
 
 
-def _sum(form: dict[str, Scalar], other: dict[str, Scalar], factor: Scalar) -> dict[str, Scalar]:
+def _sum(form: Form, other: Form, factor: Scalar) -> Form:
     """form + factor * other, without the terms that vanish."""
     result = dict(form)
     for name, coefficient in other.items():

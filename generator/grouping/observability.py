@@ -17,9 +17,11 @@ from generator.grouping.rigid_motion import drift, energy, screw, turn_to_frame,
 from generator.grouping.scalars import Numbers, Scalar
 from generator.robot.description import FIXED, PRISMATIC, Joint
 
-#: Order of the twelve parameters of a joint here: ten inertial ones, rotor inertia, offset.
-ROTOR_INERTIA, OFFSET = 10, 11
-SIZE = 12
+#: Stems of the twelve parameters of a joint, in their order: ten inertial ones, rotor inertia, offset.
+STEMS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia", "Off")
+SIZE = len(STEMS)
+#: Where the body's own parameters end.
+ROTOR_INERTIA = STEMS.index("Ia")
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from generator.grouping.observability import OFFSET, ROTOR_INERTIA
+from generator.grouping.observability import STEMS
 from generator.grouping.scalars import Scalar
 from generator.robot.description import FIXED, PRISMATIC, REVOLUTE, Joint
 
@@ -13,21 +13,16 @@ _REVOLUTE = ("Ia", "M", "MZ", "YY", "XX", "XY", "XZ", "YZ", "MY", "MX", "ZZ", "O
 #: The inertia tensor behind a prismatic joint.
 _PRISMATIC = ("Ia", "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MZ", "MY", "MX", "M", "Off")
 
-_INDEX = {stem: index for index, stem in enumerate(("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"))} | {
-    "Ia": ROTOR_INERTIA,
-    "Off": OFFSET,
-}
-
 
 def elimination_order(joint: Joint) -> list[int]:
     """Indices of the twelve parameters, first to be eliminated first."""
-    return [_INDEX[stem] for stem in (_PRISMATIC if joint.sigma == PRISMATIC else _REVOLUTE)]
+    return [STEMS.index(stem) for stem in (_PRISMATIC if joint.sigma == PRISMATIC else _REVOLUTE)]
 
 
-def rule_of(joint: Joint, stems: Sequence[str], pivot: int, vector: Sequence[Scalar]) -> str:
+def rule_of(joint: Joint, pivot: int, vector: Sequence[Scalar]) -> str:
     """Why the parameter ``pivot`` of a joint leaves, read off the combination that is invisible."""
-    stem = stems[pivot]
-    partners = [stems[k] for k, coefficient in enumerate(vector) if coefficient and k != pivot]
+    stem = STEMS[pivot]
+    partners = [STEMS[k] for k, coefficient in enumerate(vector) if coefficient and k != pivot]
     if joint.sigma == FIXED:
         return "fixed joint: the whole body belongs to its antecedent"
     if stem == "Ia":
