@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from generator.review.formula import Name
 from generator.review.markup import Markup, element, join
 from generator.review.svg import pixel, subscripted, svg, text
@@ -42,49 +44,10 @@ def render(model: Model) -> Markup | None:
 
 
 def _grid(model: Model, rows: int, columns: int, filled: list[tuple[int, int]]) -> Markup:
-    parameters, joints = model.base_parameters, model.robot.moving
     cell = float(min(max(_WIDTH // columns, _SMALLEST), _LARGEST))
     width, height = _LEFT + columns * cell + 2, _TOP + rows * cell + 2
-    drawn = [
-        element(
-            "rect",
-            class_="paper",
-            x=pixel(_LEFT),
-            y=pixel(_TOP),
-            width=pixel(columns * cell),
-            height=pixel(rows * cell),
-        )
-    ]
-    for k, parameter in enumerate(parameters):
-        x = _LEFT + (k + 0.5) * cell + 4
-        label = subscripted([Name(parameter.name)])
-        drawn.append(
-            text(
-                x, _TOP - 5, label, kind="column", anchor="start", transform=f"rotate(-90 {pixel(x)} {pixel(_TOP - 5)})"
-            )
-        )
-        if k and parameters[k - 1].joint != parameter.joint:
-            at = pixel(_LEFT + k * cell)
-            drawn.append(element("path", class_="divider", d=f"M {at} {pixel(_TOP - 52)} V {pixel(height - 2)}"))
-    for i, joint in enumerate(joints):
-        drawn.append(
-            text(
-                _LEFT - 6, _TOP + (i + 0.72) * cell, subscripted([Name(f"tau{joint.number}")]), kind="row", anchor="end"
-            )
-        )
-    for i, k in filled:
-        title = f"τ{joints[i].number}, {parameters[k].name} [{unit(parameters[k].unit)}]"
-        drawn.append(
-            element(
-                "rect",
-                element("title", title),
-                class_=f"cell {_kind(parameters[k])}",
-                x=pixel(_LEFT + k * cell + 1),
-                y=pixel(_TOP + i * cell + 1),
-                width=pixel(cell - 2),
-                height=pixel(cell - 2),
-            )
-        )
+    paper = _rectangle("paper", _LEFT, _TOP, columns * cell, rows * cell)
+    drawn = [paper, *_heads(model, cell, height - 2), *_sides(model, cell), *_cells(model, cell, filled)]
     description = (
         f"{rows} joint torques by {columns} base parameters; a filled cell is an entry that is not always zero."
     )
@@ -92,6 +55,39 @@ def _grid(model: Model, rows: int, columns: int, filled: list[tuple[int, int]]) 
         width, height, "Structure of the base regressor", description, join(*drawn, by="\n"), kind="regressor"
     )
     return element("div", picture, style=f"max-width:{pixel(width)}px;min-width:{pixel(min(width, _LEGIBLE))}px")
+
+
+def _heads(model: Model, cell: float, bottom: float) -> Iterator[Markup]:
+    """Names of the parameters over their columns, and lines down to ``bottom`` between those of two joints."""
+    parameters = model.base_parameters
+    for k, parameter in enumerate(parameters):
+        x, y = _LEFT + (k + 0.5) * cell + 4, _TOP - 5
+        label = subscripted([Name(parameter.name)])
+        yield text(x, y, label, kind="column", anchor="start", transform=f"rotate(-90 {pixel(x)} {pixel(y)})")
+        if k and parameters[k - 1].joint != parameter.joint:
+            at = pixel(_LEFT + k * cell)
+            yield element("path", class_="divider", d=f"M {at} {pixel(_TOP - 52)} V {pixel(bottom)}")
+
+
+def _sides(model: Model, cell: float) -> Iterator[Markup]:
+    """Names of the joints' torques before their rows."""
+    for i, number in enumerate(model.robot.numbers):
+        label = subscripted([Name(f"tau{number}")])
+        yield text(_LEFT - 6, _TOP + (i + 0.72) * cell, label, kind="row", anchor="end")
+
+
+def _cells(model: Model, cell: float, filled: list[tuple[int, int]]) -> Iterator[Markup]:
+    """The filled cells, each with its torque and its parameter for those who point at it."""
+    for i, k in filled:
+        parameter = model.base_parameters[k]
+        title = f"τ{model.robot.numbers[i]}, {parameter.name} [{unit(parameter.unit)}]"
+        x, y = _LEFT + k * cell + 1, _TOP + i * cell + 1
+        yield _rectangle(f"cell {_kind(parameter)}", x, y, cell - 2, cell - 2, element("title", title))
+
+
+def _rectangle(kind: str, x: float, y: float, width: float, height: float, *content: Markup) -> Markup:
+    sides = {"x": pixel(x), "y": pixel(y), "width": pixel(width), "height": pixel(height)}
+    return element("rect", *content, class_=kind, **sides)
 
 
 def _kind(parameter: Parameter) -> str:
