@@ -77,48 +77,57 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None, fi
     if run.payload is not None:
         raise InputError(run.place, f"the run carries payload {run.payload.name}", "a run without payload")
     filters = recipe.at(run.rate)
-    inner = filters.inner(run.samples)
-    samples = inner.stop - inner.start
     stride = max(1, round(_STEP / run.period))
+    count, length = _cut(run, filters, stride, segment)
+    smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
+    speed = derivative(smooth, run.period)
+    torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate) if filtered else run.tau
+    inner = filters.inner(run.samples)
+    motion = Motion(*(x[:, inner] for x in (smooth, speed, derivative(speed, run.period))))
+    parts = [_segments(x[:, inner], count, length) for x in (_held(torque), run.q, smooth, speed)]
+    cut = np.zeros(run.q.shape) if run.unusable is None else run.unusable.astype(float)
+    used = _segments(cut[:, inner], count, length).max(axis=(1, 2)) == 0
+    if not used.any():
+        raise InputError(run.place, "torques are cut off in every segment", "a run below the limits")
+    tau, q, q_smooth, qd = (np.ascontiguousarray(part[used]) for part in parts)
+    return Experiment(
+        run=run,
+        filters=filters,
+        period=run.period,
+        stride=stride,
+        began=run.start + run.period * np.asarray(filters.first + length * np.flatnonzero(used), dtype=np.float64),
+        tau=tau,
+        q=q[:, ::stride].copy(),
+        start=np.concatenate([q_smooth[:, 0], qd[:, 0]], axis=-1),
+        noise=_white(run.q),
+        motion=motion,
+        recorded=np.ascontiguousarray(run.tau[:, inner].T),
+        slow=recipe.standstills(robot),
+    )
+
+
+def _cut(run: Run, filters: Filters, stride: int, segment: float | None) -> tuple[int, int]:
+    """Number of the segments, and samples of each; raises InputError where there are too few."""
+    inner = filters.inner(run.samples)
+    samples, fewest = inner.stop - inner.start, _FEWEST * stride
     length = samples if segment is None else round(segment / run.period)
-    if length < _FEWEST * stride:
-        least = _FEWEST * stride * run.period
+    if length < fewest:
+        least = fewest * run.period
         if segment is not None and segment < least:
             raise InputError(run.place, f"segments of {segment:g} s", f"at least {least:g} s")
         length = samples
     count = samples // length if length > 0 else 0
-    if samples < _FEWEST * stride or not count:
-        wanted = filters.first + filters.last + max(length, _FEWEST * stride)
+    if samples < fewest or not count:
+        wanted = filters.first + filters.last + max(length, fewest)
         raise InputError(run.place, plural(run.samples, "row"), f"at least {wanted} for the filters and one segment")
-    smooth = smoothed(run.q, filters.order, filters.cutoff, run.rate)
-    speed = derivative(smooth, run.period)
-    torque = smoothed(run.tau, filters.order, filters.cutoff, run.rate) if filtered else run.tau
-    held = torque.copy()
-    held[:, :-1] = (torque[:, :-1] + torque[:, 1:]) / 2
-    motion = Motion(*(x[:, inner] for x in (smooth, speed, derivative(speed, run.period))))
-    parts = [_segments(x[:, inner], count, length) for x in (held, run.q, smooth, speed)]
-    cut = np.zeros((len(run.q), samples)) if run.unusable is None else run.unusable[:, inner].astype(float)
-    used = _segments(cut, count, length).max(axis=(1, 2)) == 0
-    if not used.any():
-        raise InputError(run.place, "torques are cut off in every segment", "a run below the limits")
-    tau, q, q_smooth, qd = (np.ascontiguousarray(part[used]) for part in parts)
-    first = np.concatenate([q_smooth[:, 0], qd[:, 0]], axis=-1)
-    began = run.start + run.period * np.asarray(filters.first + length * np.flatnonzero(used), dtype=np.float64)
-    recorded = np.ascontiguousarray(run.tau[:, inner].T)
-    return Experiment(
-        run,
-        filters,
-        run.period,
-        stride,
-        began,
-        tau,
-        q[:, ::stride].copy(),
-        first,
-        _white(run.q),
-        motion,
-        recorded,
-        recipe.standstills(robot),
-    )
+    return count, length
+
+
+def _held(tau: Array) -> Array:
+    """Torques (n x N) as they are held from each sample to the next: what acts in the mean between the two."""
+    result = tau.copy()
+    result[:, :-1] = (tau[:, :-1] + tau[:, 1:]) / 2
+    return result
 
 
 def _segments(x: Array, count: int, length: int) -> Array:
