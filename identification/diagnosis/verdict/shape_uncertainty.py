@@ -6,7 +6,7 @@ It knows the noise, not what is wrong in the torque of a shape; two values that 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import hypot, log
 
 import numpy as np
@@ -27,46 +27,65 @@ _SEEN = 0.99
 def deviations(
     found: Search, columns: Sequence[int], solution: Array
 ) -> tuple[Array, Mapping[int, Mapping[str, float]]]:
-    """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by choice.
+    """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by name, by
+    the id of their choice.
 
     ``solution`` holds both. What the runs do not show is infinite. A searched shape counts as one more parameter,
     linear about its value.
     """
     base = len(found.bank.base)
     value = dict(zip(columns, solution[base:].tolist(), strict=True))
-    steps: list[tuple[int, str, dict[int, float]]] = []
+    shapes = _shape_columns(found, value)
     # Columns of torque at the values found: a compliance and a stiffness differ by sixteen digits in their own units.
-    units = [1.0] * base + [abs(one) or 1.0 for one in value.values()]
+    units = [1.0] * base + [abs(one) or 1.0 for one in value.values()] + [one.unit for one in shapes]
+    normal = found.weighing.normal
+    chosen = [*range(base), *columns]
+    T = np.zeros((len(normal.gram), len(units)))
+    T[chosen, range(len(chosen))] = 1.0
+    for k, one in enumerate(shapes, start=len(chosen)):
+        for number, weight in one.change.items():
+            T[number, k] += weight
+    T *= units
+    A = T.T @ normal.whole @ T
+    fitted_apart = [one.hypothesis.preset.get(each.name) for one in found.variants for each in one.coefficients]
+    preset = {i: (one.std / units[i]) ** 2 for i, one in enumerate(fitted_apart, base) if one is not None}
+    std = np.sqrt(variances(A, preset)) * units
+    of_shapes: dict[int, dict[str, float]] = {}
+    for one, deviation in zip(shapes, std[len(chosen) :].tolist(), strict=True):
+        of_shapes.setdefault(one.choice, {})[one.name] = deviation
+    return std[: len(chosen)], of_shapes
+
+
+@dataclass(frozen=True)
+class _ShapeColumn:
+    """The torque's ``change`` with the shape value ``name`` of a choice (its ``id``), by weights of columns by number;
+    ``unit`` is the value's own size.
+    """
+
+    choice: int
+    name: str
+    unit: float
+    change: Mapping[int, float]
+
+
+def _shape_columns(found: Search, value: Mapping[int, float]) -> list[_ShapeColumn]:
+    """Of all shape values that are searched, at coefficients ``value`` of the columns by number, by differences."""
+    result = []
     for choice in found.choices:
         variant = choice.evidence.variant
         for shape in variant.hypothesis.shapes:
             moved = neighbour(found.weighing, variant, shape) if shape.free else None
             if moved is None:
                 continue
-            step = moved.shape[shape.name] - variant.shape[shape.name]
-            change: dict[int, float] = {
+            here = variant.shape[shape.name]
+            step = moved.shape[shape.name] - here
+            change = {
                 number: sign * value[own] / step
                 for own, other in zip(variant.columns, moved.columns, strict=True)
                 for number, sign in ((other, 1.0), (own, -1.0))
             }
-            steps.append((id(choice), shape.name, change))
-            units.append(abs(variant.shape[shape.name]) or 1.0)
-    normal = found.weighing.normal
-    chosen = [*range(base), *columns]
-    T = np.zeros((len(normal.gram), len(chosen) + len(steps)))
-    T[chosen, range(len(chosen))] = 1.0
-    for k, (_, _, change) in enumerate(steps):
-        for number, weight in change.items():
-            T[number, len(chosen) + k] += weight
-    T *= units
-    A = T.T @ normal.whole @ T
-    fitted_apart = [one.hypothesis.preset.get(each.name) for one in found.variants for each in one.coefficients]
-    preset = {i: (one.std / units[i]) ** 2 for i, one in enumerate(fitted_apart, base) if one is not None}
-    std = np.sqrt(variances(A, preset)) * units
-    shapes: dict[int, dict[str, float]] = {}
-    for k, (which, name, _) in enumerate(steps):
-        shapes.setdefault(which, {})[name] = float(std[len(chosen) + k])
-    return std[: len(chosen)], shapes
+            result.append(_ShapeColumn(id(choice), shape.name, abs(here) or 1.0, change))
+    return result
 
 
 def variances(A: Array, preset: Mapping[int, float]) -> Array:
