@@ -101,31 +101,19 @@ def search(
 
     None is looked for in a ``dry`` search.
     """
-    if more := stated_elasticity.names(regressors.model.robot):
-        p = len(regressors.names)
-        unknown = Prior(np.zeros(p), np.zeros((p, p)))
-        prior = (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
+    prior = _with_drive_trains(prior, regressors)
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
-
     for turn in range(_PASSES):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
         scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
         bank = Bank(clear, scenes)
-        offered = hypotheses([scenes[r] for r in train])
-        for one in offered:
-            for shape in one.variants:
-                bank.add(one, shape)
+        offered = _offered(bank, train)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         progress("measuring the noise")
-        rounded = tuple(
-            rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
-            for r, (run, scene) in enumerate(zip(clear, scenes, strict=True))
-        )
-        noisy = redrawn(clear, scenes)
-        may_follow = maps(clear, scenes)
+        rounded, noisy, may_follow = _rounded(clear, scenes), redrawn(clear, scenes), maps(clear, scenes)
         bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy)
         progress("weighing the evidence")
@@ -140,9 +128,44 @@ def search(
         if swinging(chosen) and turn + 1 < _PASSES:
             progress("settling how drive trains swing")
             chosen, values, acting = settled(weighing, chosen)
-    found = tuple(choices)
     return Search(
-        bank, weighing, found, values, covariance, tuple(offered), tuple(train), tuple(validate), rounded, may_follow
+        bank=bank,
+        weighing=weighing,
+        choices=tuple(choices),
+        values=values,
+        covariance=covariance,
+        offered=tuple(offered),
+        train=tuple(train),
+        validate=tuple(validate),
+        rounded=rounded,
+        maps=may_follow,
+    )
+
+
+def _with_drive_trains(prior: Prior | None, regressors: Regressors) -> Prior | None:
+    """With what is known of the parameters by which elastic drive trains of the robot file count, if it has any."""
+    more = stated_elasticity.names(regressors.model.robot)
+    if not more:
+        return prior
+    p = len(regressors.names)
+    unknown = Prior(np.zeros(p), np.zeros((p, p)))
+    return (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
+
+
+def _offered(bank: Bank, train: Sequence[int]) -> Sequence[Hypothesis]:
+    """What the runs number ``train`` may show, its columns now in the bank."""
+    offered = hypotheses([bank.scenes[r] for r in train])
+    for one in offered:
+        for shape in one.variants:
+            bank.add(one, shape)
+    return offered
+
+
+def _rounded(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> tuple[Array, ...]:
+    """Of each run, what rounding of positions and efforts makes of torques, and the least that counts as noise."""
+    return tuple(
+        rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
+        for r, (run, scene) in enumerate(zip(runs, scenes, strict=True))
     )
 
 
