@@ -22,7 +22,7 @@ from identification.diagnosis.noise import effort_rounding, noise_floor, torque_
 from identification.diagnosis.plausibility import doubts
 from identification.diagnosis.results import document
 from identification.diagnosis.runs.prepared import Prepared, prepared
-from identification.diagnosis.runs.roles import roles
+from identification.diagnosis.runs.roles import Roles, roles
 from identification.observation import Regressors
 from identification.results import written
 
@@ -61,40 +61,66 @@ def diagnosed(
     regressors = Regressors(preferring(robot, wanted.prior))
     prior = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
-    recipe = recipes.recipe_of(robot.name)
-
-    def read(sources: Sequence[str], resting: bool = True) -> list[Run]:
-        return [load(source, robot, recipe.columns, resting=resting) for source in sources]
-
-    def ready(source: str) -> Prepared:
-        # A part of a run that is good as a whole may stand still.
-        return prepared(whole[source] if source in whole else read([source])[0], recipe, regressors)
-
-    with stage(f"reading {plural(len(wanted.data) + len(wanted.validate) + len(wanted.test), 'run')}"):
-        fit, validating, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
-        chosen = roles(fit, validating, last, tested=not wanted.dry)
-        whole = {run.name: run for run in (*fit, *validating, *last)}
-        runs = [ready(source) for source in (*chosen.train, *chosen.validate)]
-        if not any(run.kept.any() for run in runs[: len(chosen.train)]):
-            raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
-        # What cannot be played at the end is refused now.
-        tests = [ready(source) for source in chosen.test]
-    notes += [note for run in (*fit, *validating, *last) for note in run.notes]
+    ready = _ready(wanted, robot, regressors)
+    notes += [note for run in ready.recorded for note in run.notes]
 
     def progress(text: str) -> None:
         with stage(text):
             pass
 
     with replacing(folder, GENERATED) as fresh:
-        found = diagnose(regressors, runs, chosen, prior, progress, wanted.dry, tests if chosen.untouched else ())
-        ended = [] if wanted.dry else torque_band.notes([found.search.bank.scenes[r] for r in found.search.train])
-        bank = found.search.bank
-        known_in_part = [k for k, one in enumerate(found.after.lack) if one.follows]
-        ended += effort_rounding.notes(bank) + noise_floor.notes(bank, {*effort_rounding.told(bank), *known_in_part})
-        found = changed(found, notes=(*notes, *found.notes, *doubts(found, prior, wanted.dry), *ended))
+        tests = ready.tests if ready.roles.untouched else ()
+        found = diagnose(regressors, ready.runs, ready.roles, prior, progress, wanted.dry, tests)
+        ended = [*doubts(found, prior, wanted.dry), *_of_noise(found, wanted.dry)]
+        found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):
             files = {RESULTS: written(document(found, new)).encode(), **pages(found, new)}
             replace(fresh, files)
     made = [] if new is None else [f"{robot.name}.yaml", GENERATED]
     return found, new, [*files, *made]
+
+
+@dataclass(frozen=True)
+class _Ready:
+    """All runs as they were ``recorded`` and their roles; by the diagnosis' filters those that are fitted or validate,
+    and the ``tests``.
+    """
+
+    recorded: Sequence[Run]
+    roles: Roles
+    runs: Sequence[Prepared]
+    tests: Sequence[Prepared]
+
+
+def _ready(wanted: Request, robot: Robot, regressors: Regressors) -> _Ready:
+    """The runs that are asked for; raises InputError where one cannot be used, even if it is only played at the end."""
+    recipe = recipes.recipe_of(robot.name)
+
+    def read(sources: Sequence[str], resting: bool = True) -> list[Run]:
+        return [load(source, robot, recipe.columns, resting=resting) for source in sources]
+
+    def ready(sources: Sequence[str]) -> list[Prepared]:
+        # A part of a run that is good as a whole may stand still.
+        parts = [whole[source] if source in whole else read([source])[0] for source in sources]
+        return [prepared(run, recipe, regressors) for run in parts]
+
+    with stage(f"reading {plural(len(wanted.data) + len(wanted.validate) + len(wanted.test), 'run')}"):
+        fit, validating, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
+        chosen = roles(fit, validating, last, tested=not wanted.dry)
+        recorded = (*fit, *validating, *last)
+        whole = {run.name: run for run in recorded}
+        train = ready(chosen.train)
+        runs = [*train, *ready(chosen.validate)]
+        if not any(run.kept.any() for run in train):
+            raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
+        return _Ready(recorded, chosen, runs, ready(chosen.test))
+
+
+def _of_noise(found: Diagnosis, dry: bool) -> list[str]:
+    """What is to be told of the torques' band, rounding and noise, behind which effects may stay hidden."""
+    bank = found.search.bank
+    narrow = [] if dry else torque_band.notes([bank.scenes[r] for r in found.search.train])
+    known_in_part = [k for k, one in enumerate(found.after.lack) if one.follows]
+    floor = noise_floor.notes(bank, {*effort_rounding.told(bank), *known_in_part})
+    return [*narrow, *effort_rounding.notes(bank), *floor]
