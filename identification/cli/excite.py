@@ -167,6 +167,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     from identification.excitation.noise import PART, noise_of
     from identification.excitation.results import Excitation
     from identification.excitation.shapes import Shapes
+    from identification.named_set import resolved_set
 
     recipe = recipes.recipe_of(robot.name, arguments.recipe)
     filters = recipe.at(arguments.rate)
@@ -174,7 +175,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     if samples < filters.fewest:
         problem = f"{samples} samples at {arguments.rate:g} Hz"
         raise InputError(command_line("--periods"), problem, f"at least {filters.fewest} for the filters")
-    values = _values(arguments.parameters, regressors)
+    values = resolved_set(regressors.model, arguments.parameters, command_line("--parameters"))
     regressors = regressors.loaded_by(values)
     part = arguments.noise_part if arguments.noise_part is not None else 0.0 if arguments.noise else PART
     limits = limits_of(robot, arguments.speed, arguments.acceleration)
@@ -202,14 +203,6 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
         evaluations=arguments.evaluations,
         seed=arguments.seed,
     )
-
-
-def _values(name: str, regressors: Regressors) -> dict[str, float]:
-    from generator.symbolic.parameter_sets import resolved
-    from identification.named_set import named_set
-
-    model = regressors.model
-    return resolved(model, named_set(model.robot, name, command_line("--parameters")).values)
 
 
 def _summary(found: Excitation) -> str:

@@ -146,10 +146,12 @@ def run(arguments: argparse.Namespace) -> None:
 def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     from identification.fixing import fixed
     from identification.inverse_model import Options
+    from identification.named_set import resolved_set
     from identification.sidecar import given
 
-    place = command_line("--fix")
-    prior = None if arguments.prior is None else _prior(arguments.prior, regressors)
+    model, prior = regressors.model, None
+    if arguments.prior is not None:
+        prior = resolved_set(model, arguments.prior, command_line("--prior"))
     ratio = (
         {}
         if arguments.essential is None
@@ -157,20 +159,12 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     )
     return Options(
         recipe=_recipe(arguments, regressors),
-        fixed=fixed(arguments.fix, prior, regressors.model, place),
+        fixed=fixed(arguments.fix, prior, model, command_line("--fix")),
         robust=arguments.robust,
         draws=0 if arguments.bootstrap is None else whole_number(arguments.bootstrap, "--bootstrap", 50, 100_000),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),
         **ratio,
     )
-
-
-def _prior(name: str, regressors: Regressors) -> dict[str, float]:
-    from generator.symbolic.parameter_sets import resolved
-    from identification.named_set import named_set
-
-    model = regressors.model
-    return resolved(model, named_set(model.robot, name, command_line("--prior")).values)
 
 
 def _consistent(arguments: argparse.Namespace, found: Identification) -> tuple[Identification, ConsistentFit | None]:
