@@ -123,8 +123,7 @@ def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[st
 
 
 def _addition(one: Finding) -> Addition:
-    values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
-    return addition(one.hypothesis, one.shape, values, f"{one.hypothesis.title}, {one.status}", one.amplitude)
+    return addition(one.hypothesis, one.shape, one.known, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
 def _given(entered: Sequence[tuple[Finding, Addition]], robot: Robot) -> dict[str, Value]:
@@ -150,8 +149,8 @@ def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior
     prior = prior_of(regressors.model, name)
     for one in found:
         if one.hypothesis.kind == BODY:
-            values = {key: value.value for key, value in one.parameters.items() if value.value is not None}
-            prior = with_payload(prior, regressors, values, {key: one.parameters[key].std for key in values})
+            std = {name: one.parameters[name].std for name in one.known}
+            prior = with_payload(prior, regressors, one.known, std)
     return prior
 
 

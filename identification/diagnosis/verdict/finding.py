@@ -120,6 +120,11 @@ class Finding:
     sure: bool = True
 
     @property
+    def known(self) -> dict[str, float]:
+        """Coefficients [SI] by name, without those that the runs do not show."""
+        return {name: one.value for name, one in self.parameters.items() if one.value is not None}
+
+    @property
     def homogeneous(self) -> bool:
         """Whether one amplitude holds in all runs, and along each that repeats."""
         return not self.disagreement
