@@ -92,7 +92,7 @@ def diagnose(
     before = located(first, [lack for lack in first.lack if lack.p < CHANCE or lack.burst is not None])
     disagreeing = disagreements(found)
     other = () if dry else contradicted(found, prior)
-    left = NOT_JUDGED if dry else unexplained(found, trial, last, disagreeing, other)
+    left = NOT_JUDGED if dry else unexplained(found, gone, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
     named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)

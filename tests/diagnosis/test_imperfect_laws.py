@@ -13,18 +13,23 @@ from identification.outcome import Value
 
 
 def variant(
-    effect: str, joints: tuple[int, ...], variable: str = "qd", preset: Mapping[str, Value] | None = None
+    effect: str,
+    joints: tuple[int, ...],
+    variable: str = "qd",
+    preset: Mapping[str, Value] | None = None,
+    joint: int | None = None,
 ) -> Any:
+    joint = joints[0] + 1 if joint is None else joint
     hypothesis = SimpleNamespace(
         effect=effect,
-        joint=joints[0] + 1,
+        joint=joint,
         kind="effect",
         stated=False,
         variable=variable,
         preset=preset or {},
         beyond=(),
     )
-    return SimpleNamespace(hypothesis=hypothesis, joints=joints, coefficients=(), used=(), key=(effect, joints[0] + 1))
+    return SimpleNamespace(hypothesis=hypothesis, joints=joints, coefficients=(), used=(), key=(effect, joint))
 
 
 @pytest.mark.parametrize(
@@ -35,6 +40,9 @@ def variant(
         (variant("load_friction", (2,), "load"), variant("stribeck_friction", (1,)), 1e-5),
         (variant("load_friction", (2,), "load"), variant("coulomb_friction", (1,)), 0.0),
         (variant("viscous_friction", (1,)), variant("stribeck_friction", (1,)), 0.0),
+        (variant("gradual_friction", (1,)), variant("torque_delay", (0, 1), "frequency", joint=0), 0.002),
+        (variant("dahl_friction", (1,), "time since reversal"), variant("torque_delay", (0, 1), "f", joint=0), 0.01),
+        (variant("gradual_friction", (1,)), variant("torque_delay", (1,), "frequency"), 0.01),
     ],
 )
 def test_no_law_is_exact_on_its_joint_and_hardly_elsewhere(one: Any, beside: Any, part: float) -> None:

@@ -16,6 +16,8 @@ _ONE_OF = ("joint_elasticity", "backlash")
 #: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
 #: nearly the same, and where they are alike: friction of the speed, or behind the motor.
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
+#: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
+_SHIFTED = 0.002
 #: The same part of what they explain anywhere: base parameters bring it to every joint.
 _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
@@ -63,4 +65,6 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
     if behind or {one.variable, other.variable} <= set(_OF_SPEED):
         return _ALIKE
+    if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", "time since reversal"):
+        return _SHIFTED
     return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE

@@ -25,13 +25,14 @@ from identification.outcome import Value
 Array = NDArray[np.float64]
 
 FIRM, TENTATIVE = "firm", "tentative"
-#: Stand for whatever makes a ripple, or a torque of the position, that is none of the library's.
-OTHER_RIPPLE, OTHER_TORQUE = "other_ripple", "other_torque"
+#: Stand for whatever makes a ripple, a torque of the position, or friction that changes along the range, that is none
+#: of the library's.
+OTHER_RIPPLE, OTHER_TORQUE, OTHER_FRICTION = "other_ripple", "other_torque", "other_friction"
 #: Standard deviation of a shape beyond which runs do not tell it, in parts of its value, or of its grid's step where
 #: its zero means nothing.
 _VAGUE = 0.5
 #: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
-#: to where it rests, which any torque of the position looks like.
+#: to where it rests, and of friction over the position, which any torque of the position looks like.
 _LEFT, _PULLED = 1.0, 0.15
 #: Size of a finding, in parts of the noise's rms, below which it is not firm where nothing repeats: the noise is then
 #: not known apart from the model. Where rows are too few to take what may act out of it as well.
@@ -42,6 +43,8 @@ _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms, from which its law is not sure; and the standard
 #: deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _GAP = 1.0, 0.25
+#: The variable of what a reversal tells, of which samples hold little.
+_SINCE = "time since reversal"
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -255,13 +258,13 @@ def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
 def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bool) -> Finding:
     """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
-    balancer or a payload and not any torque; where no motion ``repeats``, the values of any effect.
+    balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
+    ``repeats`` those of any effect.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
+    much = remains > min(_PULLED, _SHOWS / one.evidence.size)
     any_torque = pulls(effect) and (
-        remains > min(_PULLED, _SHOWS / one.evidence.size)
-        or not set(one.joints).isdisjoint(several)
-        or any(_vague(value, _LOOSE) for value in one.main)
+        much or not set(one.joints).isdisjoint(several) or any(_vague(value, _LOOSE) for value in one.main)
     )
     any_torque |= balances(effect) and not one.determined
     any_torque |= pulls(effect) and one.evidence.size < _FAINT
@@ -269,9 +272,13 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
         whole = "motion over the joint's whole range, with another payload"
         other = _unnamed(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
+    if effect == "position_friction" and much:
+        loads = "the same motion with another payload, which changes friction under load"
+        other = _unnamed(OTHER_FRICTION, "other friction that changes along the range", one.joints, one.evidence, loads)
+        return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE, sure=False)
-    if not repeats and kind == EFFECT and not one.determined:
+    if kind == EFFECT and not one.determined and (not repeats or one.variable == _SINCE):
         return replace(one, status=TENTATIVE)
     if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)

@@ -10,10 +10,12 @@ import numpy as np
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.runs.stated_elasticity import names_of_backlash, stated
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
 from identification.diagnosis.verdict.drifting import drifting
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
+from identification.diagnosis.verdict.ripples import ripples
 from identification.diagnosis.verdict.tones import tones
 from identification.diagnosis.verdict.trial import Trial
 from identification.diagnosis.verdict.where import Where, located
@@ -51,28 +53,37 @@ NOT_JUDGED = Unexplained((), None)
 
 
 def unexplained(
-    found: Search, trial: Trial | None, last: Where, disagreeing: Collection[Key], other: Sequence[Contradicted]
+    found: Search,
+    gone: Sequence[Choice],
+    trial: Trial | None,
+    last: Where,
+    disagreeing: Collection[Key],
+    other: Sequence[Contradicted],
 ) -> Unexplained:
     """What a search leaves, of whose model ``last`` tells where its residual is.
 
-    In this order: large residuals; torques that drift or sway by themselves; findings, by effect and joint, on
-    whose amplitude the runs are ``disagreeing``; where nothing was found what noise may hide; and parameters that
-    have ``other`` values than are known.
+    In this order: large residuals, on joints of what was found and is ``gone`` beside noise alone; torques that drift
+    or sway by themselves; findings, by effect and joint, on whose amplitude the runs are ``disagreeing``; where nothing
+    was found what noise may hide, and ripples, which are told beside large residuals too; and parameters that have
+    ``other`` values than are known.
     """
-    bounces, explained = _bounces(found), _explained(found)
+    bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
     large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
     overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
-    if not (large or overlooked or doubtful or found.choices):
+    nothing = not (large or overlooked or doubtful or found.choices)
+    if nothing:
         overlooked = _overlooked(found, trial)
-    lacks = large or doubtful or [last.lack[k] for k in overlooked]
-    where = _over_time(located(last, lacks), overlooked)
+    fine = {} if overlooked or doubtful else _rippling(found)
+    alone = fine if nothing else {}
+    lacks = large or doubtful or [last.lack[k] for k in overlooked or alone]
+    where = _along_range(_over_time(located(last, lacks), overlooked), alone)
     reason = AMPLITUDES if doubtful else ""
     pulling = None if lacks or found.choices else pulled(found, other)
     if pulling is not None:
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
-    return Unexplained(tuple(lacks), where, reason, tuple(bounces), tuple(overlooked.values()))
+    return Unexplained(tuple(lacks), where, reason, tuple(bounces), (*overlooked.values(), *fine.values()))
 
 
 def _bounces(found: Search) -> dict[int, float]:
@@ -95,6 +106,12 @@ def _explained(found: Search) -> dict[int, float]:
         first, last = bank.left(k, found.start), bank.left(k, found.weights)
         result[joint.number] = float(np.sqrt(max(float(first @ first - last @ last), 0.0) / max(len(first), 1)))
     return result
+
+
+def _taken_back(found: Search, gone: Sequence[Choice]) -> dict[int, float]:
+    """Nothing, by the joint's number, where findings are ``gone``: what stands in their place explains too much."""
+    numbers = found.bank.robot.numbers
+    return {numbers[k]: 0.0 for one in gone for k in one.evidence.variant.joints}
 
 
 def _large(lack: Lack, explained: float, bounces: float) -> bool:
@@ -147,9 +164,27 @@ def _swaying(found: Search) -> dict[int, str]:
     }
 
 
+def _rippling(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose torque ripples along the range at a period of its own, in words."""
+    seen, moving = ripples(found, found.weights), found.bank.robot.moving
+    return {
+        k: f"{100 * seen[k].part:.0f} % of what is left of joint {moving[k].number} is a ripple along its range, "
+        f"every {seen[k].length:.3g} {moving[k].position_unit}, which is in no effect"
+        for k in sorted(seen, key=lambda k: -seen[k].part)
+    }
+
+
 def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
     """Where the runs say what was ``overlooked`` they do not say over which variable."""
     if not overlooked:
         return after
     first = after.lack[next(iter(overlooked))].joint
     return replace(after, joint=first, variable="time", region="changes with time or from run to run", shares={})
+
+
+def _along_range(after: Where, fine: Mapping[int, str]) -> Where:
+    """Where the runs say that the torque ripples, too ``fine`` for means over the position."""
+    if not fine:
+        return after
+    first = after.lack[next(iter(fine))].joint
+    return replace(after, joint=first, variable="q", region="a ripple along the range", shares={})
