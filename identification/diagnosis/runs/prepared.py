@@ -112,8 +112,17 @@ def _at_rest(qd: Array, jumps: Sequence[Jump]) -> NDArray[np.bool_]:
     """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms."""
     result = np.zeros(qd.shape, dtype=bool)
     for joint, speed in followed(jumps, qd):
-        result[joint] |= np.abs(speed) < _SLOW * np.sqrt(np.mean(np.square(speed)))
+        result[joint] |= _standing(speed, _SLOW * np.sqrt(np.mean(np.square(speed))))
     return result
+
+
+def _standing(speed: Array, slow: Array | float) -> NDArray[np.bool_]:
+    """Samples (... x N) in which a speed is ``slow``, or on both sides of a reversal, which may pass between two."""
+    result = np.abs(speed) < slow
+    turned = np.diff(np.sign(speed), axis=-1) != 0
+    result[..., 1:] |= turned
+    result[..., :-1] |= turned
+    return np.asarray(result)
 
 
 def _unsettled(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
@@ -164,7 +173,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual
-    left_out = (np.abs(speed) < slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
+    left_out = _standing(speed, slow[:, None]) | (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     left_out |= _at_rest(speed, regressors.signs)
     if _FORGOTTEN * run.duration >= _MEMORY:
         left_out[:, one.times < run.start + _MEMORY] = True
