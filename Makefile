@@ -29,7 +29,7 @@ export CALLER := $(PWD)
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
 .PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
-    example-diagnosis study-diagnosis setup test test-extra format lock bench twins reproduce clean distclean
+    example-diagnosis study-diagnosis setup test test-long test-extra format lock bench twins reproduce clean distclean
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
@@ -85,7 +85,10 @@ example-diagnosis: $(TESTING) ## simulate a robot with effects that its file lac
 setup: $(TESTING) ## install the packages for simulate, excite, identify, diagnose, ... into .venv
 
 test: $(TESTING) ## every test that needs Python and a C compiler alone
-	@$(PYTEST) -n 2 --ignore=tests/extra tests
+	@$(PYTEST) -n 2 --dist worksteal -m "not long" --ignore=tests/extra tests
+
+test-long: $(TESTING) ## further cases of what make test holds, a minute or more each, and what a diagnosis costs
+	@$(PYTEST) -n 2 --dist worksteal -m long tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
 	@$(PYTEST) tests/extra

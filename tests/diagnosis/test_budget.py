@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.commands import ROOT
 from tests.plant.effect import Effect
 from tests.plant.robot_file import robot_file
@@ -40,6 +42,7 @@ print(json.dumps([status or 0, seconds, 1024 * max(one.ru_maxrss for one in both
 """
 
 
+@pytest.mark.long
 def test_six_axes_take_two_minutes_and_three_gigabytes(tmp_path: Path) -> None:
     (tmp_path / "robot.yaml").write_text(robot_file(ROBOT))
     runs = []

@@ -58,7 +58,7 @@ def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS) -> Dia
     return diagnosis_of(sources, regressors)
 
 
-@pytest.mark.parametrize("delay", [16, -20])
+@pytest.mark.parametrize("delay", [16, pytest.param(-20, marks=pytest.mark.long)])
 def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Path) -> None:
     found = late_by(tmp_path, (delay, delay))
     assert found.verdict == NAMED
@@ -67,7 +67,7 @@ def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Pat
     assert one.parameters["torque_delay"].value == pytest.approx(1e-3 * delay, abs=2e-4)
 
 
-@pytest.mark.parametrize("motor", [1, 2])
+@pytest.mark.parametrize("motor", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) -> None:
     """It drives a joint that another motor drives as well, of which nothing is late."""
     delays = (18 * (motor == 1), 18 * (motor == 2))
@@ -78,7 +78,14 @@ def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) 
     assert one.parameters[f"torque_delay{motor}"].value == pytest.approx(0.018, abs=3e-4)
 
 
-@pytest.mark.parametrize(("delays", "joints"), [((12, -8), (1, 2)), ((16, -16), (1, 2)), ((16, 22), (0, 1))])
+@pytest.mark.parametrize(
+    ("delays", "joints"),
+    [
+        pytest.param((12, -8), (1, 2), marks=pytest.mark.long),
+        ((16, -16), (1, 2)),
+        pytest.param((16, 22), (0, 1), marks=pytest.mark.long),
+    ],
+)
 def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[int, int], tmp_path: Path) -> None:
     """Each by its own, or one beyond a delay of all: neither is what the other one's law lacks."""
     found = late_by(tmp_path, delays, TWO_LINKS.replace("N21: 5", "N21: 60"))

@@ -16,6 +16,8 @@ from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.observation import Regressors
 from tests.recorded import Recorded, fourier
 
+pytestmark = pytest.mark.long
+
 ROBOT, SET = "puma560", "literature"
 #: Of the body at the tool: mass [kg], centre [m], and radius of gyration [m].
 MASS, CENTRE, RADIUS = 1.5, np.array([0.02, 0.0, 0.06]), 0.03

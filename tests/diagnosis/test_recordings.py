@@ -95,6 +95,7 @@ def late(source: Path, folder: Path, seconds: float) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_late_torques_of_short_runs_are_late_and_nothing_else(tmp_path: Path) -> None:
     """Rows are too few to fit each motor at every delay, and noise is told from few of them."""
     run = late(DATA / "tx40" / "run.csv", tmp_path, 0.02)

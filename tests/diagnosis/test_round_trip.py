@@ -68,12 +68,12 @@ def test_what_was_found_and_added_is_not_found_again(
 @pytest.mark.parametrize(
     ("law", "size", "named"),
     [
-        ("torque_gain", 0.15, "torque_gain"),
-        ("gear_ratio", 0.08, "gear_ratio"),
+        pytest.param("torque_gain", 0.15, "torque_gain", marks=pytest.mark.long),
+        pytest.param("gear_ratio", 0.08, "gear_ratio", marks=pytest.mark.long),
         ("encoder_offset", 0.05, "position_offset"),
-        ("delay", 4e-3, "torque_delay"),
-        ("torque_constant_drift", 0.5, "torque_drift"),
-        ("base_tilt", 0.05, "base_tilt"),
+        pytest.param("delay", 4e-3, "torque_delay", marks=pytest.mark.long),
+        pytest.param("torque_constant_drift", 0.5, "torque_drift", marks=pytest.mark.long),
+        pytest.param("base_tilt", 0.05, "base_tilt", marks=pytest.mark.long),
     ],
 )
 def test_what_drives_and_signals_and_the_base_lack_is_corrected(
@@ -91,7 +91,11 @@ def test_what_drives_and_signals_and_the_base_lack_is_corrected(
 
 
 @pytest.mark.parametrize(
-    ("law", "size", "named"), [("joint_flexibility", 1.1e-5, "joint_elasticity"), ("backlash", 3e-4, "backlash")]
+    ("law", "size", "named"),
+    [
+        ("joint_flexibility", 1.1e-5, "joint_elasticity"),
+        pytest.param("backlash", 3e-4, "backlash", marks=pytest.mark.long),
+    ],
 )
 def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     law: str, size: float, named: str, tmp_path: Path

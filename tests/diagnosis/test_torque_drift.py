@@ -113,7 +113,15 @@ def mended(sources: Sequence[str], before: Regressors) -> tuple[dict[str, float]
     return told, robot, gap(test, known, after) / gap(last, runs, before)
 
 
-@pytest.mark.parametrize("drift", [Drift(-0.3), Drift(-0.15, gain=0.8), Drift(0.2)], ids=str)
+@pytest.mark.parametrize(
+    "drift",
+    [
+        pytest.param(Drift(-0.3), marks=pytest.mark.long),
+        Drift(-0.15, gain=0.8),
+        pytest.param(Drift(0.2), marks=pytest.mark.long),
+    ],
+    ids=str,
+)
 def test_a_large_drift_is_found_and_written_as_it_is(drift: Drift, tmp_path: Path) -> None:
     told, robot, left = mended([logged(tmp_path, seed, drift) for seed in (1, 2, 3)], two_links(tmp_path))
     assert told["torque_drift2"] == pytest.approx(drift.drift, rel=0.05)
