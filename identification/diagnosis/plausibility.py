@@ -39,7 +39,12 @@ def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
     base, values = bank.base, found.search.values
     std = np.sqrt(np.diag(found.search.covariance))[: len(base)]
     # Beside another law of its joint the model's own friction may come out as what that one has too much.
-    explained = {one.joints[0] for one in found.findings if len(one.joints) == 1}
+    rest = {one.joint: one.size for one in found.after.lack if one.told}
+    explained = {
+        one.joints[0]
+        for one in found.findings
+        if len(one.joints) == 1 and one.evidence.size > rest.get(one.joints[0], 0.0)
+    }
     directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), explained)
     return suspect(runs, regressors, left)
 
