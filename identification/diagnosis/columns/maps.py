@@ -18,8 +18,6 @@ Array = NDArray[np.float64]
 
 #: Places along a joint's range, and along its speeds, between which a torque is even.
 _PLACES, _SPEEDS = 24, 8
-#: Places along the range between which what a speed makes is even.
-_REGIONS = 6
 #: Times [s] within which a torque fades after a reversal.
 _FADING = (0.1, 0.4)
 
@@ -28,9 +26,8 @@ def maps(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> list[list[Array]]
     """By joint and run, rows (m x rows) of what may act on it, the same m in all runs; zero in one that repeats, and
     none where all do.
 
-    The torque at places of the range, forward and backward, at speeds, and by the speed at places; what other joints'
-    speeds drag, and drag against the joint's own motion, as does what their places change; and what fades after a
-    reversal.
+    The torque at places of the range, forward and backward, and at speeds; what other joints' speeds drag, and drag
+    against the joint's own motion; and what fades after a reversal.
     """
     if all(run.period for run in runs):
         return []
@@ -42,9 +39,7 @@ def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
     sizes = {
         "its place": 2 * _PLACES,
         "its speed": _SPEEDS,
-        "its speed by its place": _REGIONS,
         **{f"the speed of joint {number}": 2 for i, number in enumerate(joints) if i != k},
-        **{f"its direction by the place of joint {number}": 2 for i, number in enumerate(joints) if i != k},
         "the time since it turned round": len(_FADING),
     }
     ends = np.cumsum([*sizes.values()]).tolist()
@@ -52,7 +47,7 @@ def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
 
 
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
-    ends = [_ends([scene.motion.q[j] for scene in scenes]) for j in range(len(scenes[0].motion.q))]
+    ends = _ends([scene.motion.q[k] for scene in scenes])
     fastest = max(float(np.abs(scene.motion.qd[k]).max()) for scene in scenes)
     every = [run.decimated(_columns(scene, k, ends, fastest)) for run, scene in zip(runs, scenes, strict=True)]
     return [np.zeros_like(rows) if run.period else rows for run, rows in zip(runs, every, strict=True)]
@@ -62,18 +57,15 @@ def _ends(signals: Sequence[Array]) -> tuple[float, float]:
     return min(float(x.min()) for x in signals), max(float(x.max()) for x in signals)
 
 
-def _columns(scene: Scene, k: int, ends: Sequence[tuple[float, float]], fastest: float) -> Array:
-    """Columns (m x N) at the recorded rate, kind by kind as ``groups`` has them; ``ends`` are those of the joints."""
+def _columns(scene: Scene, k: int, ends: tuple[float, float], fastest: float) -> Array:
+    """Columns (m x N) at the recorded rate, kind by kind as ``groups`` has them."""
     q, qd = scene.motion.q[k], scene.motion.qd
     sign = np.sign(qd[k])
-    place = _tents(q, ends[k], _PLACES)
+    place = _tents(q, ends, _PLACES)
     speed = _tents(qd[k], (-fastest, fastest), _SPEEDS)
-    both = qd[k] * _tents(q, ends[k], _REGIONS)
     drag = [row for other in np.delete(qd, k, axis=0) for row in (other, sign * np.abs(other))]
-    others = [_centred(x, ends[j]) for j, x in enumerate(scene.motion.q) if j != k]
-    held = [sign * row for x in others for row in (x, x**2)]
     fading = [sign * np.exp(-since_reversal(scene, k) / time) for time in _FADING]
-    return np.concatenate([place, sign * place, speed, both, [*drag, *held, *fading]])
+    return np.concatenate([place, sign * place, speed, [*drag, *fading]])
 
 
 def _tents(x: Array, ends: tuple[float, float], count: int) -> Array:
@@ -81,9 +73,3 @@ def _tents(x: Array, ends: tuple[float, float], count: int) -> Array:
     lower, upper = ends
     at = (x - lower) / max(upper - lower, 1e-12) * (count - 1)
     return np.asarray(np.maximum(1 - np.abs(at - np.arange(count)[:, None]), 0.0))
-
-
-def _centred(x: Array, ends: tuple[float, float]) -> Array:
-    """From -1 at one end to 1 at the other."""
-    lower, upper = ends
-    return np.asarray((2 * x - lower - upper) / max(upper - lower, 1e-12))

@@ -12,6 +12,7 @@ from identification.diagnosis.runs.stated_elasticity import names_of_backlash, s
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
+from identification.diagnosis.verdict.crossed import crossed
 from identification.diagnosis.verdict.drifting import drifting
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
@@ -64,8 +65,8 @@ def unexplained(
 
     In this order: large residuals, on joints of what was found and is ``gone`` beside noise alone; torques that drift
     or sway by themselves; findings, by effect and joint, on whose amplitude the runs are ``disagreeing``; where nothing
-    was found what noise may hide, and ripples, which are told beside large residuals too; and parameters that have
-    ``other`` values than are known.
+    was found what noise may hide, friction of two variables, and ripples, which are told beside large residuals too;
+    and parameters that have ``other`` values than are known.
     """
     bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
     large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
@@ -75,7 +76,8 @@ def unexplained(
     if nothing:
         overlooked = _overlooked(found, trial)
     fine = {} if overlooked or doubtful else _rippling(found)
-    alone = fine if nothing else {}
+    both = _crossing(found) if nothing and not overlooked else {}
+    alone = both or fine if nothing else {}
     lacks = large or doubtful or [last.lack[k] for k in overlooked or alone]
     where = _along_range(_over_time(located(last, lacks), overlooked), alone)
     reason = AMPLITUDES if doubtful else ""
@@ -83,7 +85,9 @@ def unexplained(
     if pulling is not None:
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
-    return Unexplained(tuple(lacks), where, reason, tuple(bounces), (*overlooked.values(), *fine.values()))
+    return Unexplained(
+        tuple(lacks), where, reason, tuple(bounces), (*overlooked.values(), *both.values(), *fine.values())
+    )
 
 
 def _bounces(found: Search) -> dict[int, float]:
@@ -174,6 +178,15 @@ def _rippling(found: Search) -> dict[int, str]:
     }
 
 
+def _crossing(found: Search) -> dict[int, str]:
+    """By coordinate, the worst first, whose friction follows two variables at once, in words."""
+    seen, numbers = crossed(found, found.weights), found.bank.robot.numbers
+    return {
+        k: f"{100 * seen[k][1]:.0f} % of what is left of joint {numbers[k]} is friction that follows {seen[k][0]}"
+        for k in sorted(seen, key=lambda k: -seen[k][1])
+    }
+
+
 def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
     """Where the runs say what was ``overlooked`` they do not say over which variable."""
     if not overlooked:
@@ -182,9 +195,9 @@ def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
     return replace(after, joint=first, variable="time", region="changes with time or from run to run", shares={})
 
 
-def _along_range(after: Where, fine: Mapping[int, str]) -> Where:
-    """Where the runs say that the torque ripples, too ``fine`` for means over the position."""
-    if not fine:
+def _along_range(after: Where, alone: Mapping[int, str]) -> Where:
+    """Where ripples and friction of two variables ``alone`` say so, which means over the position do not show."""
+    if not alone:
         return after
-    first = after.lack[next(iter(fine))].joint
-    return replace(after, joint=first, variable="q", region="a ripple along the range", shares={})
+    first = after.lack[next(iter(alone))].joint
+    return replace(after, joint=first, variable="q", region="where no mean shows it", shares={})
