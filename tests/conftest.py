@@ -12,12 +12,14 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from generator.resources import robots
+from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.simulation.machine import Machine, compiled
 from tests.chains import every_effect, random_robot
 from tests.diagnosis.diagnosed import Known, known
 from tests.elastic_links import robot_text
 from tests.plant.robots import ROBOTS
+from tests.recorded import TRUTH, Recorded, recorded, two_links
 from tests.subject import Subject, subject
 
 FILES = {path.stem: path for path in robots()}
@@ -69,6 +71,18 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("elastic_links") / "two_links.yaml"
     path.write_text(robot_text())
     return path
+
+
+@pytest.fixture(scope="session")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    """Two links with drives, for modules without a ``robot`` of their own."""
+    return two_links(tmp_path_factory.mktemp("two_links")).model.robot
+
+
+@pytest.fixture(scope="session")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+    """A run of theirs in which nothing is wrong."""
+    return recorded(two_links(tmp_path_factory.mktemp("two_links")), TRUTH, duration=8.0)
 
 
 @pytest.fixture(scope="session")

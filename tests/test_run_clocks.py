@@ -10,17 +10,7 @@ import pytest
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.dataset import load
-from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
-
-
-@pytest.fixture(scope="module")
-def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    return two_links(tmp_path_factory.mktemp("robot")).model.robot
-
-
-@pytest.fixture(scope="module")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
-    return recorded(two_links(tmp_path_factory.mktemp("runs")), TRUTH, duration=8.0)
+from tests.recorded import Recorded, stacked
 
 
 def test_uneven_times_are_evened_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:

@@ -13,25 +13,10 @@ import scipy.io
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.dataset import Run, load
-from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
+from tests.recorded import Recorded, stacked
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
 KT = np.array([0.5, 0.4])
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("runs")
-
-
-@pytest.fixture(scope="module")
-def robot(folder: Path) -> Robot:
-    return two_links(folder).model.robot
-
-
-@pytest.fixture(scope="module")
-def good(folder: Path) -> Recorded:
-    return recorded(two_links(folder), TRUTH, duration=8.0)
 
 
 def same(run: Run, good: Recorded) -> bool:

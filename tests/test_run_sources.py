@@ -11,22 +11,7 @@ from generator.robot.description import Robot
 from identification import sidecar
 from identification.dataset import load
 from identification.run_source import RunSource, part_of
-from tests.recorded import TRUTH, Recorded, recorded, two_links
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("runs")
-
-
-@pytest.fixture(scope="module")
-def robot(folder: Path) -> Robot:
-    return two_links(folder).model.robot
-
-
-@pytest.fixture(scope="module")
-def good(folder: Path) -> Recorded:
-    return recorded(two_links(folder), TRUTH, duration=8.0)
+from tests.recorded import Recorded
 
 
 def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:

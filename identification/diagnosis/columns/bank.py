@@ -250,6 +250,15 @@ class Bank:
                 joint.white = colour.white(np.asarray([*joint.rows, joint.tau]), joint.kept)
         self.grams = [self._gram(r) for r in range(len(self.runs))]
 
+    @property
+    def alone(self) -> tuple[int, ...]:
+        """Numbers of the runs of which no periods are compared."""
+        return tuple(r for r, run in enumerate(self.runs) if not run.period)
+
+    def whitened(self, run: int, joint: int, rows: Array) -> Array:
+        """Rows (m x N) of a joint along a run as white kept ones."""
+        return self.colours[run][joint].white(rows, self.runs[run].kept[joint])
+
     def residual(self, run: int, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
         """What ``values`` of columns by number leave of a joint's torque: white kept rows, or all rows as recorded."""
         one = self._joints[run][joint]

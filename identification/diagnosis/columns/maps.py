@@ -47,29 +47,30 @@ def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
 
 
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
-    ends = _ends([scene.motion.q[k] for scene in scenes])
+    span = ends([scene.motion.q[k] for scene in scenes])
     fastest = max(float(np.abs(scene.motion.qd[k]).max()) for scene in scenes)
-    every = [run.decimated(_columns(scene, k, ends, fastest)) for run, scene in zip(runs, scenes, strict=True)]
+    every = [run.decimated(_columns(scene, k, span, fastest)) for run, scene in zip(runs, scenes, strict=True)]
     return [np.zeros_like(rows) if run.period else rows for run, rows in zip(runs, every, strict=True)]
 
 
-def _ends(signals: Sequence[Array]) -> tuple[float, float]:
+def ends(signals: Sequence[Array]) -> tuple[float, float]:
+    """The least and the largest value of all ``signals`` (N each)."""
     return min(float(x.min()) for x in signals), max(float(x.max()) for x in signals)
 
 
-def _columns(scene: Scene, k: int, ends: tuple[float, float], fastest: float) -> Array:
+def _columns(scene: Scene, k: int, span: tuple[float, float], fastest: float) -> Array:
     """Columns (m x N) at the recorded rate, kind by kind as ``groups`` has them."""
     q, qd = scene.motion.q[k], scene.motion.qd
     sign = np.sign(qd[k])
-    place = _tents(q, ends, _PLACES)
+    place = _tents(q, span, _PLACES)
     speed = _tents(qd[k], (-fastest, fastest), _SPEEDS)
     drag = [row for other in np.delete(qd, k, axis=0) for row in (other, sign * np.abs(other))]
     fading = [sign * np.exp(-since_reversal(scene, k) / time) for time in _FADING]
     return np.concatenate([place, sign * place, speed, [*drag, *fading]])
 
 
-def _tents(x: Array, ends: tuple[float, float], count: int) -> Array:
+def _tents(x: Array, span: tuple[float, float], count: int) -> Array:
     """Functions (count x N) of x that are 1 at one of even places between two ends and fall to 0 at the next ones."""
-    lower, upper = ends
+    lower, upper = span
     at = (x - lower) / max(upper - lower, 1e-12) * (count - 1)
     return np.asarray(np.maximum(1 - np.abs(at - np.arange(count)[:, None]), 0.0))

@@ -5,15 +5,16 @@ Where nothing repeats such a ripple counts as noise: it is too fine for maps of 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import f
 
 from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.maps import ends
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.explained import explained
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 
 Array = NDArray[np.float64]
@@ -24,6 +25,8 @@ _LEAST = 0.1
 _FEWEST, _FINE = 4, 4
 #: Part of half a turn by which a ripple advances from row to row, at the joint's rms speed, in the finest tried.
 _ADVANCE = 0.8
+#: Places in the finest ripple between which rows are not told apart in looking for it.
+_PLACES = 16
 #: Fewest rows of a joint.
 _ROWS = 100
 
@@ -38,54 +41,44 @@ class Ripple:
 
 def ripples(found: Search, weights: Mapping[int, float]) -> dict[int, Ripple]:
     """By coordinate, the ripple of runs that do not repeat with values of columns by number, where it is no chance."""
-    bank = found.bank
-    alone = [r for r, run in enumerate(bank.runs) if not run.period]
-    result = {}
+    bank, result = found.bank, {}
     for k in range(bank.dof):
-        waves = _waves(bank, alone, k)
-        if not len(waves):
+        if sum(int(bank.runs[r].kept[k].sum()) for r in bank.alone) < _ROWS:
             continue
-        raw = np.concatenate([bank.residual(r, k, weights, white=False) for r in alone])
-        q = np.concatenate([bank.runs[r].decimated(bank.scenes[r].motion.q[k]) for r in alone])
-        kept = np.concatenate([bank.runs[r].kept[k] for r in alone])
-        turns = np.exp(1j * np.outer(waves, q[kept]))
-        best = float(waves[int(np.argmax(np.abs(turns @ raw[kept])))])
-        one = _fitted(bank, alone, k, best, weights, len(waves))
-        if one is not None:
-            result[k] = one
+        wave, tried = _strongest(bank, k, weights)
+        if not tried:
+            continue
+        e = np.concatenate([bank.residual(r, k, weights) for r in bank.alone])
+        one = explained(np.concatenate([_columns(bank, r, k, wave) for r in bank.alone], axis=1), e)
+        if tried * one.p < CHANCE and one.part >= _LEAST:
+            result[k] = Ripple(2 * np.pi / wave, one.part)
     return result
 
 
-def _waves(bank: Bank, alone: Sequence[int], k: int) -> Array:
-    """Wave numbers [rad/rad, rad/m] that are tried; none where rows are few."""
-    if sum(int(bank.runs[r].kept[k].sum()) for r in alone) < _ROWS:
-        return np.zeros(0)
-    motions = [bank.scenes[r].motion for r in alone]
-    length = max(float(one.q[k].max()) for one in motions) - min(float(one.q[k].min()) for one in motions)
+def _strongest(bank: Bank, k: int, weights: Mapping[int, float]) -> tuple[float, int]:
+    """The wave number [rad/rad, rad/m] of which the residual as recorded holds most, and of how many; 0 of none."""
+    motions = [bank.scenes[r].motion for r in bank.alone]
+    lower, upper = ends([one.q[k] for one in motions])
     speed = float(np.sqrt(np.mean(np.concatenate([one.qd[k] ** 2 for one in motions]))))
+    length = upper - lower
     if not length or not speed:
-        return np.zeros(0)
-    finest = _ADVANCE * np.pi * min(bank.runs[r].rate for r in alone) / speed
-    return np.asarray(np.arange(_FEWEST * _FINE, finest * length * _FINE / (2 * np.pi)) * 2 * np.pi / (length * _FINE))
-
-
-def _fitted(
-    bank: Bank, alone: Sequence[int], k: int, wave: float, weights: Mapping[int, float], tried: int
-) -> Ripple | None:
-    """A ripple of wave number ``wave``, the best of those ``tried``, by the white rows of all runs; None by chance."""
-    e = np.concatenate([bank.residual(r, k, weights) for r in alone])
-    X = np.concatenate([_columns(bank, r, k, wave) for r in alone], axis=1)
-    explained = float(np.sum((np.linalg.qr(X.T)[0].T @ e) ** 2))
-    left = float(e @ e) - explained
-    free = len(e) - len(X)
-    ratio = (explained / len(X)) / max(left / free, 1e-300)
-    part = explained / float(e @ e)
-    by_chance = tried * float(f.sf(ratio, len(X), free)) > CHANCE
-    return None if by_chance or part < _LEAST else Ripple(2 * np.pi / wave, part)
+        return 0.0, 0
+    slowest = min(bank.runs[r].rate for r in bank.alone)
+    most = _ADVANCE * slowest * length / (2 * speed)
+    first, last = _FEWEST * _FINE, int(np.ceil(most * _FINE))
+    if last <= first:
+        return 0.0, 0
+    kept = np.concatenate([bank.runs[r].kept[k] for r in bank.alone])
+    e = np.concatenate([bank.residual(r, k, weights, white=False) for r in bank.alone])[kept]
+    q = np.concatenate([bank.runs[r].decimated(bank.scenes[r].motion.q[k]) for r in bank.alone])[kept]
+    places = int(np.ceil(_PLACES * most))
+    at = np.clip((q - lower) / length * places, 0, places - 1).astype(int)
+    sums = np.bincount(at, weights=e, minlength=places)
+    power = np.abs(np.fft.rfft(sums, _FINE * places))[first:last]
+    return 2 * np.pi * (first + int(np.argmax(power))) / (length * _FINE), last - first
 
 
 def _columns(bank: Bank, r: int, k: int, wave: float) -> Array:
     """White kept rows (2 x N) of cosine and sine along the range."""
-    run, angle = bank.runs[r], wave * bank.scenes[r].motion.q[k]
-    rows = run.decimated(np.stack([np.cos(angle), np.sin(angle)]))
-    return np.asarray(bank.colours[r][k].white(rows, run.kept[k]))
+    angle = wave * bank.scenes[r].motion.q[k]
+    return bank.whitened(r, k, bank.runs[r].decimated(np.stack([np.cos(angle), np.sin(angle)])))

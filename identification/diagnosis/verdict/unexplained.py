@@ -12,12 +12,12 @@ from identification.diagnosis.runs.stated_elasticity import names_of_backlash, s
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
-from identification.diagnosis.verdict.crossed import crossed
+from identification.diagnosis.verdict.crossed import Crossed, crossed
 from identification.diagnosis.verdict.drifting import drifting
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
-from identification.diagnosis.verdict.ripples import ripples
-from identification.diagnosis.verdict.tones import tones
+from identification.diagnosis.verdict.ripples import Ripple, ripples
+from identification.diagnosis.verdict.tones import Tone, tones
 from identification.diagnosis.verdict.trial import Trial
 from identification.diagnosis.verdict.where import Where, located
 from identification.residuals import rms
@@ -75,19 +75,22 @@ def unexplained(
     nothing = not (large or overlooked or doubtful or found.choices)
     if nothing:
         overlooked = _overlooked(found, trial)
-    fine = {} if overlooked or doubtful else _rippling(found)
-    both = _crossing(found) if nothing and not overlooked else {}
-    alone = both or fine if nothing else {}
-    lacks = large or doubtful or [last.lack[k] for k in overlooked or alone]
-    where = _along_range(_over_time(located(last, lacks), overlooked), alone)
+    rippling = {} if overlooked or doubtful else _rippling(found)
+    crossing = _crossing(found) if nothing and not overlooked else {}
+    unseen = crossing or rippling if nothing else {}
+    lacks = large or doubtful or [last.lack[k] for k in overlooked or unseen]
+    where = located(last, lacks)
+    if overlooked:
+        where = _told_by(overlooked, where, "time", "changes with time or from run to run")
+    elif unseen:
+        where = _told_by(unseen, where, "q", "where no mean shows it")
     reason = AMPLITUDES if doubtful else ""
     pulling = None if lacks or found.choices else pulled(found, other)
     if pulling is not None:
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
-    return Unexplained(
-        tuple(lacks), where, reason, tuple(bounces), (*overlooked.values(), *both.values(), *fine.values())
-    )
+    told = (*overlooked.values(), *crossing.values(), *rippling.values())
+    return Unexplained(tuple(lacks), where, reason, tuple(bounces), told)
 
 
 def _bounces(found: Search) -> dict[int, float]:
@@ -135,69 +138,67 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
     numbers = found.bank.robot.numbers
     most = untold(found, found.start)
     tested = {} if trial is None else untested(found, trial)
-    said = {
+    return {
         k: f"most of how the torque of joint {numbers[k]} varies follows from nothing, too slowly for noise"
-        for k in sorted(most, key=lambda k: -most[k])
-    }
-    said |= {
+        for k in _worst_first(most)
+    } | {
         k: f"the runs that test keep {tested[k]:.2g} times the noise on joint {numbers[k]}, the others do not: what is "
         "missing there changes from run to run, or with time"
-        for k in sorted(tested, key=lambda k: -tested[k])
+        for k in _worst_first(tested)
         if k not in most
     }
-    return said
 
 
 def _drifting(found: Search) -> dict[int, str]:
     """By coordinate, the worst first, whose torque drifts, in words."""
-    sizes = drifting(found, found.weights)
+    sizes, numbers = drifting(found, found.weights), found.bank.robot.numbers
     return {
-        k: f"the torque of joint {found.bank.robot.numbers[k]} drifts while its motion repeats, by {sizes[k]:.2g} "
-        "times what else differs between the periods"
-        for k in sorted(sizes, key=lambda k: -sizes[k])
+        k: f"the torque of joint {numbers[k]} drifts while its motion repeats, by {sizes[k]:.2g} times what else "
+        "differs between the periods"
+        for k in _worst_first(sizes)
     }
 
 
 def _swaying(found: Search) -> dict[int, str]:
     """By coordinate, the worst first, whose torque oscillates by itself, in words."""
-    seen = tones(found, found.weights)
-    return {
-        k: f"{100 * seen[k].part:.0f} % of what differs between the periods of joint {found.bank.robot.numbers[k]} is "
-        f"an oscillation of {seen[k].frequency:.3g} Hz that does not follow the motion"
-        for k in sorted(seen, key=lambda k: -seen[k].part)
-    }
+    return _of_parts(
+        found,
+        tones(found, found.weights),
+        "{percent:.0f} % of what differs between the periods of joint {joint.number} is an oscillation of "
+        "{one.frequency:.3g} Hz that does not follow the motion",
+    )
 
 
 def _rippling(found: Search) -> dict[int, str]:
     """By coordinate, the worst first, whose torque ripples along the range at a period of its own, in words."""
-    seen, moving = ripples(found, found.weights), found.bank.robot.moving
-    return {
-        k: f"{100 * seen[k].part:.0f} % of what is left of joint {moving[k].number} is a ripple along its range, "
-        f"every {seen[k].length:.3g} {moving[k].position_unit}, which is in no effect"
-        for k in sorted(seen, key=lambda k: -seen[k].part)
-    }
+    return _of_parts(
+        found,
+        ripples(found, found.weights),
+        "{percent:.0f} % of what is left of joint {joint.number} is a ripple along its range, every {one.length:.3g} "
+        "{joint.position_unit}, which is in no effect",
+    )
 
 
 def _crossing(found: Search) -> dict[int, str]:
     """By coordinate, the worst first, whose friction follows two variables at once, in words."""
-    seen, numbers = crossed(found, found.weights), found.bank.robot.numbers
-    return {
-        k: f"{100 * seen[k][1]:.0f} % of what is left of joint {numbers[k]} is friction that follows {seen[k][0]}"
-        for k in sorted(seen, key=lambda k: -seen[k][1])
-    }
+    return _of_parts(
+        found,
+        crossed(found, found.weights),
+        "{percent:.0f} % of what is left of joint {joint.number} is friction that follows {one.follows}",
+    )
 
 
-def _over_time(after: Where, overlooked: Mapping[int, str]) -> Where:
-    """Where the runs say what was ``overlooked`` they do not say over which variable."""
-    if not overlooked:
-        return after
-    first = after.lack[next(iter(overlooked))].joint
-    return replace(after, joint=first, variable="time", region="changes with time or from run to run", shares={})
+def _of_parts(found: Search, seen: Mapping[int, Tone | Ripple | Crossed], words: str) -> dict[int, str]:
+    """By coordinate, the largest part first, what was ``seen`` in ``words`` with the joint, the one and its percent."""
+    moving = found.bank.robot.moving
+    order = _worst_first({k: one.part for k, one in seen.items()})
+    return {k: words.format(joint=moving[k], one=seen[k], percent=100 * seen[k].part) for k in order}
 
 
-def _along_range(after: Where, alone: Mapping[int, str]) -> Where:
-    """Where ripples and friction of two variables ``alone`` say so, which means over the position do not show."""
-    if not alone:
-        return after
-    first = after.lack[next(iter(alone))].joint
-    return replace(after, joint=first, variable="q", region="where no mean shows it", shares={})
+def _worst_first(sizes: Mapping[int, float]) -> list[int]:
+    return sorted(sizes, key=lambda k: -sizes[k])
+
+
+def _told_by(said: Mapping[int, str], after: Where, variable: str, region: str) -> Where:
+    """On the joint of which most was ``said``, where no mean over a variable says it."""
+    return replace(after, joint=after.lack[next(iter(said))].joint, variable=variable, region=region, shares={})

@@ -85,11 +85,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
 def _rounded(found: Search, k: int) -> float:
     """Mean square of what rounding of positions and efforts makes of white rows of a joint, in runs that repeat."""
     bank = found.bank
-    rows = [
-        colours[k].white(one[k][None], run.kept[k])[0]
-        for colours, one, run in zip(bank.colours, found.rounded, bank.runs, strict=True)
-        if run.times
-    ]
+    rows = [bank.whitened(r, k, one[k][None])[0] for r, one in enumerate(found.rounded) if bank.runs[r].times]
     return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
 
 
@@ -98,7 +94,7 @@ def late(found: Search, r: int, k: int) -> Array:
     bank = found.bank
     run, scene = bank.runs[r], bank.scenes[r]
     change = run.decimated(_HALF_SAMPLE * scene.period * scene.derivative(scene.torque[k]))
-    return np.asarray(bank.colours[r][k].white(change[None], run.kept[k])[0])
+    return np.asarray(bank.whitened(r, k, change[None])[0])
 
 
 def located(seen: Where, among: Sequence[Lack]) -> Where:

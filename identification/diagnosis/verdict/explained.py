@@ -1,0 +1,38 @@
+"""How much of a residual is a sum of some rows, and how likely chance makes as much of it: an F test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import f
+
+Array = NDArray[np.float64]
+
+#: Least singular value of rows, in parts of the largest, that counts.
+_RANK = 1e-6
+
+
+@dataclass(frozen=True)
+class Explained:
+    """The ``part`` of the squares that rows of ``rank`` explain; the ``ratio`` of means of squares is 1 for noise and
+    has the p-value ``p``.
+    """
+
+    rank: int
+    part: float
+    ratio: float
+    p: float
+
+
+def explained(X: Array, e: Array) -> Explained:
+    """What the rows of X (m x N) explain of the residual e (N), beyond what as many rows of noise do."""
+    _, s, V = np.linalg.svd(X, full_matrices=False)
+    V = V[s > _RANK * s.max(initial=0.0)]
+    rank, free, whole = len(V), len(e) - len(V), float(e @ e)
+    if not rank or free < 1 or not whole:
+        return Explained(rank, 0.0, 1.0, 1.0)
+    along = float(np.sum((V @ e) ** 2))
+    ratio = (along / rank) / max((whole - along) / free, 1e-300)
+    return Explained(rank, along / whole, ratio, float(f.sf(ratio, rank, free)))
