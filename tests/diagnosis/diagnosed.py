@@ -111,13 +111,13 @@ def rows(x: Array) -> Array:
 
 
 def fitted(columns: Array, truth: Array, kept: Array, scene: Scene) -> tuple[Array, float]:
-    """Coefficients that make the truth, and the cosine between the two; joints by their torque."""
+    """Coefficients that make the truth, and the cosine between the two (zeros: 0); joints by their torque."""
     scale = np.sqrt(np.mean(scene.torque**2, axis=1, keepdims=True))
     A = rows(columns / scale)[:, kept].T
     y = rows(truth / scale)[kept]
     x = np.linalg.lstsq(A, y, rcond=None)[0]
     fit = A @ x
-    return x, float(fit @ y / (np.linalg.norm(fit) * np.linalg.norm(y)))
+    return x, float(fit @ y / (np.linalg.norm(fit) * np.linalg.norm(y))) if fit.any() else 0.0
 
 
 def with_robot(scene: Scene, robot: Described) -> Scene:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks
 from identification.diagnosis.verdict.unexplained import Unexplained
@@ -100,8 +99,9 @@ def test_a_jump_between_two_samples_may_come_late() -> None:
     jump = np.where(np.arange(count) < count // 2, 0.0, 8.0)
     slow = 8 * np.sin(2 * np.pi * 0.25 * period * np.arange(count))
     scene = SimpleNamespace(period=period, torque=np.stack([jump, slow]), derivative=lambda x: np.gradient(x, period))
-    run = SimpleNamespace(decimated=lambda x: x, kept=np.ones((2, count), dtype=bool))
-    colour = Colour((np.ones(1),), (1.0,))
-    found: Any = SimpleNamespace(bank=SimpleNamespace(runs=[run], scenes=[scene], colours=[[colour, colour]]))
+    bank = SimpleNamespace(
+        runs=[SimpleNamespace(decimated=lambda x: x)], scenes=[scene], whitened=lambda run, joint, rows: rows
+    )
+    found: Any = SimpleNamespace(bank=bank)
     assert late(found, 0, 0).max() == pytest.approx(2.0)
     assert np.abs(late(found, 0, 1)).max() < 0.1
