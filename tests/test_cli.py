@@ -154,6 +154,15 @@ def test_check_says_that_a_file_is_good(pendulum: Path, capsys: pytest.CaptureFi
     assert done.status == 0
 
 
+def test_check_tells_values_that_no_robot_can_have(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pendulum.write_text(PENDULUM.replace("MX1: 3", "MX1: -3").replace("Fv1: 0.25", "Fv1: -0.25") + "      M1: -5 kg\n")
+    _, *notes = command("check", pendulum, capsys=capsys).out.splitlines()
+    assert notes == [
+        f"note: {pendulum}:18:7: M1 of the set light is -5, which no robot can have",
+        f"note: {pendulum}:16:7: Fv1 of the set light is -0.25, which no robot can have",
+    ]
+
+
 def test_check_refuses_a_set_with_a_parameter_the_robot_lacks(
     pendulum: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

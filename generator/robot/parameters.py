@@ -37,6 +37,10 @@ class Parameter:
     lower: float | None = None
     upper: float | None = None
 
+    def allows(self, value: float) -> bool:
+        """Whether ``value`` is within the physical bounds."""
+        return (self.lower is None or value >= self.lower) and (self.upper is None or value <= self.upper)
+
 
 def inertial_parameters(joint: Joint) -> tuple[Parameter, ...]:
     """The ten inertial parameters of the body that frame ``joint`` carries, XX XY XZ YY YZ ZZ MX MY MZ M."""

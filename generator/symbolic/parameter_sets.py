@@ -59,6 +59,12 @@ def resolved(model: Model, values: Values) -> dict[str, float]:
     return dict(zip(names, parameter_vector(model, values).tolist(), strict=True))
 
 
+def impossible(model: Model, values: Values) -> list[str]:
+    """Names of those of ``values`` whose sign matter does not have: a mass or a friction coefficient below zero."""
+    known = {parameter.name: parameter for parameter in model.standard_parameters if parameter.name in values}
+    return [name for name, parameter in known.items() if not parameter.allows(values[name].value)]
+
+
 #: Where a set's names are those of other groupings.
 _REGROUPED = "a set of another geometry has other groupings, counterpoise review tells those of this file"
 
