@@ -10,14 +10,13 @@ from generator import expressions
 from generator.errors import InputError, Place
 from generator.robot import fields
 from generator.robot.document import Entry, Text
-from generator.robot.parameters import INERTIAL
+from generator.robot.parameters import INERTIAL, NOT_NEGATIVE
 from generator.robot.readers import document
 from identification.formula import Formula, formulas
 
 _UNKNOWN = "unknown"
 #: SI units of the ten parameters by stem.
 UNITS = {stem: unit for stem, unit, _ in INERTIAL}
-_NOT_NEGATIVE = ("XX", "YY", "ZZ", "M")
 #: Name of a payload that nobody named, and letters of one at most.
 _UNNAMED, _LONGEST = "L", 8
 
@@ -115,7 +114,7 @@ def _name(name: str, place: Place) -> str:
 
 def _possible(stem: str, value: float, place: Place) -> float:
     """``value`` [SI] itself; raises InputError for a mass or a moment of inertia that is negative."""
-    if value < 0 and stem in _NOT_NEGATIVE:
+    if value < 0 and stem in NOT_NEGATIVE:
         raise InputError(place, f"{stem}={value:g}", "a number that is not negative")
     return value
 

@@ -158,8 +158,8 @@ def test_check_tells_values_that_no_robot_can_have(pendulum: Path, capsys: pytes
     pendulum.write_text(PENDULUM.replace("MX1: 3", "MX1: -3").replace("Fv1: 0.25", "Fv1: -0.25") + "      M1: -5 kg\n")
     _, *notes = command("check", pendulum, capsys=capsys).out.splitlines()
     assert notes == [
-        f"note: {pendulum}:18:7: M1 of the set light is -5, which no robot can have",
         f"note: {pendulum}:16:7: Fv1 of the set light is -0.25, which no robot can have",
+        f"note: {pendulum}:18:7: M1 of the set light is -5, which no robot can have",
     ]
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from generator.robot.description import Joint
 
+#: What is a sum of masses times squares, which is never negative.
+NOT_NEGATIVE = ("XX", "YY", "ZZ", "M")
 #: Stem, unit and meaning, in the standard order; tensor and first moments about the frame's origin, in its axes.
 INERTIAL = (
     ("XX", "kg m2", "moment of inertia about x, about the frame's origin"),
@@ -45,6 +47,6 @@ class Parameter:
 def inertial_parameters(joint: Joint) -> tuple[Parameter, ...]:
     """The ten inertial parameters of the body that frame ``joint`` carries, XX XY XZ YY YZ ZZ MX MY MZ M."""
     return tuple(
-        Parameter(f"{stem}{joint.number}", unit, joint.number, meaning, 0.0 if stem == "M" else None)
+        Parameter(f"{stem}{joint.number}", unit, joint.number, meaning, 0.0 if stem in NOT_NEGATIVE else None)
         for stem, unit, meaning in INERTIAL
     )

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from generator.robot import parameters
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, array
 
 #: The ten inertial parameters of a body in SYMORO's order (report eq. 4).
-INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+INERTIAL = tuple(stem for stem, _, _ in parameters.INERTIAL)
 
 
 @dataclass(frozen=True)

@@ -60,9 +60,9 @@ def resolved(model: Model, values: Values) -> dict[str, float]:
 
 
 def impossible(model: Model, values: Values) -> list[str]:
-    """Names of those of ``values`` whose sign matter does not have: a mass or a friction coefficient below zero."""
-    known = {parameter.name: parameter for parameter in model.standard_parameters if parameter.name in values}
-    return [name for name, parameter in known.items() if not parameter.allows(values[name].value)]
+    """Names of those of ``values`` that are beyond physical bounds: a mass or a friction coefficient below zero."""
+    known = {one.name: one for one in (*model.all_parameters, *model.standard_parameters)}
+    return [name for name, value in values.items() if not known[name].allows(value.value)]
 
 
 #: Where a set's names are those of other groupings.

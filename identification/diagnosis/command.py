@@ -61,16 +61,16 @@ def diagnosed(
     regressors = Regressors(preferring(robot, wanted.prior))
     prior = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
-    ready = _ready(wanted, robot, regressors)
-    notes += [note for run in ready.recorded for note in run.notes]
+    given = _runs(wanted, robot, regressors)
+    notes += [note for run in given.recorded for note in run.notes]
 
     def progress(text: str) -> None:
         with stage(text):
             pass
 
     with replacing(folder, GENERATED) as fresh:
-        tests = ready.tests if ready.roles.untouched else ()
-        found = diagnose(regressors, ready.runs, ready.roles, prior, progress, wanted.dry, tests)
+        tests = given.tests if given.roles.untouched else ()
+        found = diagnose(regressors, given.runs, given.roles, prior, progress, wanted.dry, tests)
         ended = [*doubts(found, prior, wanted.dry), *_of_noise(found, wanted.dry)]
         found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
@@ -82,7 +82,7 @@ def diagnosed(
 
 
 @dataclass(frozen=True)
-class _Ready:
+class _Runs:
     """All runs as they were ``recorded`` and their roles; by the diagnosis' filters those that are fitted or validate,
     and the ``tests``.
     """
@@ -93,14 +93,14 @@ class _Ready:
     tests: Sequence[Prepared]
 
 
-def _ready(wanted: Request, robot: Robot, regressors: Regressors) -> _Ready:
+def _runs(wanted: Request, robot: Robot, regressors: Regressors) -> _Runs:
     """The runs that are asked for; raises InputError where one cannot be used, even if it is only played at the end."""
     recipe = recipes.recipe_of(robot.name)
 
     def read(sources: Sequence[str], resting: bool = True) -> list[Run]:
         return [load(source, robot, recipe.columns, resting=resting) for source in sources]
 
-    def ready(sources: Sequence[str]) -> list[Prepared]:
+    def looked_at(sources: Sequence[str]) -> list[Prepared]:
         # A part of a run that is good as a whole may stand still.
         parts = [whole[source] if source in whole else read([source])[0] for source in sources]
         return [prepared(run, recipe, regressors) for run in parts]
@@ -110,11 +110,11 @@ def _ready(wanted: Request, robot: Robot, regressors: Regressors) -> _Ready:
         chosen = roles(fit, validating, last, tested=not wanted.dry)
         recorded = (*fit, *validating, *last)
         whole = {run.name: run for run in recorded}
-        train = ready(chosen.train)
-        runs = [*train, *ready(chosen.validate)]
+        train = looked_at(chosen.train)
+        runs = [*train, *looked_at(chosen.validate)]
         if not any(run.kept.any() for run in train):
             raise InputError(fit[0].place, "no joint moves in the runs that are fitted", "runs in motion")
-        return _Ready(recorded, chosen, runs, ready(chosen.test))
+        return _Runs(recorded, chosen, runs, looked_at(chosen.test))
 
 
 def _of_noise(found: Diagnosis, dry: bool) -> list[str]:

@@ -5,22 +5,38 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
+from numpy.typing import NDArray
 
 from generator.robot.readers import read
+from identification.diagnosis.runs.prepared import Prepared
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import ARM, ready
 from tests.recorded import Recorded
 
 
-def test_a_reversal_passes_between_two_samples(tmp_path: Path) -> None:
-    (tmp_path / "arm.yaml").write_text(ARM)
-    regressors = Regressors(read(tmp_path / "arm.yaml"))
-    t = np.arange(1500) / 100.0
-    q = np.sin(0.9 * t) + 0.3 * np.sin(11.3 * t)
+def moved(folder: Path, t: NDArray[np.float64], q: NDArray[np.float64]) -> Prepared:
+    """A run along ``q`` [rad] at times ``t`` [s], as the diagnosis looks at it."""
+    (folder / "arm.yaml").write_text(ARM)
     tau = np.sign(np.gradient(q)) + 0.1 * np.sin(3.7 * t)
-    run = ready(str(Recorded({"t": t, "q1": q, "tau1": tau}).save(tmp_path / "a.csv")), regressors)
+    run = Recorded({"t": t, "q1": q, "tau1": tau}).save(folder / "a.csv")
+    return ready(str(run), Regressors(read(folder / "arm.yaml")))
+
+
+def test_a_reversal_passes_between_two_samples(tmp_path: Path) -> None:
+    t = np.arange(1500) / 100.0
+    run = moved(tmp_path, t, np.sin(0.9 * t) + 0.3 * np.sin(11.3 * t))
     speed = 0.9 * np.cos(0.9 * t) + 3.39 * np.cos(11.3 * t)
     turned = t[1:][np.diff(np.sign(speed)) != 0]
     kept = run.t[run.kept[0]]
     assert len(kept) > 100
     assert np.abs(kept[:, None] - turned).min() > 0.03
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 125.0, 250.0])
+@pytest.mark.parametrize("frequency", [1.0, 1.7, 2.2, 2.9, 3.6, 4.5, 5.2])
+def test_a_joint_that_swings_keeps_rows(frequency: float, rate: float, tmp_path: Path) -> None:
+    """Whatever its frequency: a reversal costs time before and after, and that of the row itself."""
+    t = np.arange(round(20 * rate)) / rate
+    run = moved(tmp_path, t, 0.4 * np.cos(2 * np.pi * frequency * t))
+    assert np.mean(run.kept[0]) > 0.25

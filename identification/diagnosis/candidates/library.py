@@ -13,7 +13,7 @@ from generator.effects.library import library
 from generator.robot.description import Joint, Robot
 from identification.corrections import by_heat
 from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
-from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
 from identification.diagnosis.runs.link_side import link_side, rotor_inertia
@@ -43,7 +43,7 @@ _VARIABLES = (
     ("warmth", "time"),
     ("load", "load"),
     ("motor", "motor phase"),
-    ("state", "time since reversal"),
+    ("state", SINCE_REVERSAL),
     ("qdd", "qdd"),
 )
 
@@ -212,7 +212,7 @@ def _would_show(effect: Effect) -> str:
         "load": "the same motion with and without a payload",
         "time": "one long run after a cold start",
         "motor phase": "slow motion at constant speed",
-        "time since reversal": "slow reversals, sampled fast, with known friction",
+        SINCE_REVERSAL: "slow reversals, sampled fast, with known friction",
         "q by direction": "slow motion with reversals over the joint's whole range",
     }
     return shows[_variable(effect)]

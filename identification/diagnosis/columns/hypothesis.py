@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
 
+#: What an effect shows over that changes where a joint turns round.
+SINCE_REVERSAL = "time since reversal"
+
 #: An effect and the number of its joint, 0 for the whole robot.
 Key = tuple[str, int]
 

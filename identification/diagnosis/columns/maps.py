@@ -47,13 +47,13 @@ def groups(joints: Sequence[int], k: int) -> dict[str, slice]:
 
 
 def _of(runs: Sequence[Prepared], scenes: Sequence[Scene], k: int) -> list[Array]:
-    span = ends([scene.motion.q[k] for scene in scenes])
+    span = span_of([scene.motion.q[k] for scene in scenes])
     fastest = max(float(np.abs(scene.motion.qd[k]).max()) for scene in scenes)
     every = [run.decimated(_columns(scene, k, span, fastest)) for run, scene in zip(runs, scenes, strict=True)]
     return [np.zeros_like(rows) if run.period else rows for run, rows in zip(runs, every, strict=True)]
 
 
-def ends(signals: Sequence[Array]) -> tuple[float, float]:
+def span_of(signals: Sequence[Array]) -> tuple[float, float]:
     """The least and the largest value of all ``signals`` (N each)."""
     return min(float(x.min()) for x in signals), max(float(x.max()) for x in signals)
 

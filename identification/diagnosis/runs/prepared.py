@@ -38,8 +38,8 @@ _MEMORY, _FORGOTTEN = 1.0, 0.05
 _SWINGING, _FADING = 1.5, 0.2
 #: Time before and after standing still [s] in which friction is not yet what it will be.
 _SETTLING = 0.03
-#: Time [s] between two reversals of a swing, at most.
-_SWING = 0.1
+#: Times as long as what a reversal costs of the rows, between two reversals, from which they are not of a swing.
+_APART = 1.5
 #: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
 _STILL = 2e-3
 #: Shortest run, or part of one, that anything can be told from [s].
@@ -93,7 +93,8 @@ class Prepared:
     def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
         """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
         rate = self.sampled.run.rate
-        standing = _unsettled(_at_rest(self.sampled.motion.qd, jumps, rate), rate)
+        apart = _apart(rate, self.sampled.filters.factor)
+        standing = _unsettled(_at_rest(self.sampled.motion.qd, jumps, apart), rate)
         sampled = replace(self.sampled, left_out=self.sampled.left_out | standing)
         kept = self.kept & (windowed(standing.astype(float), sampled.filters.factor) == 0)
         return replace(self, sampled=sampled, kept=kept)
@@ -111,22 +112,29 @@ def joined(runs: Sequence[Prepared], signals: Sequence[Array], k: int) -> Array:
     return np.concatenate([rows[k, run.kept[k]] for run, rows in zip(runs, signals, strict=True)])
 
 
-def _at_rest(qd: Array, jumps: Sequence[Jump], rate: float) -> NDArray[np.bool_]:
-    """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms."""
+def _at_rest(qd: Array, jumps: Sequence[Jump], apart: float) -> NDArray[np.bool_]:
+    """Samples (n x N) in which a joint's torque follows the sign of a speed that is slow beside its own rms, or that
+    turns, with other reversals ``apart``.
+    """
     result = np.zeros(qd.shape, dtype=bool)
     for joint, speed in followed(jumps, qd):
-        result[joint] |= _standing(speed, _SLOW * float(np.sqrt(np.mean(np.square(speed)))), rate)
+        result[joint] |= _standing(speed, _SLOW * float(np.sqrt(np.mean(np.square(speed)))), apart)
     return result
 
 
-def _standing(speed: Array, slow: float, rate: float) -> NDArray[np.bool_]:
+def _apart(rate: float, factor: int) -> float:
+    """Samples between two reversals, at least, of which enough rows are left if none counts near a reversal."""
+    return _APART * 2 * (round(_SETTLING * rate) + 1 + factor)
+
+
+def _standing(speed: Array, slow: float, apart: float) -> NDArray[np.bool_]:
     """Samples (N) in which a speed is ``slow``, or on both sides of a reversal, which may pass between two; not of one
-    of a swing: no row would be left of it.
+    of a swing, with others less than so many samples ``apart``.
     """
     result = np.abs(speed) < slow
     turned = np.flatnonzero(np.diff(np.sign(speed)))
     before, after = np.diff(turned, prepend=-np.inf), np.diff(turned, append=np.inf)
-    alone = turned[np.minimum(before, after) > _SWING * rate]
+    alone = turned[np.minimum(before, after) > apart]
     result[alone] = result[alone + 1] = True
     return np.asarray(result)
 
@@ -179,9 +187,10 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     speed = one.motion.qd
     usual = np.maximum(np.sqrt(np.mean(speed**2, axis=-1)), 1e-9)
     slow = _SLOW * usual
-    left_out = np.stack([_standing(x, limit, run.rate) for x, limit in zip(speed, slow, strict=True)])
+    apart = _apart(run.rate, factor)
+    left_out = np.stack([_standing(x, limit, apart) for x, limit in zip(speed, slow, strict=True)])
     left_out |= (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
-    left_out |= _at_rest(speed, regressors.signs, run.rate)
+    left_out |= _at_rest(speed, regressors.signs, apart)
     if _FORGOTTEN * run.duration >= _MEMORY:
         left_out[:, one.times < run.start + _MEMORY] = True
     if swinging := stated(regressors.model.robot):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import inf
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Hypothesis
 from identification.diagnosis.search.likely import balances, common
 
 #: What lets the link come after the motor, or the log after both.
@@ -22,7 +22,7 @@ _SHIFTED = 0.002
 _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
-_OF_SPEED = ("qd", "time since reversal")
+_OF_SPEED = ("qd", SINCE_REVERSAL)
 #: Variables over which an effect of one of them shows as well.
 _SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
 
@@ -65,6 +65,6 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
     if behind or {one.variable, other.variable} <= set(_OF_SPEED):
         return _ALIKE
-    if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", "time since reversal"):
+    if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", SINCE_REVERSAL):
         return _SHIFTED
     return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE

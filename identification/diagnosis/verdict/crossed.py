@@ -12,19 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank
-from identification.diagnosis.columns.maps import ends
+from identification.diagnosis.columns.maps import span_of
+from identification.diagnosis.noise.may_act import counts
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.verdict.explained import explained
+from identification.diagnosis.verdict.f_test import f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 
 Array = NDArray[np.float64]
 
-#: Part of the residual's squares that it must be: a fifth of the noise's rms.
+#: Part of the residual's squares that it must be: a fifth of the noise's rms, below which nothing is told of a joint.
 _LEAST = 0.04
-#: Powers of a place, from -1 to 1 along its range.
+#: Powers of a place, from -1 to 1 along its range: a slope, a middle that differs from both ends, and one end alone.
 _POWERS = (1, 2, 3)
-#: Rows for each column, at least.
-_ROWS = 8
 
 
 @dataclass(frozen=True)
@@ -42,9 +41,8 @@ def crossed(found: Search, weights: Mapping[int, float]) -> dict[int, Crossed]:
     bank, result = found.bank, {}
     for k in range(bank.dof if bank.alone else 0):
         e = np.concatenate([bank.residual(r, k, weights) for r in bank.alone])
-        if len(e) < _ROWS * len(_POWERS):
-            continue
-        tried = [(explained(X, e), follows) for X, follows in _columns(bank, k)]
+        _, fitted = counts(bank, k)
+        tried = [(f_test(X, e, fitted), follows) for X, follows in _columns(bank, k)]
         told = [Crossed(follows, one.part) for one, follows in tried if len(tried) * one.p < CHANCE]
         largest = max(told, key=lambda one: one.part, default=None)
         if largest is not None and largest.part > _LEAST:
@@ -53,13 +51,16 @@ def crossed(found: Search, weights: Mapping[int, float]) -> dict[int, Crossed]:
 
 
 def _columns(bank: Bank, k: int) -> Iterator[tuple[Array, str]]:
-    """White kept rows (m x N) of friction on coordinate k, and what it follows."""
+    """White kept rows (m x N) of friction on coordinate k, and what it follows; a joint that is held has no place."""
+    scenes = [bank.scenes[r] for r in bank.alone]
     for j, number in enumerate(bank.robot.numbers):
-        lower, upper = ends([bank.scenes[r].motion.q[j] for r in bank.alone])
+        if not any(scene.moves(j) for scene in scenes):
+            continue
+        lower, upper = span_of([scene.motion.q[j] for scene in scenes])
         parts = []
         for r in bank.alone:
             motion = bank.scenes[r].motion
-            place = (2 * motion.q[j] - lower - upper) / max(upper - lower, 1e-12)
+            place = (2 * motion.q[j] - lower - upper) / (upper - lower)
             friction = motion.qd[k] if j == k else np.sign(motion.qd[k])
             rows = bank.runs[r].decimated(np.stack([friction * place**power for power in _POWERS]))
             parts.append(bank.whitened(r, k, rows))

@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from generator.effects.library import library
 from generator.review.decimals import scientific
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, Hypothesis, Key, on_joints
+from identification.diagnosis.columns.hypothesis import (
+    BODY,
+    EFFECT,
+    ELASTIC,
+    SINCE_REVERSAL,
+    Hypothesis,
+    Key,
+    on_joints,
+)
 from identification.diagnosis.noise.may_act import maps_taken
 from identification.diagnosis.search.evidence import Evidence, columns_of
 from identification.diagnosis.search.likely import balances, pulls
@@ -43,8 +51,6 @@ _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms, from which its law is not sure; and the standard
 #: deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _GAP = 1.0, 0.25
-#: The variable of what a reversal tells, of which samples hold little.
-_SINCE = "time since reversal"
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -278,7 +284,7 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
     if all(map(_unknown, one.main)):
         return replace(one, status=TENTATIVE, sure=False)
-    if kind == EFFECT and not one.determined and (not repeats or one.variable == _SINCE):
+    if kind == EFFECT and not one.determined and (not repeats or one.variable == SINCE_REVERSAL):
         return replace(one, status=TENTATIVE)
     if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)

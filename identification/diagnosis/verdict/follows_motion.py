@@ -7,21 +7,17 @@ One map at a time, held against what it leaves, tells of it all the same.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import groups
-from identification.diagnosis.noise.may_act import maps_taken
-from identification.diagnosis.verdict.explained import explained
+from identification.diagnosis.noise.may_act import counts, maps_taken
+from identification.diagnosis.verdict.f_test import FTest, f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, Lack
 
 Array = NDArray[np.float64]
-
-#: Rows for each column of a map, at least.
-_ROWS = 5
 
 
 def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Array]], k: int, lack: Lack) -> Lack:
@@ -34,18 +30,16 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     e = np.concatenate([residuals[r] for r in bank.alone])
     X = np.concatenate([bank.whitened(r, k, maps[k][r]) for r in bank.alone], axis=1)
     each = groups(bank.robot.numbers, k)
-    found = [_follows(X[part], e, what, lack, len(each)) for what, part in each.items()]
+    _, fitted = counts(bank, k)
+    found = [_follows(f_test(X[part], e, fitted), len(e), what, lack, len(each)) for what, part in each.items()]
     return max((one for one in found if one.p < CHANCE), key=lambda one: one.size, default=lack)
 
 
-def _follows(X: Array, e: Array, what: str, lack: Lack, tried: int) -> Lack:
-    """How much of e is a sum of the rows of X (m x N), beyond what as many rows of noise are: an F test.
+def _follows(one: FTest, rows: int, what: str, lack: Lack, tried: int) -> Lack:
+    """How much of the residual's ``rows`` follows ``what``, one of so many ``tried``.
 
     The size is that of all that the joint lacks, if its power says so too.
     """
-    one = explained(X, e)
-    if not one.rank or len(e) < _ROWS * one.rank:
-        return replace(lack, p=1.0)
-    size = float(np.sqrt(max(one.ratio - 1, 0.0) * one.rank / len(e)))
+    size = float(np.sqrt(max(one.ratio - 1, 0.0) * one.rank / rows))
     size = max(size, lack.size) if lack.p < CHANCE else size
     return Lack(lack.joint, one.ratio, min(1.0, tried * one.p), size, False, lack.burst, follows=what)

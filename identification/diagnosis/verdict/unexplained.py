@@ -63,10 +63,10 @@ def unexplained(
 ) -> Unexplained:
     """What a search leaves, of whose model ``last`` tells where its residual is.
 
-    In this order: large residuals, on joints of what was found and is ``gone`` beside noise alone; torques that drift
-    or sway by themselves; findings, by effect and joint, on whose amplitude the runs are ``disagreeing``; where nothing
-    was found what noise may hide, friction of two variables, and ripples, which are told beside large residuals too;
-    and parameters that have ``other`` values than are known.
+    In this order: large residuals, which beside what was found may be small, but not on joints of what was found and is
+    ``gone``; torques that drift or sway by themselves; findings, by effect and joint, on whose amplitude the runs are
+    ``disagreeing``; where nothing was found what noise may hide, friction of two variables, and ripples, which are told
+    beside large residuals too; and parameters that have ``other`` values than are known.
     """
     bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
     large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
@@ -175,7 +175,7 @@ def _rippling(found: Search) -> dict[int, str]:
         found,
         ripples(found, found.weights),
         "{percent:.0f} % of what is left of joint {joint.number} is a ripple along its range, every {one.length:.3g} "
-        "{joint.position_unit}, which is in no effect",
+        "{joint.position_unit}{one.or_finer}, that no finding explains",
     )
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL
 from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.diagnosis.runs.reversals import since_reversal
@@ -75,7 +76,7 @@ def variables(run: Prepared, scene: Scene, k: int) -> dict[str, tuple[str, Array
         "qdd": (f"{unit}/s2", qdd),
         "load": (joint.torque_unit, load),
         "time": ("s", t),
-        "time since reversal": ("s", since),
+        SINCE_REVERSAL: ("s", since),
     }
     if robot.drives is not None:
         result["motor phase"] = ("rad", np.mod(coupling(robot)[k] @ run.decimated(motion.q), 2 * np.pi))
@@ -149,7 +150,7 @@ def strongest(found: Sequence[View]) -> tuple[str, Mapping[str, float]]:
         shares[one.variable] = one.share
     if not shares:
         return "", shares
-    order = ("q", "qd", "load", "time", "motor phase", "q by direction", "time since reversal", "qdd")
+    order = ("q", "qd", "load", "time", "motor phase", "q by direction", SINCE_REVERSAL, "qdd")
     best = max(shares.values())
     near = [name for name in order if shares.get(name, 0.0) >= _NEARLY * best and best > 0]
     return (near[0] if near else ""), shares

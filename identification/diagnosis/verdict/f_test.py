@@ -12,10 +12,12 @@ Array = NDArray[np.float64]
 
 #: Least singular value of rows, in parts of the largest, that counts.
 _RANK = 1e-6
+#: Values of the residual for each direction that is tried, at least: white noise is not quite Gaussian.
+_VALUES = 5
 
 
 @dataclass(frozen=True)
-class Explained:
+class FTest:
     """The ``part`` of the squares that rows of ``rank`` explain; the ``ratio`` of means of squares is 1 for noise and
     has the p-value ``p``.
     """
@@ -26,13 +28,15 @@ class Explained:
     p: float
 
 
-def explained(X: Array, e: Array) -> Explained:
-    """What the rows of X (m x N) explain of the residual e (N), beyond what as many rows of noise do."""
+def f_test(X: Array, e: Array, fitted: int) -> FTest:
+    """What the rows of X (m x N) explain of the residual e (N) of a fit of ``fitted`` values, beyond what as many rows
+    of noise do; nothing where e has few values beside those.
+    """
     _, s, V = np.linalg.svd(X, full_matrices=False)
     V = V[s > _RANK * s.max(initial=0.0)]
-    rank, free, whole = len(V), len(e) - len(V), float(e @ e)
-    if not rank or free < 1 or not whole:
-        return Explained(rank, 0.0, 1.0, 1.0)
+    rank, free, whole = len(V), len(e) - fitted - len(V), float(e @ e)
+    if not rank or free < _VALUES * rank or not whole:
+        return FTest(rank, 0.0, 1.0, 1.0)
     along = float(np.sum((V @ e) ** 2))
     ratio = (along / rank) / max((whole - along) / free, 1e-300)
-    return Explained(rank, along / whole, ratio, float(f.sf(ratio, rank, free)))
+    return FTest(rank, along / whole, ratio, float(f.sf(ratio, rank, free)))
