@@ -20,9 +20,12 @@ from generator.backends import numpy as numpy_backend
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.parameter_sets import parameter_vector
 from tests.compiled import CLibrary, Results, module, run, write
+from tests.conftest import EVERY, FILES
 from tests.subject import Subject
 
 SEEDS = range(3)
+#: Robots whose C is checked for undefined behaviour each time: all effects, a branch, a slide and elastic joints.
+SANITIZED = (EVERY, "tree_two_arms", "stanford", "kr270_table5")
 #: Of the largest entry of an output.
 DOUBLE, SINGLE = 1e-12, 1e-4
 
@@ -130,6 +133,11 @@ def test_c_through_casadi(emitted: Emitted) -> None:
         assert_same(called(built, inputs), as_matrices(wanted), DOUBLE * worse)
 
 
+@pytest.mark.parametrize(
+    "robot_arm",
+    [name if name in SANITIZED else pytest.param(name, marks=pytest.mark.long) for name in (*FILES, EVERY)],
+    indirect=True,
+)
 def test_self_test_under_sanitizers(emitted: Emitted) -> None:
     sources = [emitted.folder / "c" / f"{emitted.name}{ending}.c" for ending in ("", "_selftest")]
     flags = ["-std=c99", "-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]

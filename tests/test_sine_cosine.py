@@ -115,6 +115,7 @@ def test_a_sine_of_ones_own_leaves_the_cosine_alone(build: Path) -> None:
     np.testing.assert_allclose(cosines, np.cos([0.5, 2.0]), rtol=1e-15)
 
 
+@pytest.mark.long
 def test_constants_are_the_computed_ones() -> None:
     text = (resources.templates() / "c" / "sine_cosine.c.jinja").read_text()
     for precision in sine_cosine_constants.PRECISIONS:

@@ -110,6 +110,7 @@ def test_the_gap_closes_on_the_run_that_nothing_touched(hidden: Case) -> None:
     assert not any(name.endswith("3.csv") for name in used)
 
 
+@pytest.mark.long
 def test_the_repaired_robot_lacks_nothing_on_fresh_runs(hidden: Case) -> None:
     folder = hidden.folder
     a, b = record(folder, (5, 6), (HIDDEN,))

@@ -60,7 +60,8 @@ def test_a_limit_is_one_of_the_recorded_current(scene: Scene) -> None:
     assert columns == pytest.approx(limit(scene).columns(scene, {"current_limit": plain.low}))
 
 
-@pytest.mark.parametrize("late", [1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("late", [1, 2])
+@pytest.mark.long
 def test_a_motor_that_is_late_acts_on_all_joints_that_it_drives(late: int, tmp_path: Path) -> None:
     """The file's delay is of the motor, of which a coupled drive shows a part on another joint."""
     text = TWO_LINKS.replace("N21: 5", "N21: 60")

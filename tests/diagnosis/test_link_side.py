@@ -65,6 +65,7 @@ def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
     np.testing.assert_allclose(moved.deflection(train).q, anew.deflection(train).q, atol=1e-9)
 
 
+@pytest.mark.long
 def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> None:
     """What the file says of it is where the search begins; where it says nothing, several shares are tried."""
     told = offered(loose, 1)

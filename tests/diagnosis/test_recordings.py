@@ -75,6 +75,7 @@ def test_a_free_fit_says_that_it_cannot_see_the_balancer(tmp_path: Path) -> None
     assert ("gas_balancer", 2) in {(one.effect, one.joint) for one in found.invisible}
 
 
+@pytest.mark.long
 def test_a_coupled_wrist_is_named(tmp_path: Path) -> None:
     found, new = diagnosis(without("tx40", tmp_path, "coupled_rotor"), Request(data(TRAIN), test=data(TEST)))
     (one,) = (one for one in found.findings if one.hypothesis.effect == "coupled_rotor")

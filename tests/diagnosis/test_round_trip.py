@@ -53,7 +53,10 @@ def there_and_back(name: str, hidden: Effect, prior: str | None, folder: Path) -
 
 @pytest.mark.parametrize(
     ("name", "law", "joint", "named"),
-    [("scara_like", "stribeck", 3, "stribeck_friction"), ("seven_axis", "position_friction", 4, "position_friction")],
+    [
+        ("scara_like", "stribeck", 3, "stribeck_friction"),
+        pytest.param("seven_axis", "position_friction", 4, "position_friction", marks=pytest.mark.long),
+    ],
 )
 def test_what_was_found_and_added_is_not_found_again(
     name: str, law: str, joint: int, named: str, tmp_path: Path
@@ -94,9 +97,10 @@ def test_what_drives_and_signals_and_the_base_lack_is_corrected(
     ("law", "size", "named"),
     [
         ("joint_flexibility", 1.1e-5, "joint_elasticity"),
-        pytest.param("backlash", 3e-4, "backlash", marks=pytest.mark.long),
+        ("backlash", 3e-4, "backlash"),
     ],
 )
+@pytest.mark.long
 def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     law: str, size: float, named: str, tmp_path: Path
 ) -> None:

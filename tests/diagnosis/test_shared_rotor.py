@@ -59,7 +59,7 @@ def _dry(s: Array) -> Array:
     return result
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_a_rotor_that_stands_while_its_joints_move(seed: int, tmp_path: Path) -> None:
     (tmp_path / "planar.yaml").write_text(PLANAR)
     robot = read(tmp_path / "planar.yaml")

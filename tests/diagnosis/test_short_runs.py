@@ -31,7 +31,12 @@ def found(folder: Path, seconds: float, delay: float) -> Finding:
 
 
 @pytest.mark.parametrize(
-    ("seconds", "delay", "status"), [(6.0, 0.02, TENTATIVE), (20.0, 0.012, TENTATIVE), (20.0, 0.015, FIRM)]
+    ("seconds", "delay", "status"),
+    [
+        (6.0, 0.02, TENTATIVE),
+        pytest.param(20.0, 0.012, TENTATIVE, marks=pytest.mark.long),
+        pytest.param(20.0, 0.015, FIRM, marks=pytest.mark.long),
+    ],
 )
 def test_what_is_small_beside_the_noise_is_not_firm(seconds: float, delay: float, status: str, tmp_path: Path) -> None:
     """In the shorter ones 0.91 times it is, in the longer ones 0.45, but not 0.56."""

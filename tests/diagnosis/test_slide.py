@@ -68,6 +68,7 @@ def diagnosis(folder: Path, dry: Dry, late: float) -> Diagnosis:
     return diagnosed(path, read(path), Request(sources), folder / "out", lambda *about: {})[0]
 
 
+@pytest.mark.long
 def test_a_force_that_is_late_and_friction_that_rises_are_told_together(tmp_path: Path) -> None:
     found = diagnosis(tmp_path, lambda qd: DRY * np.tanh(qd / RISE), LATE)
     assert found.verdict == NAMED

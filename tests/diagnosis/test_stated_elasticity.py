@@ -170,12 +170,14 @@ def test_elastic_joints_that_the_file_states_are_no_discrepancy(tmp_path: Path) 
     assert one.search.values["stiffness2"] == pytest.approx(-np.log(1.05), abs=0.03)
 
 
+@pytest.mark.long
 def test_rigid_joints_that_the_file_calls_elastic_are_told(tmp_path: Path) -> None:
     one = found(tmp_path, elastic=False)
     assert (one.verdict, one.findings) == (NOTHING, ())
     assert any("these drive trains are stiffer than stated" in note for note in one.notes)
 
 
+@pytest.mark.long
 def test_another_effect_is_found_beside_elastic_joints(tmp_path: Path) -> None:
     one = found(tmp_path, True, (Effect("stribeck", 2, 0.75 * ROBOTS[ARM].chain[1].coulomb),))
     assert one.verdict == NAMED

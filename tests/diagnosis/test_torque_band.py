@@ -97,6 +97,7 @@ def test_what_one_joint_lacks_may_be_its_drive_train(arm: Known) -> None:
     assert end([slow(scene(arm), slice(1, 2))]) == np.inf
 
 
+@pytest.mark.long
 def test_a_filter_is_not_taken_for_an_elastic_drive_train(tmp_path: Path) -> None:
     """What the filter took of the jumps of friction is missing all the same, and stays unexplained."""
     sources = [str(tmp_path / f"{seed}.csv") for seed in (1, 2)]
@@ -113,8 +114,12 @@ def test_a_filter_is_not_taken_for_an_elastic_drive_train(tmp_path: Path) -> Non
 
 @pytest.mark.parametrize(
     ("hidden", "effects"),
-    [([], []), ([Effect("joint_flexibility", 2, 1.1e-5)], [("joint_elasticity", 2)])],
-    ids=["rigid", "elastic"],
+    [
+        pytest.param([], [], id="rigid"),
+        pytest.param(
+            [Effect("joint_flexibility", 2, 1.1e-5)], [("joint_elasticity", 2)], id="elastic", marks=pytest.mark.long
+        ),
+    ],
 )
 def test_coarse_encoders_hide_no_elastic_drive_train(
     hidden: list[Effect], effects: list[tuple[str, int]], tmp_path: Path

@@ -116,12 +116,13 @@ def mended(sources: Sequence[str], before: Regressors) -> tuple[dict[str, float]
 @pytest.mark.parametrize(
     "drift",
     [
-        pytest.param(Drift(-0.3), marks=pytest.mark.long),
+        Drift(-0.3),
         Drift(-0.15, gain=0.8),
-        pytest.param(Drift(0.2), marks=pytest.mark.long),
+        Drift(0.2),
     ],
     ids=str,
 )
+@pytest.mark.long
 def test_a_large_drift_is_found_and_written_as_it_is(drift: Drift, tmp_path: Path) -> None:
     told, robot, left = mended([logged(tmp_path, seed, drift) for seed in (1, 2, 3)], two_links(tmp_path))
     assert told["torque_drift2"] == pytest.approx(drift.drift, rel=0.05)
@@ -193,6 +194,7 @@ def test_runs_without_a_temperature_are_read_after_a_drift_by_temperature(tmp_pa
         np.testing.assert_allclose(plain.warmth, [first, measured], atol=0.04)
 
 
+@pytest.mark.long
 def test_a_testing_run_may_lack_the_temperature(tmp_path: Path) -> None:
     of, drift = two_links(tmp_path), Drift(-0.2, time=0.0)
     runs = [ready(logged(tmp_path, seed, drift, (2,)), of) for seed in (1, 2)]
