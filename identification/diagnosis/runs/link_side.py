@@ -80,29 +80,20 @@ class LinkSide:
         by_acceleration[self.k] -= rotor - self.rotor
         return replace(self, rotor=rotor, load=load, by_acceleration=by_acceleration)
 
-    def steps(self, train: Train, end: int) -> Iterator[Value]:
-        """Acceleration of the joint's link against the motor, sample by sample up to ``end``."""
-        own = self._own(train)
-        e, v = self._start(train)
-        links = (x[:end].tolist() for x in (self.load, self.inertia, self.drag))
-        for link in zip(*links, strict=True):
-            e, v, (_, _, acceleration) = _step(e, v, link, own)
-            yield acceleration
-
     def deflection(self, train: Train) -> Motion:
         """The link's motion against the motor's on a drive train of plain numbers."""
-        given = np.tile(np.array(self._own(train))[:, None], self.scene.motion.samples)
+        given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
         steps = _many_steps(self.scene.motion.samples)
-        _, played = steps(list(self._start(train)), np.stack([self.load, self.inertia, self.drag]), given)
+        _, played = steps(list(self.start(train)), np.stack([self.load, self.inertia, self.drag]), given)
         return alone(self.scene.motion, self.k, np.asarray(played))
 
-    def _own(self, train: Train) -> tuple[Value, Value, Value, Value]:
+    def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
         """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
         d = 2 * train.damping * np.sqrt(train.stiffness * float(np.mean(self.inertia)))
         return train.stiffness, d, train.gap / 2, self.scene.period
 
-    def _start(self, train: Train) -> tuple[Value, Value]:
-        """The log does not tell how the link swings when it begins: it hangs still on its spring."""
+    def start(self, train: Train) -> tuple[Value, Value]:
+        """Deflection and its speed. The log does not tell how the link swings when it begins: it hangs still."""
         k, half = train.stiffness, train.gap / 2
         e = -(half * np.sign(self.load[0]) + self.load[0] / k)
         return e, (self.load[0] - self.load[1]) / (self.scene.period * k)
@@ -113,6 +104,19 @@ class LinkSide:
         per = (self.by_position, self.by_speed, self.by_acceleration)
         parts = [rate * signal[k] for rate, signal in zip(per, deflection.signals, strict=True)]
         return np.asarray(sum(parts))
+
+
+def swings(sides: Sequence[LinkSide], trains: Sequence[Train], end: int) -> Iterator[Array]:
+    """Torque of the joint's link by its swing against the motor (S x K) [N m, N], sample by sample up to ``end``, along
+    S ``sides`` of one scene, each on K ``trains``.
+    """
+    stiffness, d, half, (h, *_) = zip(*map(LinkSide.own, sides, trains), strict=True)
+    own = (np.stack(stiffness), np.stack(d), np.stack(half), h)
+    e, v = map(np.stack, zip(*map(LinkSide.start, sides, trains), strict=True))
+    links = np.array([(one.load[:end], one.inertia[:end], one.drag[:end]) for one in sides])
+    for link in np.ascontiguousarray(links.transpose(2, 1, 0)[..., None]):
+        e, v, (_, _, acceleration) = _step(e, v, link, own)
+        yield link[1] * acceleration
 
 
 def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:

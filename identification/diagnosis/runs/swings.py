@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, rotor_inertia
+from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, rotor_inertia, swings
 from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 
@@ -62,16 +62,22 @@ def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> list[tuple[float
 
     Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
     """
-    best: dict[int, tuple[float, tuple[float, ...]]] = {}
-    for side in sides:
-        coarse = _Played(side, grids)
-        for width in _WIDTHS:
-            rows = _Rows(side, width)
-            near = [_about(x, grid) for x, grid in zip(coarse.most_alike(rows)[1], grids, strict=True)]
-            cosine, combination = _Played(side, near).most_alike(rows)
-            if width not in best or cosine > best[width][0]:
-                best[width] = cosine, (side.rotor, *combination)
-    return list(dict.fromkeys(combination for _, combination in best.values()))
+    width_of = [_Rows(sides[0], width) for width in _WIDTHS]
+    coarse = _Played(sides, [_combinations(grids)] * len(sides))
+    tried = [(side, s, rows) for s, side in enumerate(sides) for rows in width_of]
+    near = [
+        _combinations([_about(x, grid) for x, grid in zip(coarse.most_alike(s, rows)[1], grids, strict=True)])
+        for _, s, rows in tried
+    ]
+    fine = _Played([side for side, _, _ in tried], near)
+    found = [(fine.most_alike(i, rows), side.rotor, rows) for i, (side, _, rows) in enumerate(tried)]
+    best = [max((one for one in found if one[-1] is rows), key=lambda one: one[0][0]) for rows in width_of]
+    return list(dict.fromkeys((rotor, *combination) for (_, combination), rotor, _ in best))
+
+
+def _combinations(grids: Sequence[Array]) -> Array:
+    """All combinations of the values of grids (len(grids) x K)."""
+    return np.stack([x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij")])
 
 
 def _about(x: float, grid: Array) -> Array:
@@ -119,20 +125,22 @@ def _directions(rows: Array) -> Array:
 
 
 class _Played:
-    """The swings of every combination of stiffnesses, damping ratios and gaps."""
+    """The swings of links, one along each of ``sides`` of one scene, on as many ``trains`` each, of which the rows are
+    stiffnesses, damping ratios and gaps (3 x K).
+    """
 
-    def __init__(self, side: LinkSide, grids: Sequence[Array]) -> None:
-        self._combinations = np.stack([x.reshape(-1) for x in np.meshgrid(*grids, indexing="ij")])
-        count = _samples(side.scene)
+    def __init__(self, sides: Sequence[LinkSide], trains: Sequence[Array]) -> None:
+        self._trains, count = trains, _samples(sides[0].scene)
+        self._torques = np.empty((count, len(sides), trains[0].shape[1]))
         # A drive train too stiff for the samples runs away; it is like nothing.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            played = np.array(list(side.steps(Train(*self._combinations), count)))
-            self._torques = side.inertia[:count] * played.T
+            for i, torque in enumerate(swings(sides, [Train(*one) for one in trains], count)):
+                self._torques[i] = torque
 
-    def most_alike(self, rows: _Rows) -> tuple[float, tuple[float, ...]]:
-        """The largest cosine of a swing with the residual, and the combination that swings so."""
+    def most_alike(self, s: int, rows: _Rows) -> tuple[float, tuple[float, ...]]:
+        """The largest cosine of a swing along side s with the residual, and the combination that swings so."""
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            cosines = rows.cosines(self._torques)
+            cosines = rows.cosines(self._torques[:, s].T)
         known = np.where(np.isfinite(cosines), cosines, -np.inf)
         most = int(np.argmax(known))
-        return float(known[most]), tuple(self._combinations[:, most].tolist())
+        return float(known[most]), tuple(self._trains[s][:, most].tolist())
