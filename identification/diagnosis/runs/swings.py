@@ -62,17 +62,17 @@ def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> list[tuple[float
 
     Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
     """
-    width_of = [_Rows(sides[0], width) for width in _WIDTHS]
     coarse = _Played(sides, [_combinations(grids)] * len(sides))
-    tried = [(side, s, rows) for s, side in enumerate(sides) for rows in width_of]
+    looks = [(s, rows) for rows in (_Rows(sides[0], width) for width in _WIDTHS) for s in range(len(sides))]
     near = [
         _combinations([_about(x, grid) for x, grid in zip(coarse.most_alike(s, rows)[1], grids, strict=True)])
-        for _, s, rows in tried
+        for s, rows in looks
     ]
-    fine = _Played([side for side, _, _ in tried], near)
-    found = [(fine.most_alike(i, rows), side.rotor, rows) for i, (side, _, rows) in enumerate(tried)]
-    best = [max((one for one in found if one[-1] is rows), key=lambda one: one[0][0]) for rows in width_of]
-    return list(dict.fromkeys((rotor, *combination) for (_, combination), rotor, _ in best))
+    fine = _Played([sides[s] for s, _ in looks], near)
+    found = [(sides[s].rotor, *fine.most_alike(i, rows)) for i, (s, rows) in enumerate(looks)]
+    by_width = [found[i : i + len(sides)] for i in range(0, len(found), len(sides))]
+    best = [max(each, key=lambda one: one[1]) for each in by_width]
+    return list(dict.fromkeys((rotor, *combination) for rotor, _, combination in best))
 
 
 def _combinations(grids: Sequence[Array]) -> Array:
