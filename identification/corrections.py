@@ -59,7 +59,7 @@ def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place
             raise Untold(joint.number, place, whole < NEVER)
         else:
             found.append(np.full(len(t), np.nan))
-    for k, part in _drifting(robot):
+    for k, part in drifting(robot):
         _strong(part, found[k], robot.moving[k].number, place)
     return np.stack(found) if np.any(np.isfinite(found)) else None
 
@@ -125,11 +125,11 @@ def heated(load: Array, t: Array, warm_up_time: float) -> Array:
 
 def _warm_joints(robot: Robot) -> set[int]:
     """Numbers of the joints on whose drives' warmth torques depend."""
-    drifting = {robot.moving[k].number for k, _ in _drifting(robot)}
-    return drifting | {one.site.joint.number for one in effects_of(robot) if "warmth" in one.effect.needs}
+    of_constants = {robot.moving[k].number for k, _ in drifting(robot)}
+    return of_constants | {one.site.joint.number for one in effects_of(robot) if "warmth" in one.effect.needs}
 
 
-def _drifting(robot: Robot) -> list[tuple[int, float]]:
+def drifting(robot: Robot) -> list[tuple[int, float]]:
     """Coordinates with motors whose torque constants drift, and by what part of them."""
     drift = robot.drives.torque_drift if robot.drives is not None else ()
     return [(k, float(part)) for k, part in enumerate(drift) if part]
@@ -141,14 +141,14 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     A recorded torque counts as a current times the torque constant: it drifts as the constant does. Torques beyond an
     end of the recording are those of the end.
     """
-    signals, drifting = robot.signals, _drifting(robot)
-    if not (signals.torque_gain or signals.torque_delay or drifting):
+    signals, drifts = robot.signals, drifting(robot)
+    if not (signals.torque_gain or signals.torque_delay or drifts):
         return tau
     motor = motor_torques(robot, tau)
     if signals.torque_gain:
         motor = _column(signals.torque_gain) * motor
     if warmth is not None:
-        for k, part in drifting:
+        for k, part in drifts:
             motor[k] *= 1 + part * warmth[k]
     if signals.torque_delay:
         motor = earlier(motor, signals.torque_delay, period)
@@ -162,7 +162,7 @@ def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Ar
     if signals.torque_delay:
         result = earlier(motor, [-delay for delay in signals.torque_delay], period)
     if warmth is not None:
-        for k, part in _drifting(robot):
+        for k, part in drifting(robot):
             result[k] /= 1 + part * warmth[k]
     return result / _column(signals.torque_gain) if signals.torque_gain else result
 

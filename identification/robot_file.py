@@ -17,8 +17,8 @@ from generator.robot.readers import yaml
 
 _SECTION = "parameters"
 
-#: Digits of a written value, and the smallest amount [SI] that is not written as zero.
-_DIGITS, _NOTHING = 6, 1e-6
+#: Digits of a written value, and the smallest amount [SI] that is not written as zero: rounding of a fit leaves less.
+_DIGITS, _NOTHING = 6, 1e-11
 _WIDTH = 120
 
 

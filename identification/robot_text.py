@@ -56,7 +56,10 @@ def with_value(text: str, path: Path, value: str) -> str:
         return _with_section(text, str(last), f" {value}", value)
     node = _find(text, path)
     if node is not None:
-        return text[: node.start_mark.index] + value + text[_end(text, node) :]
+        head = text[: node.start_mark.index]
+        # The dashes of a list may stand below its key; what is on one line may not.
+        apart = " " if isinstance(node.value, list) and not node.flow_style else ""
+        return f"{head}{apart}{value}{text[_end(text, node) :]}"
     table = _find(text, above)
     if table is None and len(above) == 1:
         return _with_section(text, str(above[0]), f"\n  {last}: {value}", f"{{{last}: {value}}}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -126,3 +126,15 @@ def with_robot(scene: Scene, robot: Described) -> Scene:
     regressors.model = copy(regressors.model)
     regressors.model.robot = robot
     return replace(scene, regressors=regressors)
+
+
+@dataclass(frozen=True)
+class Found:
+    """Coefficients that a search has found, none of them a torque of its own."""
+
+    coefficients: Mapping[str, float]
+
+    def torque(self, scene: Scene) -> Array:
+        return np.zeros_like(scene.motion.q)
+
+    load = torque

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from math import cos, sin
 
@@ -20,12 +20,10 @@ from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.repair import repaired
-from identification.diagnosis.runs.scene import Scene
 from identification.recipe import Recipe
 from identification.sampling import sampled
-from tests.diagnosis.diagnosed import CLEAN, Known, fitted, offered, played, rows, with_robot
+from tests.diagnosis.diagnosed import CLEAN, Found, Known, fitted, offered, played, rows, with_robot
 from tests.plant.effect import Effect
-from tests.plant.robot import Array
 from tests.plant.trajectories.fourier import fourier
 
 HEAVY, SMALL, SCARA = "kr500_like", "small_wrist", "scara_like"
@@ -114,18 +112,6 @@ LARGE: Mapping[str, tuple[str, Effect, str, int, str, float]] = {
     "ratio": (HEAVY, Effect("gear_ratio", 2, 0.1), "gear_ratio", 2, "gear_ratio_error2", 0.1),
     "delay": (HEAVY, Effect("delay", 1, 0.03), "torque_delay", 0, "torque_delay", -0.03),
 }
-
-
-@dataclass(frozen=True)
-class Found:
-    """Coefficients that a search has found, none of them a torque of its own."""
-
-    coefficients: Mapping[str, float]
-
-    def torque(self, scene: Scene) -> Array:
-        return np.zeros_like(scene.motion.q)
-
-    load = torque
 
 
 @pytest.mark.parametrize("case", LARGE)

@@ -138,3 +138,16 @@ def test_columns_that_are_nothing_or_no_numbers_are_refused() -> None:
     assert one.add(hypothesis("impossible", lambda r, shape: np.full(COUNT, np.nan)), {}) is None
     assert one.count == before
     assert not one.variants
+
+
+@pytest.mark.parametrize("periods", [1.8, 2.0, 4.0, 10.0])
+def test_rounding_counts_as_itself_however_few_periods_there_are(periods: float) -> None:
+    """It is known, and nothing of it is lost in what the periods have in common."""
+    draw, period, power = np.random.default_rng(7), 400, []
+    for _ in range(8):
+        count = round(periods * period)
+        W = np.stack([np.sin(2 * np.pi * np.arange(count) / period), np.ones(count)])
+        tau = W[0] + 1e-3 * draw.normal(size=count)
+        ((colour,),) = colours(bank([run(W, tau, period=period)]), [draw.normal(size=(1, count))])
+        power.append(colour.deviations[-1] ** 2)
+    assert np.mean(power) == pytest.approx(1.0, abs=0.12)

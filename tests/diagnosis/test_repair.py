@@ -142,6 +142,44 @@ def test_signals_add_up_and_a_gain_multiplies() -> None:
     assert all(float(one) > 1e5 for one in signals.current_limit[1:])
 
 
+DASHES = """
+signals:
+  torque_gain:  # of the drives
+  - 1
+  - 1.1
+  - 1
+  - 1
+  - 1
+  - 1
+  position_offset:
+  - 0 rad
+  - 0 rad
+  - 0.001 m
+  - 0 rad
+  - 0 rad
+  - 0 rad
+flexible:
+- 1
+- 2
+"""
+
+
+def test_a_list_whose_dashes_stand_below_their_key_is_written_anew() -> None:
+    text = text_of("stanford").rstrip() + "\n" + DASHES
+    found = repaired(
+        text,
+        "x",
+        [
+            Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 0.9}),
+            Addition(SIGNAL, "position_offset", (3,), values={"position_offset": 1e-3}),
+            Addition(ELASTIC, "joint_elasticity", (3,), {}, {"k3": 1e6}),
+        ],
+    )
+    assert [float(one) for one in found.robot.signals.torque_gain] == pytest.approx([1, 0.99, 1, 1, 1, 1])
+    assert float(found.robot.signals.position_offset[2]) == pytest.approx(2e-3)
+    assert found.robot.flexible == (1, 2, 3)
+
+
 def coupling(robot: Robot) -> np.ndarray:
     assert robot.drives is not None
     return np.array([[float(one) for one in row] for row in robot.drives.coupling])

@@ -74,6 +74,15 @@ def test_the_band_of_the_torques_ends(arm: Known, change: Callable[[Scene], Scen
     assert len(notes([one])) == 1
 
 
+def test_three_joints_of_four_say_where_the_band_ends(tmp_path: Path) -> None:
+    """What is quick on the fourth is noise."""
+    one = slow(scene(known(ROBOTS["scara_like"], tmp_path)))
+    assert len(one.tau) == 4
+    tau = one.tau.copy()
+    tau[2] += np.std(tau[2]) * np.random.default_rng(1).normal(size=tau.shape[1])
+    assert CUTOFF / 2 < end([replace(one, sampled=replace(one.sampled, tau=tau))]) < 2 * CUTOFF
+
+
 @pytest.mark.parametrize("hidden", [Effect("joint_flexibility", 2, 1.1e-5), Effect("backlash", 2, 3e-4)])
 def test_an_elastic_drive_train_ends_no_band(arm: Known, hidden: Effect) -> None:
     assert end([scene(arm, hidden)]) == np.inf

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
 from identification.diagnosis.mending.untouched import Untouched, objections
+from identification.diagnosis.runs.played import Played, aligned
 from identification.diagnosis.runs.roles import Roles
 from identification.residuals import Residual
 from tests.diagnosis.diagnosed_arm import ready, recorded, torque
@@ -37,6 +39,19 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
 
 def test_what_a_rigid_model_cannot_play_is_no_objection() -> None:
     assert objections({1: tried(40.0, 20.0)}, elastic=True) == []
+
+
+def test_both_models_are_held_against_the_rows_that_count_for_both() -> None:
+    """A delay that was found moves the ends; a limit of the current takes rows of one of them alone."""
+    t, rows = 0.02 * np.arange(10), np.ones((1, 10), dtype=bool)
+    clipped = rows.copy()
+    clipped[0, 4:7] = False
+    before = Played(t, t[None], 0 * t[None], rows)
+    after = Played(t + 0.04, t[None] + 0.04, 0 * t[None], clipped)
+    one, other = aligned(before, after)
+    np.testing.assert_allclose(one.t, other.t)
+    np.testing.assert_array_equal(one.kept, other.kept)
+    assert one.residuals.per_joint[0].rows == other.residuals.per_joint[0].rows == 5
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_opening
 
-from identification.corrections import NEVER
+from identification.corrections import NEVER, drifting
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import constants, coupling, motor_torques
@@ -80,7 +80,7 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     clear = _CLEAR * _NORMAL * np.median(np.abs(noise)) if noise.size else np.inf
     if not over.any() or rms(excess[over]) < clear:
         excess = np.zeros_like(excess)
-    return np.outer(coupling(scene.robot)[k] * _torque_per_recorded(scene, k), excess)[None]
+    return np.outer(coupling(scene.robot)[k], _torque_per_recorded(scene, k) * excess)[None]
 
 
 def _lasting(excess: Array, period: float) -> Array:
@@ -94,7 +94,14 @@ def _current(scene: Scene, k: int, torque: Array) -> Array:
     return np.asarray(motor_torques(scene.robot, torque)[k] / _torque_per_recorded(scene, k))
 
 
-def _torque_per_recorded(scene: Scene, k: int) -> float:
-    """True torque of a motor per recorded current [N m/A], with the gain that the robot's file states."""
-    gain = scene.robot.signals.torque_gain
-    return float(constants(scene.robot)[k]) * (float(gain[k]) if gain else 1.0)
+def _torque_per_recorded(scene: Scene, k: int) -> Array:
+    """True torque of a motor per recorded current (N) [N m/A], with the gain and the drift that the robot's file
+    states.
+    """
+    robot, warmth = scene.robot, scene.motion.warmth
+    gain = robot.signals.torque_gain
+    result = np.full(scene.motion.samples, float(constants(robot)[k]) * (float(gain[k]) if gain else 1.0))
+    if warmth is not None:
+        for _, part in (one for one in drifting(robot) if one[0] == k):
+            result *= 1 + part * warmth[k]
+    return result

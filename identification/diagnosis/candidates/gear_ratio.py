@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import scaled, sensitivity
 from identification.diagnosis.runs.scene import Scene
+from identification.observation import Motion
 
 Array = NDArray[np.float64]
 
@@ -54,6 +55,14 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     e = scene.found(f"gear_ratio_error{scene.robot.moving[k].number}")
     # Positions change by 1 / (1 + e) - 1 = -e / (1 + e).
     share = 1 / (1 + e)
-    result = share * sensitivity(scene.torque_on, scene.motion, scaled(scene, k, -1.0), share * e)
+    result = share * sensitivity(scene.torque_on, scene.motion, _less(scene, k), share * e)
     result[k] = share * (result[k] - scene.torque[k])
     return result[None]
+
+
+def _less(scene: Scene, k: int) -> Motion:
+    """The change that takes away what the encoder of coordinate ``k`` told, without the file's offset."""
+    change, offset = scaled(scene, k, -1.0), scene.robot.signals.position_offset
+    if offset:
+        change.q[k] += float(offset[k])
+    return change

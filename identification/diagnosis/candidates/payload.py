@@ -29,8 +29,8 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             kind=BODY,
             joints=scenes[0].robot.numbers,
             variable="q",
-            would_show="known inertial parameters (--prior), or a run with and one without the payload: in a free fit "
-            "the parameters of the last bodies take it up",
+            would_show="known inertial parameters (--prior): in a free fit the parameters of the last bodies take it "
+            "up; of runs with and without a payload, counterpoise identify finds what the sidecars call unknown",
             separating={
                 "spring_balancer": "a run with another payload: a balancer does not change with it",
                 "gas_balancer": "a run with another payload: a balancer does not change with it",

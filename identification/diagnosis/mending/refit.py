@@ -23,6 +23,7 @@ from identification.observation import Motion, Regressors
 from identification.observed import Observed
 from identification.outcome import Value
 from identification.own_load import under_own_load
+from identification.robot_file import rounded
 from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
@@ -55,7 +56,7 @@ class Refit:
     def written(self) -> dict[str, float]:
         """The base parameters as the set tells them, 0 where it leaves them out: what the robot file plays with."""
         told = self.parameter_set.values
-        return {name: told[name].value if name in told else 0.0 for name in self.values}
+        return {name: rounded(told[name].value) if name in told else 0.0 for name in self.values}
 
 
 def refit(

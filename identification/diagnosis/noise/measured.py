@@ -105,18 +105,19 @@ def _left(
     model = sum(0 <= number < len(bank.base) for number in numbers)
     inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
     weights = inside @ (gram[:-1, -1] - pretended)
-    left: list[list[Array]] = []
-    lost = []
-    for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
+    noise_left, lost = [], []
+    for at, x, part, run in zip(places, white, parts, bank.runs, strict=True):
         kept = part.kept
-        e = between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
-        left.append(stretches(e + rounded[r] if rounded else e, kept))
+        noise_left.append(between_periods(part.tau - weights[at] @ part.columns, kept, run.period))
         whole = np.zeros(part.columns.shape)
         whole[:, kept] = x[:-1]
         taken_away = _power(between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
         lost.append(taken_away + _common(kept, run.period))
     counts = [max(x.shape[1], 1) for x in white]
     each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
+    # Nothing of the rounding is lost, and it counts as what is left.
+    steps = [np.sqrt(share) * rounded[r] if rounded else 0.0 for r, share in enumerate(each)]
+    left = [stretches(e + more, part.kept) for e, more, part in zip(noise_left, steps, parts, strict=True)]
     return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / max(rows, 1), _LEAST), each
 
 

@@ -45,7 +45,8 @@ def end(scenes: Sequence[Scene]) -> float:
     # A colour tells no lower ones apart.
     frequency = np.linspace(rate / 2 / ORDER, rate / 2, _FREQUENCIES)
     errors = [_of_positions(scene, number) for number, scene in enumerate(scenes)]
-    power = np.quantile([_power(scenes, errors, k, frequency, rate) for k in range(len(scenes[0].tau))], _MOST, axis=0)
+    each = [_power(scenes, errors, k, frequency, rate) for k in range(len(scenes[0].tau))]
+    power = np.quantile(each, _MOST, axis=0, method="inverted_cdf")
     short = power < _SHORT
     if len(scenes[0].tau) < _SEVERAL:
         short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -120,7 +120,11 @@ def together(played: Sequence[Played]) -> Residuals:
 
 
 def aligned(one: Played, other: Played) -> tuple[Played, Played]:
-    """Both over the rows that they have in common: a corrected delay moves the ends of a run."""
+    """Both over the rows that they have in common and that count in both: a corrected delay moves the ends of a run,
+    and an effect that was found leaves out what the other one keeps.
+    """
     shift = round(float(other.t[0] - one.t[0]) * one.rate)
     count = min(len(one.t) - max(shift, 0), len(other.t) - max(-shift, 0))
-    return one.part(max(shift, 0), count), other.part(max(-shift, 0), count)
+    parts = one.part(max(shift, 0), count), other.part(max(-shift, 0), count)
+    kept = parts[0].kept & parts[1].kept
+    return replace(parts[0], kept=kept), replace(parts[1], kept=kept)

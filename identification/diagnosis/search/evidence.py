@@ -98,7 +98,7 @@ class Weighing:
     """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
 
     Without any to validate each fitted run is predicted by the others. ``noisy`` are runs, by number, with the noise
-    of their positions once more.
+    of their positions once more. The fit is a ``free`` one where a ``prior`` is of what the robot's file states alone.
     """
 
     def __init__(
@@ -108,8 +108,10 @@ class Weighing:
         validate: Sequence[int],
         prior: Prior | None,
         noisy: Mapping[int, Redrawn] | None = None,
+        free: bool = False,
     ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
+        self._free = free or prior is None
         self._tried = len({one.key for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
@@ -121,7 +123,8 @@ class Weighing:
 
     def along(self, bank: Bank) -> Weighing:
         """The same of another bank of the runs."""
-        return Weighing(bank, self.train, self.validate, self._prior, redrawn(bank.runs, bank.scenes))
+        noisy = redrawn(bank.runs, bank.scenes)
+        return Weighing(bank, self.train, self.validate, self._prior, noisy, self._free)
 
     def refresh(self) -> None:
         """After columns may have been added."""
@@ -231,7 +234,7 @@ class Weighing:
         p = _chance(drop, variant)
         free = len(x) + variant.hypothesis.free
         bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
-        believed = self._prior is not None or variant.believed(x)
+        believed = not self._free or variant.believed(x)
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
@@ -315,7 +318,7 @@ class Weighing:
         """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
         is known.
         """
-        if self._prior is None:
+        if self._free:
             return True
         less, same = known_friction.explained(self.normal, variant.columns, columns_of(others), self._friction)
         return not same or _beyond(drop, less, len(variant.columns) - same)

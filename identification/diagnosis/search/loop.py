@@ -101,7 +101,7 @@ def search(
 
     None is looked for in a ``dry`` search.
     """
-    prior = _with_drive_trains(prior, regressors)
+    free, prior = prior is None, _with_drive_trains(prior, regressors)
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting = Acting()
@@ -115,7 +115,7 @@ def search(
         progress("measuring the noise")
         rounded, noisy, may_follow = _rounded(clear, scenes), redrawn(clear, scenes), maps(clear, scenes)
         bank.whiten(colours(bank, rounded, may_follow, noisy))
-        weighing = Weighing(bank, train, validate, prior, noisy)
+        weighing = Weighing(bank, train, validate, prior, noisy, free)
         progress("weighing the evidence")
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]

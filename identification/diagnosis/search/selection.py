@@ -138,7 +138,7 @@ class Selection:
                 if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
                     continue
                 others = [other for other in chosen if other is not one]
-                mine = self.weighing.of(self._shaped(one, others), others)
+                mine = self.weighing.of(self._shaped(self._entire(one), others), others)
                 best = self._challenger(mine, others)
                 if best is not None:
                     mine = self.weighing.of(self._shaped(best.variant, others), others)
@@ -148,6 +148,10 @@ class Selection:
             if chosen == before:
                 break
         return chosen
+
+    def _entire(self, one: Variant) -> Variant:
+        """With all its coefficients: beside fewer others some may have been at their bounds, or within chance."""
+        return self.weighing.bank.add(one.hypothesis, one.shape, offered=False) or one
 
     def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
         """What should stand in the place of ``mine``, whichever of the two came first."""

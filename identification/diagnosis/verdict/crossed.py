@@ -54,7 +54,7 @@ def _columns(bank: Bank, k: int) -> Iterator[tuple[Array, str]]:
     """White kept rows (m x N) of friction on coordinate k, and what it follows; a joint that is held has no place."""
     scenes = [bank.scenes[r] for r in bank.alone]
     for j, number in enumerate(bank.robot.numbers):
-        if not any(scene.moves(j) for scene in scenes):
+        if not any(bank.runs[r].kept[j].any() for r in bank.alone):
             continue
         lower, upper = span_of([scene.motion.q[j] for scene in scenes])
         parts = []

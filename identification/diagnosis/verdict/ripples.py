@@ -72,7 +72,7 @@ def ripples(found: Search, weights: Mapping[int, float]) -> dict[int, Ripple]:
     """By coordinate, the ripple of runs that do not repeat with values of columns by number, where it is no chance."""
     bank, result = found.bank, {}
     for k in range(bank.dof):
-        if not any(bank.scenes[r].moves(k) and bank.runs[r].kept[k].any() for r in bank.alone):
+        if not any(bank.runs[r].kept[k].any() for r in bank.alone):
             continue
         if not (waves := _tried(bank, k)):
             continue
