@@ -22,8 +22,8 @@ from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.runs.prepared import prepared
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.loop import Search, search
+from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from tests.plant.robot_file import PRIOR

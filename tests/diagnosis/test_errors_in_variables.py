@@ -17,7 +17,7 @@ from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.noise.errors_in_variables import Pretence, redrawn
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing
+from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
 from identification.resolution import steps
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, ready

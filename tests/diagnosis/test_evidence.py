@@ -13,8 +13,8 @@ from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.selection import Selection
+from identification.diagnosis.search.weighing import Weighing
 from identification.recipe import Recipe
 from tests.diagnosis.test_selection import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 from tests.matrices import WHITE, hypothesis

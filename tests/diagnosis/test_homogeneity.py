@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
+from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.verdict.homogeneity import ALONG, BETWEEN, disagreements
 from tests.matrices import bank, hypothesis, run, whitened
 

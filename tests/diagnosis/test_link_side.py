@@ -17,8 +17,8 @@ from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.runs.link_side import LinkSides, Train, link_side
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.settling import settled, swinging
+from identification.diagnosis.search.weighing import Weighing
 from identification.recipe import Recipe
 from tests.diagnosis.diagnosed import CLEAN, Known, known, with_robot
 from tests.plant.effect import Effect

@@ -18,7 +18,7 @@ from identification.diagnosis.noise.errors_in_variables import Redrawn, redrawn
 from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing
+from identification.diagnosis.search.weighing import Weighing
 from tests.diagnosis.diagnosed import with_robot
 from tests.diagnosis.diagnosed_arm import TRUTH, ready
 from tests.diagnosis.test_errors_in_variables import RATE, STEP, noisy, recorded

@@ -12,50 +12,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.orders import likely_orders
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.selection import Choice, Selection
+from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import UNSURE
-from tests.matrices import bank, hypothesis, run, several, whitened
+from tests.diagnosis.drawn_data import COUNT, RUNS, TRAIN, VALIDATE, Data, fixed, search
+from tests.matrices import hypothesis, several
 
 Array = NDArray[np.float64]
-
-#: Two runs are fitted, one validates.
-RUNS, COUNT = 3, 1500
-TRAIN, VALIDATE = (0, 1), (2,)
-
-
-class Data:
-    """Base columns, as many columns as wanted, and noise of deviation 1, all drawn."""
-
-    def __init__(self, seed: int) -> None:
-        self.draw = np.random.default_rng(seed)
-        self.base = self.draw.normal(size=(RUNS, 3, COUNT))
-        self.noise = self.draw.normal(size=(RUNS, COUNT))
-
-    def column(self) -> Array:
-        """One of rms 1 in every run (RUNS x COUNT)."""
-        return self.draw.normal(size=(RUNS, COUNT))
-
-    def bank(self, effect: Array | float, offered: Sequence[Hypothesis]) -> Bank:
-        """Runs with an effect, and columns of the hypotheses with all their shapes."""
-        tau = np.einsum("rpn,p->rn", self.base, [3.0, -1.0, 0.5]) + effect + self.noise
-        one = bank([run(W, y) for W, y in zip(self.base, tau, strict=True)])
-        for each in offered:
-            for shape in each.variants:
-                one.add(each, shape)
-        return whitened(one)
-
-
-def fixed(name: str, column: Array, bounds: tuple[float | None, float | None] = (None, None)) -> Hypothesis:
-    return hypothesis(name, lambda r, shape: column[r], bounds=bounds)
-
-
-def search(one: Bank) -> list[Choice]:
-    return Selection(Weighing(one, TRAIN, VALIDATE, None)).search()
 
 
 def names(found: Sequence[Choice]) -> set[str]:
@@ -382,30 +347,3 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     weighing = Weighing(one, TRAIN, VALIDATE, None)
     assert [each.effect for each in weighing.invisible()] == ["hidden", "nowhere"]
     assert Selection(weighing).search() == []
-
-
-@pytest.mark.parametrize("refines", [False, True])
-def test_a_coefficient_that_another_effect_kept_at_its_bound_returns_with_it(refines: bool) -> None:
-    data = Data(5)
-    first, second, third = data.column(), data.column(), data.column()
-    other = third - 0.6 * second
-    size = 0.5 if refines else 1.0
-    coefficients = [Coefficient("c", "1", 0.0), Coefficient("c2", "1", 0.0, refines=refines)]
-    offered = [several("two", coefficients, [first, second]), fixed("other", other)]
-    found = {
-        one.evidence.variant.hypothesis.effect: one.evidence.coefficients
-        for one in search(data.bank(3 * first + size * second + 2 * other, offered))
-    }
-    assert found["two"] == pytest.approx([3.0, size], abs=0.15)
-    assert found["other"] == pytest.approx([2.0], abs=0.15)
-
-
-def test_what_a_file_states_of_drive_trains_is_no_prior_of_the_model() -> None:
-    """A gain that a free fit makes too large is not believed, whatever stiffness the file states."""
-    data = Data(3)
-    column = data.column()
-    gain = several("torque_gain", [Coefficient("g", "1", -0.65, 1.9, believed=0.6)], [column])
-    one = data.bank(1.5 * column, [gain])
-    stated = Prior(np.zeros(3), np.zeros((3, 3)))
-    for prior, free, believed in ((None, False, False), (stated, True, False), (None, True, False)):
-        assert Weighing(one, TRAIN, VALIDATE, prior, None, free).of(one.variants[0], []).believed == believed

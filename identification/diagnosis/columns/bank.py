@@ -102,6 +102,11 @@ class _Joint:
     white: Array = field(default_factory=lambda: np.empty((0, 0)))
 
 
+def columns_of(chosen: Sequence[Variant]) -> list[int]:
+    """Numbers of the variants' columns in their bank, one variant after the other."""
+    return [number for one in chosen for number in one.columns]
+
+
 class Bank:
     """Columns of several runs; ``scenes`` and ``runs`` in the same order.
 

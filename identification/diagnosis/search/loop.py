@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.columns.acting import Acting
-from identification.diagnosis.columns.bank import Bank, Variant
+from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.maps import maps
 from identification.diagnosis.columns.normal_equations import Normal, Prior
@@ -23,9 +23,9 @@ from identification.diagnosis.noise.rounding import rounding
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing, columns_of
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.settling import settled, swinging
+from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
 
 Array = NDArray[np.float64]

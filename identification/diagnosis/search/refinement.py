@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.columns.normal_equations import inverse
-from identification.diagnosis.search.evidence import Weighing, columns_of
+from identification.diagnosis.search.weighing import Weighing
 
 Array = NDArray[np.float64]
 

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import inverse
-from identification.diagnosis.search.evidence import Weighing, columns_of
+from identification.diagnosis.search.weighing import Weighing
 
 #: Least part of an effect's coefficients that the model's own torque must show, and the deviation, in parts of them,
 #: from which the runs do not tell.

@@ -10,13 +10,14 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.columns.normal_equations import bounded
-from identification.diagnosis.search.evidence import Evidence, Weighing, columns_of
+from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.likely import balances, common, likely, pulls
 from identification.diagnosis.search.refinement import refined
 from identification.diagnosis.search.scaling import scales_all
+from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import nearest, odds
 
 Array = NDArray[np.float64]

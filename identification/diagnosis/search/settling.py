@@ -13,8 +13,8 @@ from identification.diagnosis.columns.acting import Acting
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import ELASTIC
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.refinement import refined
+from identification.diagnosis.search.weighing import Weighing
 
 #: Turns, those that may pass without less being left, by this part, and steps of the shapes in each.
 _TURNS, _PATIENCE, _LESS, _STEPS = 8, 2, 0.01, 10

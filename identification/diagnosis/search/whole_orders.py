@@ -15,8 +15,8 @@ import numpy as np
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.columns.normal_equations import inverse
-from identification.diagnosis.search.evidence import Weighing
 from identification.diagnosis.search.refinement import tangent
+from identification.diagnosis.search.weighing import Weighing
 
 #: How much more likely a whole number is than all between two of them, before the runs are seen.
 _ODDS = 10.0

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from generator.effects.library import library
 from generator.review.decimals import scientific
-from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import (
     BODY,
     EFFECT,
@@ -22,7 +22,7 @@ from identification.diagnosis.columns.hypothesis import (
     on_joints,
 )
 from identification.diagnosis.noise.may_act import maps_taken
-from identification.diagnosis.search.evidence import Evidence, columns_of
+from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.likely import balances, pulls
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.words import listed
-from identification.diagnosis.search.evidence import columns_of
+from identification.diagnosis.columns.bank import columns_of
 from identification.diagnosis.search.loop import Search
 
 #: Part of what is unexplained, in squares, that stays without the odd run, and without any other one.

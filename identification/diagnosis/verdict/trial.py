@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.acting import Acting
-from identification.diagnosis.columns.bank import Bank, Variant
+from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
 from identification.diagnosis.columns.whitening import Colour, at_rate
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.search.evidence import columns_of
 from identification.diagnosis.search.loop import Search
 
 Array = NDArray[np.float64]

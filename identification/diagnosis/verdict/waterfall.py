@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
-from identification.diagnosis.search.evidence import columns_of
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.trial import Trial
 from identification.residuals import rms

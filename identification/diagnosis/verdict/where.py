@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.diagnosis.columns.bank import columns_of
 from identification.diagnosis.columns.hypothesis import ELASTIC
-from identification.diagnosis.search.evidence import columns_of
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following

@@ -1,0 +1,356 @@
+"""What speaks for a hypothesis beside others: its drop of the sum of squares, chance, and a run that was not fitted.
+
+A hypothesis may be taken when all of this holds: its drop is beyond chance for all that was tried; it lowers the sum of
+squares of a run that was not fitted; it is not tiny beside the noise, nor beside what is still unexplained; its shape
+is not at the end of what was tried, and its coefficients are within their physical bounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+
+from identification.diagnosis.columns.bank import Bank, Variant, columns_of
+from identification.diagnosis.columns.hypothesis import Hypothesis, Key
+from identification.diagnosis.columns.normal_equations import Normal, Places, Prior, inverse, told_apart
+from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
+from identification.diagnosis.search import known_friction
+from identification.diagnosis.search.evidence import Evidence
+from identification.diagnosis.search.held_out import HeldOut
+from identification.diagnosis.search.imperfect_laws import lacking
+from identification.diagnosis.search.likely import common, likely
+
+Array = NDArray[np.float64]
+#: Drop of the sum of squares, variant, coefficients.
+_Found = tuple[float, Variant, Array]
+
+#: Chance, over everything tried, that a name is given to nothing.
+_ALPHA = 1e-3
+#: Least drop of the validation's sum of squares, and its least part of what the fit promises.
+_VALIDATED, _TRANSFERRED = 6.0, 0.25
+#: Least whole size beside the noise of common and of other effects; and least part of what is unexplained above it, of
+#: common ones, of others that are likely, and of the rest.
+_FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
+#: A power that is none.
+_TINY = 1e-300
+#: What shows an effect that makes no torque along the runs.
+_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
+#: Part of what an effect explains that it explains without what refines it.
+_MAIN = 0.5
+#: Times its low end below which what vanishes there has vanished.
+_VANISHED = 1.1
+#: Part of what an effect explains that is not of the noise of positions.
+_TRUE = 0.5
+#: Least points of a grid that has ends, and how far below and above them, in parts of the first and the last, is one.
+_FEWEST, _LOW, _HIGH = 4, 0.7, 1.4
+#: Hypotheses, by what they explain, that are tried on the validating runs.
+_JUDGED = 16
+#: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
+_SHAPES, _NEAR = 6, 0.03
+
+
+class Weighing:
+    """Evidence from a bank whose runs ``train`` are fitted and ``validate`` are not.
+
+    Without any to validate each fitted run is predicted by the others. ``noisy`` are runs, by number, with the noise
+    of their positions once more. The fit is a ``free`` one where a ``prior`` is of what the robot's file states alone.
+    """
+
+    def __init__(
+        self,
+        bank: Bank,
+        train: Sequence[int],
+        validate: Sequence[int],
+        prior: Prior | None,
+        noisy: Mapping[int, Redrawn] | None = None,
+        free: bool = False,
+    ) -> None:
+        self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
+        self._free = free or prior is None
+        self._tried = len({one.key for one in bank.variants})
+        self._held_out = HeldOut(bank, train, validate, prior)
+        self._noisy = dict(noisy or {})
+        self._pretence = self._pretence_along(self.train)
+        #: By the columns of each of those chosen, of which one at its bounds has none.
+        self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
+        self._seen = 0
+        self.refresh()
+
+    def along(self, bank: Bank) -> Weighing:
+        """The same of another bank of the runs."""
+        noisy = redrawn(bank.runs, bank.scenes)
+        return Weighing(bank, self.train, self.validate, self._prior, noisy, self._free)
+
+    def refresh(self) -> None:
+        """After columns may have been added."""
+        if self._seen == self.bank.count:
+            return
+        self._seen = self.bank.count
+        self.normal = self._normal(self.train)
+        self.rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
+
+    @property
+    def all(self) -> Normal:
+        """Of the fitted and the validating runs."""
+        return self._normal((*self.train, *self.validate))
+
+    def fitted(self, variants: Sequence[Variant], with_validating: bool = False) -> tuple[Array, Array]:
+        """Base parameters and the coefficients of ``variants`` (p + k), fitted to the runs that train, or to those that
+        validate as well, without what noise of the positions takes of them, which moves no coefficient beyond its
+        bounds; and their covariance.
+        """
+        normal, pretence = (self.all, self._pretence_of_all) if with_validating else (self.normal, self._pretence)
+        solution, covariance = normal.solution(columns_of(variants))
+        if pretence.nothing or not len(solution):
+            return solution, covariance
+        corrected = solution - covariance @ pretence.beside(variants)
+        for i, (lower, upper) in enumerate(pair for one in variants for pair in zip(*one.bounds, strict=True)):
+            corrected[normal.base + i] = np.clip(corrected[normal.base + i], lower, upper)
+        return corrected, covariance
+
+    @cached_property
+    def _pretence_of_all(self) -> Pretence:
+        return self._pretence_along((*self.train, *self.validate))
+
+    def _pretence_along(self, runs: Sequence[int]) -> Pretence:
+        return Pretence(self.bank, {r: self._noisy[r] for r in runs if r in self._noisy})
+
+    def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
+        """What a fit of the base and of ``columns`` to some runs leaves in the mean square above that of the noise."""
+        normal = self._normal(runs)
+        solution, _ = normal.solution(columns)
+        return max(normal.misfit(columns, solution) / max(normal.rows, 1) - 1, 0.0)
+
+    def _normal(self, runs: Sequence[int]) -> Normal:
+        total = self.bank.grams[runs[0]].copy()
+        for r in runs[1:]:
+            total += self.bank.grams[r]
+        rows = sum(int(self.bank.rows(r).sum()) for r in runs)
+        return Normal(total, len(self.bank.base), rows, self._prior, self.bank.preset)
+
+    def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
+        """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
+        S = self.normal.beside(columns_of(chosen))
+        taken = {one.key for one in chosen}
+        found: dict[Key, list[_Found]] = {}
+        for variant in self.bank.variants:
+            key = variant.key
+            if key not in taken:
+                x, drop = self._solve(S, variant)
+                found.setdefault(key, []).append((drop, variant, x))
+        unexplained = self.unexplained(chosen)
+        ranked = sorted(found.values(), key=lambda shapes: -max(drop for drop, *_ in shapes))
+        first = [shapes for shapes in ranked[_JUDGED:] if likely(shapes[0][1], chosen)]
+        judged = [self._best(shapes, chosen, unexplained) for shapes in (*ranked[:_JUDGED], *first)]
+        return sorted((one for one in judged if one.drop > 0), key=lambda one: -one.score)
+
+    def best_shape(self, variants: Sequence[Variant], others: Sequence[Variant]) -> Evidence:
+        """Of the variant that explains most; among nearly equal ones a run that was not fitted decides."""
+        S = self.normal.beside(columns_of(others))
+        found = [(drop, variant, x) for variant in variants for x, drop in [self._solve(S, variant)]]
+        return self._best(found, others, self.unexplained(others))
+
+    def _best(self, found: Sequence[_Found], others: Sequence[Variant], unexplained: float) -> Evidence:
+        ranked = sorted(found, key=lambda one: -one[0])
+        least = (1 - _NEAR) * ranked[0][0]
+        near = [one for one in ranked if one[0] >= least][:_SHAPES]
+        return max((self._judged(one, others, unexplained) for one in near), key=lambda one: one.score)
+
+    def of(self, variant: Variant, others: Sequence[Variant]) -> Evidence:
+        """Evidence of one variant beside others."""
+        x, drop = self.beside(variant, others)
+        return self._judged((drop, variant, x), others, self.unexplained(others))
+
+    def beside(self, variant: Variant, others: Sequence[Variant]) -> tuple[Array, float]:
+        """Coefficients of a variant beside others, within their bounds, and the drop of the sum of squares."""
+        part = self.normal.part(variant.columns, columns_of(others))
+        return variant.best(part[:-1, :-1], part[:-1, -1], self.normal.least(variant.columns))
+
+    def gain(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """Drop of the sum of squares of what was not fitted."""
+        return self._held_out.gain(variant, self.beside(variant, others)[0], columns_of(others))[0]
+
+    def unexplained(self, chosen: Sequence[Variant]) -> float:
+        """What the sum of squares is above the noise."""
+        return max(self.misfit(chosen) - self.normal.rows, 0.0)
+
+    def misfit(self, chosen: Sequence[Variant]) -> float:
+        """The sum of squares that is left."""
+        solution, _ = self.normal.solution(columns_of(chosen))
+        return self.normal.misfit(columns_of(chosen), solution)
+
+    def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
+        at = np.array(variant.columns) - self.normal.base
+        return variant.best(S[np.ix_(at, at)], S[at, -1], self.normal.least(variant.columns))
+
+    def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
+        drop, variant, x = self._asked_for(found, others)
+        variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
+        p = _chance(drop, variant)
+        free = len(x) + variant.hypothesis.free
+        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
+        believed = not self._free or variant.believed(x)
+        one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
+        if p * self._tried > _ALPHA:
+            return replace(one, why_not="within chance")
+        if not self._itself(drop, variant, others):
+            return replace(one, why_not="what it explains is another effect")
+        if not self._beyond_friction(drop, variant, others):
+            return replace(one, why_not="what it explains is another value of friction that is known")
+        true = self._without_position_noise(variant, others)
+        if true < _TRUE * drop or _chance(true, variant) * self._tried > _ALPHA:
+            return replace(one, why_not="what it explains is noise of the positions")
+        validation, promised = self._held_out.gain(variant, x, columns_of(others))
+        one = replace(one, validation=validation)
+        # While much is missing, the missing rest decides what a part of it does to another run.
+        promised /= 1 + unexplained / self.normal.rows
+        if validation < max(_VALIDATED, _TRANSFERRED * promised):
+            return replace(one, why_not="does not help on a run that was not fitted")
+        if one.whole < (_FLOOR if common(variant) else _RARE_FLOOR):
+            return replace(one, why_not="smaller than what is named")
+        share = _SHARE if common(variant) else _LIKELY_SHARE if likely(variant, others) else _RARE_SHARE
+        if drop < share * unexplained:
+            return replace(one, why_not="too small beside what is left")
+        if drop < lacking(variant, others, self._drops(others)):
+            return replace(one, why_not="may be what another effect's law lacks")
+        if _at_end(variant):
+            return replace(one, why_not="its shape is at the end of what was tried")
+        return replace(one, passes=True)
+
+    def _sizes(self, drop: float, variant: Variant, x: Array, others: Sequence[Variant]) -> dict[int, float]:
+        """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as
+        that is which the model and ``others`` leave of the torque of coefficients x.
+        """
+        rows = {k: max(self.rows[k], 1) for k in variant.joints}
+        if len(rows) == 1:
+            return {k: float(np.sqrt(drop / count)) for k, count in rows.items()}
+        weights = dict(zip(variant.columns, x.tolist(), strict=True))
+        power = self.powers(weights, self._fitted_beside(others), variant.joints)
+        whole = max(sum(power.values()), _TINY)
+        return {k: float(np.sqrt(drop * power[k] / whole / count)) for k, count in rows.items()}
+
+    def powers(self, weights: Mapping[int, float], beside: Places, joints: Sequence[int]) -> dict[int, float]:
+        """By coordinate, the white sum of squares of what the columns ``beside`` leave, where they are fitted, of other
+        columns by number times their ``weights``.
+        """
+        own, G = np.array([*weights], dtype=int), self.normal.whole
+        taken = inverse(G[np.ix_(beside, beside)]) @ (G[np.ix_(beside, own)] @ [*weights.values()])
+        left = dict(zip((*weights, *beside.tolist()), (*weights.values(), *-taken), strict=True))
+        return {k: self.bank.power(left, k, self.train) for k in joints}
+
+    def _fitted_beside(self, others: Sequence[Variant]) -> Places:
+        """The columns that are fitted beside a variant, by number."""
+        return told_apart([*range(self.normal.base), *columns_of(others)], self.normal.preset)[0]
+
+    def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
+        """Without coefficients that only refine, where they explain chance, or more than what they refine.
+
+        Once what they refine is at its bounds, and gone, they are all that is left.
+        """
+        drop, variant, x = found
+        kept = [i for i, one in enumerate(variant.coefficients) if not one.refines]
+        if not kept or len(kept) == len(x):
+            return found
+        plain = variant.only(kept)
+        values, less = self.beside(plain, others)
+        refined = chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA and less > _MAIN * drop
+        return found if refined else (less, plain, values)
+
+    def _itself(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether the essential coefficients explain beyond chance, and a part of it, what the others do not."""
+        if not any(one.essential for one in variant.hypothesis.coefficients):
+            return True
+        rest = [i for i, one in enumerate(variant.coefficients) if not one.essential]
+        less = self.beside(variant.only(rest), others)[1] if rest else 0.0
+        count = len(variant.columns) - len(rest)
+        return _beyond(drop, less, count)
+
+    @cached_property
+    def _friction(self) -> Places:
+        return known_friction.friction(self.bank.robot, self.bank.base)
+
+    def _beyond_friction(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
+        is known.
+        """
+        if self._free:
+            return True
+        less, same = known_friction.explained(self.normal, variant.columns, columns_of(others), self._friction)
+        return not same or _beyond(drop, less, len(variant.columns) - same)
+
+    def _without_position_noise(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What a variant explains beside others without what noise of the positions makes it explain."""
+        part = self.normal.part(variant.columns, columns_of(others))
+        products = part[:-1, -1] - self.pretended(variant, others)
+        return variant.best(part[:-1, :-1], products, self.normal.least(variant.columns))[1]
+
+    def pretended(self, variant: Variant, others: Sequence[Variant]) -> Array:
+        """Of the products of a variant's columns beside others with the torque, what noise of the positions makes
+        (k): the columns beside which they stand are of the same positions.
+        """
+        if self._pretence.nothing:
+            return np.zeros(len(variant.columns))
+        every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
+        beside = self._fitted_beside(others)
+        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)[np.isin(every, beside)]
+        return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
+
+    def _drops(self, chosen: Sequence[Variant]) -> list[float]:
+        """What each of the chosen explains beside the rest of them."""
+        key = tuple(one.columns for one in chosen)
+        if key not in self._known_drops:
+            self._known_drops[key] = [
+                self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen
+            ]
+        return self._known_drops[key]
+
+    def visible(self, variant: Variant) -> bool:
+        """Whether the model leaves a part of the torque that it would make."""
+        return not all(map(self.normal.hides, variant.columns))
+
+    def invisible(self) -> list[Hypothesis]:
+        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
+        no torque along the runs.
+        """
+        hidden: dict[Key, list[bool]] = {}
+        whose: dict[Key, Hypothesis] = {}
+        for variant in self.bank.variants:
+            key = variant.key
+            hidden.setdefault(key, []).append(not self.visible(variant))
+            whose[key] = variant.hypothesis
+        taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
+        nowhere = [one for key, one in self.bank.nowhere.items() if key not in hidden and not one.measured]
+        return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
+
+
+def _beyond(drop: float, less: float, count: int) -> bool:
+    """Whether ``count`` more coefficients explain beyond chance, and a part of it, what others explain ``less`` of."""
+    return bool(count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
+
+
+def _chance(drop: float, variant: Variant) -> float:
+    """How likely noise makes the best of all shapes that were tried explain as much."""
+    return min(1.0, _tries(variant) * float(chi2.sf(drop, max(len(variant.columns), 1))))
+
+
+def _tries(variant: Variant) -> int:
+    return max(variant.hypothesis.tries, len(variant.hypothesis.variants))
+
+
+def _at_end(variant: Variant) -> bool:
+    """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
+    for shape in variant.hypothesis.shapes:
+        if shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED:
+            return True
+        points = shape.grid()
+        if shape.whole or shape.step or len(points) < _FEWEST or not shape.log:
+            continue
+        value = variant.shape[shape.name]
+        if value <= min(points) * _LOW or value >= max(points) * _HIGH:
+            return True
+    return False
