@@ -47,7 +47,8 @@ def generate(
     contents = manifest(model, sorted(files))
     files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
     folder = out / model.robot.name
-    replace(folder, files)
+    backends = {backend.NAME for backend in modules(generator.backends)}
+    replace(folder, files, gone=backends - {name.partition("/")[0] for name in files})
     return folder, contents
 
 

@@ -5,20 +5,21 @@ from __future__ import annotations
 import errno
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
 from generator.errors import InputError, Place
 
 
-def replace(folder: Path, files: Mapping[str, bytes]) -> None:
+def replace(folder: Path, files: Mapping[str, bytes], gone: Collection[str] = ()) -> None:
     """Writes ``files`` (relative path -> content) into ``folder``, all of them or none.
 
     Each top-level entry of ``files`` replaces the folder's entry of that name whole, so that nothing stale stays in
-    it; the folder's other entries are not touched. Raises InputError where the folder cannot be written.
+    it; entries that are ``gone`` go, and the folder's other ones are not touched. Raises InputError where the folder
+    cannot be written.
     """
-    with replacing(folder) as fresh, _written(folder):
+    with replacing(folder, gone=gone) as fresh, _written(folder):
         for name, content in files.items():
             path = fresh / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -33,11 +34,12 @@ def spare(source: Path, targets: Iterable[Path]) -> None:
 
 
 @contextmanager
-def replacing(folder: Path, shared: str = "") -> Iterator[Path]:
+def replacing(folder: Path, shared: str = "", gone: Collection[str] = ()) -> Iterator[Path]:
     """A fresh folder to write into; when the context ends well its entries replace those of ``folder``, all or none.
 
-    That ``folder`` can be written is tried first. Of its entry ``shared`` each entry is replaced by itself. Until then
-    all of it is in a hidden folder: in ``folder``, where that is there, else beside it.
+    That ``folder`` can be written is tried first. Of its entry ``shared`` each entry is replaced by itself; those that
+    are ``gone`` go with the others. Until then all of it is in a hidden folder: in ``folder``, where that is there,
+    else beside it.
     """
     with _written(folder / shared):
         _check_shared(folder, shared)
@@ -51,7 +53,7 @@ def replacing(folder: Path, shared: str = "") -> Iterator[Path]:
         yield fresh
         with _written(folder):
             folder.mkdir(exist_ok=True)
-            _exchange(folder, fresh, stale, _entries(fresh, shared))
+            _exchange(folder, fresh, stale, sorted({*_entries(fresh, shared), *gone}))
 
 
 @contextmanager
@@ -101,13 +103,14 @@ def _entries(fresh: Path, shared: str) -> list[str]:
 
 
 def _exchange(folder: Path, fresh: Path, stale: Path, names: list[str]) -> None:
-    """Moves ``names`` of ``fresh`` into ``folder`` and what they replace into ``stale``; undoes it all on failure."""
+    """Moves ``names`` of ``folder`` into ``stale`` and those of ``fresh`` in their place; undoes it all on failure."""
     moves: list[tuple[Path, Path]] = []
     try:
         for name in names:
             if os.path.lexists(folder / name):
                 _move(folder / name, stale / name, moves)
-            _move(fresh / name, folder / name, moves)
+            if os.path.lexists(fresh / name):
+                _move(fresh / name, folder / name, moves)
     except BaseException:
         for source, target in reversed(moves):
             target.rename(source)

@@ -42,8 +42,10 @@ def bootstrapped(
     """The solution with the covariance of ``draws`` estimates from blocks drawn with replacement of the runs' ``rows``.
 
     Blocks are a second long, shorter where the runs would have fewer than twenty. Hidden parameters stay so; what the
-    rows show of their sums is drawn with the others.
+    rows show of their sums is drawn with the others. Where nothing is sought the solution stays as it is.
     """
+    if not problem.names:
+        return solution
     whitening = _whitening(problem, solution)
     blocks = list(_blocks(solution, runs, rows, whitening).values())
     count = len(blocks)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import sympy
@@ -13,7 +14,7 @@ from scipy.signal import lfilter
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
-from identification.drive_train import constants, coupling, driven, motor_torques
+from identification.drive_train import constants, coupling, driven, motor_torques, with_constants
 from identification.recording import Array
 
 #: What a file states for joints that no motion limits or warms [A, s, K, N m].
@@ -133,6 +134,17 @@ def drifting(robot: Robot) -> list[tuple[int, float]]:
     """Coordinates with motors whose torque constants drift, and by what part of them."""
     drift = robot.drives.torque_drift if robot.drives is not None else ()
     return [(k, float(part)) for k, part in enumerate(drift) if part]
+
+
+def with_unit_constants(robot: Robot) -> Robot:
+    """The robot with torque constants of 1 N m/A, for which the joint torques of currents are N^T i, and its motors'
+    ``warm_torque`` in A by the file's own.
+    """
+    kt, unit = constants(robot).tolist(), with_constants(robot, [1.0] * len(robot.moving))
+    warm = tuple(
+        one if one >= NEVER else sympy.Float(one) / own for one, own in zip(robot.signals.warm_torque, kt, strict=False)
+    )
+    return replace(unit, signals=replace(robot.signals, warm_torque=warm))
 
 
 def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) -> Array:

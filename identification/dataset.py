@@ -27,6 +27,7 @@ from identification.signals import (
     joint_positions,
     joint_torques,
     measured,
+    numbered,
 )
 from identification.timing import Clock, clock, jitters
 
@@ -122,9 +123,9 @@ def load(
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     if all(_possible(one, recording) for one in wanted.values()):
         recording = renamed(recording, wanted)
-    recording = renamed(recording, beside.columns)
+    recording = numbered(renamed(recording, beside.columns), robot)
     recorded = _recorded(source, named.rows_of(recording), robot, efforts, resting)
-    known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording))
+    known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording, robot))
     return _corrected(known, robot)
 
 
@@ -132,10 +133,14 @@ def _possible(formula: Formula, recording: Recording) -> bool:
     return all(symbol.name in recording.columns for symbol in formula.expression.free_symbols)
 
 
-def _beginning(recording: Recording) -> dict[str, float]:
-    """Time and temperatures in the first row, by column."""
-    told = {name: values for name, values in recording.columns.items() if name == "t" or name.startswith("temp")}
-    return {name: float(values[0]) for name, values in told.items() if len(values)}
+def _beginning(recording: Recording, robot: Robot) -> dict[str, float]:
+    """Time and temperatures in the first row, by column; raises InputError where one is no number, though the run may
+    begin later.
+    """
+    names = ("t", *(f"temp{number}" for number in robot.numbers))
+    told = {name: recording.columns[name][:1] for name in names if len(recording.columns.get(name, ()))}
+    checks.finite([*told.items()], recording.where)
+    return {name: float(values[0]) for name, values in told.items()}
 
 
 def _recorded(source: str, recording: Recording, robot: Robot, efforts: Sequence[str], resting: bool) -> Run:

@@ -15,14 +15,16 @@ from numpy.typing import NDArray
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
+from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import coupling, with_unit_constants
+from identification.drive_train import coupling
 from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of
 from identification.sampling import Sampled, sampled
+from identification.shared_samples import unshared
 from identification.sidecar import Payload
 from identification.total_least_squares import Fit, Part, solve
 
@@ -117,6 +119,7 @@ def drive_gains(
     stds = dict(payload_std or {})
     _check_known(carrying, stds)
     runs = [*unloaded, *carrying]
+    unshared({"fit": runs})
     regressors = regressors or Regressors(robot)
     seen = [sampled(run, recipe, regressors) for run in runs]
     names = _names(regressors, runs)

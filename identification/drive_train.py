@@ -38,11 +38,6 @@ def with_constants(robot: Robot, values: Sequence[float]) -> Robot:
     return replace(robot, drives=replace(drives, torque_constants=named, torque_constant="given"))
 
 
-def with_unit_constants(robot: Robot) -> Robot:
-    """The robot with torque constants of 1 N m/A, for which the joint torques of currents are N^T i."""
-    return with_constants(robot, np.ones(len(robot.moving)).tolist())
-
-
 def motor_torques(robot: Robot, tau: Array) -> Array:
     """Torques of the motors [N m] (n x N) from those of the joints (n x N): N^-T tau."""
     return np.asarray(np.linalg.solve(coupling(robot).T, tau), dtype=float)

@@ -19,14 +19,16 @@ from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.colour import scatter
+from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import constants, coupling, motor_torques, with_unit_constants
+from identification.drive_train import constants, coupling, motor_torques
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
+from identification.shared_samples import unshared
 from identification.signals import EFFORTS, WRENCH, NoColumns
 from identification.torque_constants import Turning, torque_constant
 
@@ -99,6 +101,7 @@ def force_steps(
     Raises InputError for runs without a wrench, joints that move freely, and where no joint's stiffness shows.
     """
     runs = [_loaded(str(source), robot, recipe) for source in sources]
+    unshared({"fit": [run for run, _ in runs]})
     components = tuple(name for name in WRENCH if any(name in run.others for run, _ in runs))
     generated = generated or wrench_torque(robot)
     Ia = _inertias(robot, inertias or {})
@@ -204,7 +207,8 @@ def _weighed(pose: Pose, kt: Mapping[str, Value], robot: Robot) -> Pose:
         return pose
     N, values = coupling(robot), constants(robot)
     for m, joint in enumerate(robot.moving):
-        values[m] = kt[f"kt{joint.number}"].value or values[m]
+        found = kt.get(f"kt{joint.number}")
+        values[m] = (found and found.value) or values[m]
     return replace(pose, load=N.T @ (values * np.linalg.solve(N.T, pose.load)))
 
 

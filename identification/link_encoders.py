@@ -23,6 +23,7 @@ from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
+from identification.shared_samples import unshared
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,9 @@ class Rows:
 
     @property
     def condition(self) -> float:
-        """Of the columns of motion, constants and torque at unit length; infinite where one is zero."""
+        """Of the columns of motion, constants and torque at unit length; infinite where one is zero, or has no row."""
+        if not len(self.torque):
+            return np.inf
         return float(np.linalg.cond(_scaled(np.column_stack([self.own, self.constants, self.torque]))))
 
     def beside_motion(self) -> tuple[Array, Array]:
@@ -96,6 +99,7 @@ def of_runs(
     robot: Robot, runs: Sequence[Run], friction: Mapping[str, float] | None = None, recipe: Recipe = RECIPE
 ) -> LinkEncoders:
     """As ``link_encoders``, from runs that have been read."""
+    unshared({"fit": runs})
     filters = [filters_of(run, recipe) for run in runs]
     latency, stiffness, mistaken, residuals, kept = {}, {}, {}, {}, {}
     notes = [note for run in runs for note in run.notes]

@@ -25,6 +25,7 @@ from identification.outcome import Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
+from identification.shared_samples import unshared
 
 Array = NDArray[np.float64]
 
@@ -92,6 +93,7 @@ def locked_output(
         removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))
         stacked.append(_rows(run, filters, k, removed[-1]))
         found.append((run, filters))
+    unshared({"fit": [run for run, _ in found]})
     rows = np.concatenate(stacked)
     if len(rows) < _FEWEST * len(names):
         few = f"{plural(len(rows), 'row')} in which the motor of joint {number} turns steadily"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,9 +19,11 @@ POSITIONS = ("q", "qm")
 EFFORTS = ("tau", "taum", "i")
 #: What a run may hold beside, one column a joint.
 FURTHER = ("qs", "qd", "qr", "temp")
+#: All stems.
+STEMS = (*POSITIONS, *EFFORTS, *FURTHER)
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 #: All names of columns that mean something, as a person reads them.
-NAMES = ", ".join(["t", *(f"{stem}1.." for stem in (*POSITIONS, *EFFORTS, *FURTHER)), *WRENCH])
+NAMES = ", ".join(["t", *(f"{stem}1.." for stem in STEMS), *WRENCH])
 
 _NUMBERED = re.compile(r"([A-Za-z]+)(0|[1-9]\d*)\Z")
 
@@ -29,7 +31,17 @@ _NUMBERED = re.compile(r"([A-Za-z]+)(0|[1-9]\d*)\Z")
 def meant(name: str) -> bool:
     """Whether a column of this name means something, on a robot with joints enough."""
     match = _NUMBERED.match(name)
-    return name in ("t", *WRENCH) or (match is not None and match[1] in (*POSITIONS, *EFFORTS, *FURTHER))
+    return name in ("t", *WRENCH) or (match is not None and match[1] in STEMS)
+
+
+def numbered(recording: Recording, robot: Robot) -> Recording:
+    """The recording with the positions and efforts of a robot's only joint under its number, where they have none."""
+    if len(robot.numbers) != 1:
+        return recording
+    columns = recording.columns
+    (number,) = robot.numbers
+    plain = {f"{stem}{number}": columns[stem] for stem in (*POSITIONS, *EFFORTS) if stem in columns}
+    return replace(recording, columns={**plain, **columns})
 
 
 class NoColumns(InputError):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,7 @@ def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
             "refused_above_relative_std_percent": 100 * link_encoders.LIMIT,
         },
         "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
-        "condition": max(rows.condition for rows in found.rows.values()),
+        "condition": max((rows.condition for rows in found.rows.values() if len(rows.torque)), default=inf),
         "parameters": outcome.parameters(values),
         "taken_for_elasticity": outcome.parameters(found.mistaken),
         "residual": {"train": outcome.norms(each, Residuals(each).total), "test": None},

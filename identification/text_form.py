@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -34,16 +34,20 @@ class Form:
             for line in islice(stream, self.header + 1, None):
                 yield self._ended(line)
 
-    def rows(self, count: int) -> Iterator[str]:
-        """The first ``count`` lines under the header with decimal points; raises ValueError for two decimal marks."""
+    def rows(self, count: int, used: Sequence[int] | None = None) -> Iterator[str]:
+        """The first ``count`` lines under the header with decimal points; raises ValueError for two decimal marks in
+        the fields that are ``used``, all if None.
+        """
         mark = ""
         with self.path.open(encoding=self.encoding) as stream:
             for line in islice(stream, self.header + 1, self.header + 1 + count):
                 if self.separator == ",":
                     yield self._ended(line)
                     continue
-                mark = mark or decimal_mark(line)
-                if other_marks(line, mark):
+                fields = split(line, self.separator) if used is not None else []
+                numbers = line if used is None else " ".join(fields[k] for k in used if k < len(fields))
+                mark = mark or decimal_mark(numbers)
+                if other_marks(numbers, mark):
                     raise ValueError("two decimal marks")
                 yield self._ended(line).replace(",", ".")
 

@@ -98,6 +98,21 @@ def test_binary_file(tmp_path: Path) -> None:
     assert _refusal(file) == f"{file}:2:6: byte 0xff is not UTF-8, expected a text file in UTF-8"
 
 
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"\xef\xbb\xbfname: a\ndescription: x\xffyz", "2:15: byte 0xff"),
+        (b"\xef\xbb\xbfa: 1\n\xffbc", "2:1: byte 0xff"),
+        ("x: éé".encode() + b"\xfe", "1:6: byte 0xfe"),
+        (b"a: 1\rb: \xff", "2:4: byte 0xff"),
+    ],
+)
+def test_a_byte_is_told_where_an_editor_shows_it(content: bytes, told: str, tmp_path: Path) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_bytes(content)
+    assert _refusal(file) == f"{file}:{told} is not UTF-8, expected a text file in UTF-8"
+
+
 def test_control_characters(tmp_path: Path) -> None:
     file = tmp_path / "arm.yaml"
     file.write_bytes(b"name: arm\n\x00")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from generator.errors import InputError
 from generator.robot.readers import read
 from identification.drive_gains import DriveGains, drive_gains
 from identification.motor_rows import motor_rows
@@ -196,3 +197,14 @@ def test_runs_that_show_no_gain_are_refused(
         "gains", robot, "--empty", a, "--loaded", b, "--payload", "M=20", "--payload-std", "MX=1", capsys=capsys
     )
     assert "MX of payload L is not known, expected a value for its std" in done.err
+
+
+def test_a_run_that_is_there_twice_is_refused(arm: Regressors, tmp_path: Path) -> None:
+    """It would make the gains look better known than they are."""
+    a, b = (
+        saved(tmp_path / f"{name}.csv", *currents(arm, seed, name == "b"), 0.02, seed)
+        for seed, name in enumerate("ab", 1)
+    )
+    for empty, loaded in (([a, a], [b]), ([a], [b, b])):
+        with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in"):
+            drive_gains(arm.model.robot, empty, loaded, Payload("L", {"M": 20.0}), regressors=arm)

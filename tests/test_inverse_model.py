@@ -157,6 +157,12 @@ def test_blocks_tell_the_uncertainty_under_coloured_noise(links: Regressors, fol
     assert 0.75 < np.median(actual / np.mean(blocks, axis=0)) < 1.4
 
 
+def test_where_nothing_is_sought_nothing_is_drawn(links: Regressors, clean: Path) -> None:
+    options = Options(recipe=PLAIN, fixed=TRUTH, draws=50)
+    found = identify(links.model.robot, [clean], options=options, regressors=links).full
+    assert found.train.total.relative_to_mean < 1
+
+
 def test_several_runs_and_held_out_ones(links: Regressors, clean: Path, noisy: Path) -> None:
     robot = links.model.robot
     both = identify(robot, [clean, noisy], [clean], Options(recipe=PLAIN), links)

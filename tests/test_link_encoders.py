@@ -12,13 +12,15 @@ import pytest
 from generator.errors import InputError
 from generator.resources import find_robot
 from generator.robot.readers import read
+from identification.dataset import load
 from identification.inverse_model import identify
-from identification.link_encoders import link_encoders
+from identification.link_encoders import link_encoders, of_runs
 from identification.recipe import Recipe
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
+from identification.stiffness_results import of_link_encoders
 from tests.commands import command
 from tests.elastic_links import MOTORS, N, robot_text
 from tests.recorded import Recorded
@@ -139,3 +141,16 @@ def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.Ca
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert results["parameters"]["k1"]["refused"].startswith("what the latency leaves shows it with a relative std")
     assert set(results["taken_for_elasticity"]) == {"k1", "k2", "k3"}
+
+
+def test_a_joint_that_crawls_is_refused_and_the_other_is_not(machine: Machine, tmp_path: Path) -> None:
+    path = recorded(machine, RUN, tmp_path / "a.csv")
+    run = load(path, machine.robot)
+    crawling = 0.02 * np.sin(0.2 * run.period * np.arange(run.samples))
+    slow = replace(run, q=np.stack([run.q[0], crawling]), others={**run.others, "qs2": crawling})
+    found = of_runs(machine.robot, [slow], MOTORS)
+    assert found.stiffness["k1"].value is not None
+    assert found.stiffness["k2"].value is None
+    assert np.isfinite(of_link_encoders(found)["condition"])
+    with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in a.csv"):
+        link_encoders(machine.robot, [path, path])

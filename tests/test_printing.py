@@ -15,6 +15,7 @@ from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED,
 from generator.backends.printing.language import LINE, Language
 from generator.backends.printing.prepared import index, signal_of
 from generator.backends.printing.straight_line import Block, straight_line
+from generator.resources import templates
 from generator.symbolic.statements import FUNCTIONS, Node, Program
 from tests.toy import OPERATIONS, VALUES, interpreted, programs
 
@@ -175,3 +176,11 @@ def test_words_of_c_and_cpp_are_reserved(word: str) -> None:
 @pytest.mark.parametrize("word", ["lambda", "None", "is", "tuple"])
 def test_words_of_python_are_reserved(word: str) -> None:
     assert word in PYTHON_RESERVED
+
+
+def test_macros_of_the_templates_are_reserved() -> None:
+    """A parameter's name becomes that of a field, which a macro of the same name would replace."""
+    texts = [path.read_text() for folder in ("c", "batch", "simulation") for path in (templates() / folder).iterdir()]
+    macros = {name for text in texts for name in re.findall(r"^ *# *define +([A-Za-z_]+)(?![A-Za-z_{])", text, re.M)}
+    assert "WIDTH" in macros
+    assert macros <= C_RESERVED

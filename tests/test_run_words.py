@@ -6,11 +6,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pyarrow
 import pytest
 import scipy.io
+from pyarrow import parquet
 
 from generator.errors import InputError
+from generator.robot.readers import read
 from identification.dataset import load
+from tests.commands import PENDULUM
 from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
 
 
@@ -43,3 +47,41 @@ def test_a_mat_file_has_each_column_once(tmp_path: Path) -> None:
     scipy.io.savemat(path, {"t": t, "q1": q[:, 0], "q": q, "tau": q})
     with pytest.raises(InputError, match=r"a.mat:1:1: column q1 is there twice, expected each column once"):
         load(str(path), two_links(tmp_path).model.robot)
+
+
+def test_a_date_has_points_beside_decimal_commas(tmp_path: Path) -> None:
+    regressors = two_links(tmp_path)
+    good = recorded(regressors, TRUTH, duration=8.0)
+    header, *rows = good.save(tmp_path / "a.csv").read_text().splitlines()
+    lines = [f"{header},date", *(f"{row},01.02.2020" for row in rows)]
+    comma = [line.replace(",", ";").replace(".", ",").replace("01,02,2020", "01.02.2020") for line in lines[1:]]
+    (tmp_path / "b.csv").write_text("\n".join([lines[0].replace(",", ";"), *comma]) + "\n")
+    run = load(str(tmp_path / "b.csv"), regressors.model.robot)
+    assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
+    (note,) = run.notes
+    assert note.endswith("b.csv: date held no number and is left out")
+
+
+def test_words_in_a_parquet_file_are_left_out_and_a_name_is_there_once(tmp_path: Path) -> None:
+    regressors = two_links(tmp_path)
+    good = recorded(regressors, TRUTH, duration=8.0)
+    columns = dict(good.columns)
+    words = ["AUT"] * len(columns["t"])
+    parquet.write_table(pyarrow.table({**columns, "mode": words}), tmp_path / "a.parquet")
+    run = load(str(tmp_path / "a.parquet"), regressors.model.robot)
+    assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
+    assert run.notes == (f"{tmp_path / 'a.parquet'}: mode held no number and is left out",)
+    twice = pyarrow.table([*columns.values(), columns["q1"]], names=[*columns, "q1"])
+    parquet.write_table(twice, tmp_path / "b.parquet")
+    with pytest.raises(InputError, match=r"b.parquet:1:\d+: column q1 is there twice, expected each column once"):
+        load(str(tmp_path / "b.parquet"), regressors.model.robot)
+
+
+def test_vectors_of_a_mat_file_are_those_of_the_only_joint(tmp_path: Path) -> None:
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    t = np.arange(1000) * 0.01
+    q, tau = np.sin(3 * t), np.cos(3 * t)
+    scipy.io.savemat(tmp_path / "a.mat", {"t": t[:, None], "q": q[:, None], "tau": tau[:, None]})
+    run = load(str(tmp_path / "a.mat"), read(tmp_path / "pendulum.yaml"))
+    np.testing.assert_array_equal(run.q[0], q)
+    np.testing.assert_array_equal(run.tau[0], tau)

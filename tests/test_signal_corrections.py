@@ -247,3 +247,26 @@ def test_a_limit_of_currents_needs_torque_constants(tmp_path: Path) -> None:
 def test_bad_warmth_is_refused(entry: str, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="warm_"):
         robot(tmp_path, entry)
+
+
+def test_currents_alone_tell_the_same_warmth(tmp_path: Path) -> None:
+    """Where torque constants are sought, those of the file still say what a motor's torque is."""
+    of = robot(
+        tmp_path, "warm_up_time: 2 s, warm_torque: [2 N m, 3 N m, 1000000 N m]", "  torque_drift: [-1/20, 0, 0]\n"
+    )
+    usual = Recorded(tmp_path).run(of, positions(T), currents(T))
+    alone = load(str(tmp_path / "run.csv"), corrections.with_unit_constants(of), efforts=("i",))
+    assert usual.warmth is not None
+    assert alone.warmth is not None
+    np.testing.assert_allclose(alone.warmth, usual.warmth, rtol=1e-9)
+    np.testing.assert_allclose(np.linalg.solve(N.T, usual.tau), KT * np.linalg.solve(N.T, alone.tau), rtol=1e-9)
+
+
+@pytest.mark.parametrize("part", ["", "@1:3"])
+def test_a_temperature_that_is_unknown_where_the_recording_begins_is_refused(part: str, tmp_path: Path) -> None:
+    """A part of it rises from there too."""
+    of = robot(tmp_path, "warm_rise: 20 K", "  torque_drift: [-1/20, -1/10, 0]\n")
+    temperature = 25 + T * np.ones((3, 1))
+    temperature[1, 0] = np.nan
+    with pytest.raises(InputError, match=r"run\.csv:2:\d+: temp2 is nan, expected a finite number"):
+        Recorded(tmp_path).run(of, positions(T), currents(T), part, temp=temperature)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from generator.errors import InputError
 from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.force_steps import ForceSteps, force_steps
@@ -254,3 +255,25 @@ def test_runs_that_show_no_stiffness_are_refused(tmp_path: Path, capsys: pytest.
     for words, error in cases:
         done = command("stiffness", "kr500", *words, "--out", here / "out", capsys=capsys)
         assert (done.status, error in done.err) == (2, True), done.err
+
+
+def test_poses_with_currents_and_with_torques_go_together(tmp_path: Path) -> None:
+    """Torque constants are then those of the file."""
+    currents = pressed(tmp_path / "straight.csv", STRAIGHT, 1, 1e-3)
+    torques = pressed(tmp_path / "turned.csv", TURNED, 2, 1e-3, "xyz")
+    lines = Path(torques).read_text().splitlines()
+    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
+    columns = dict(zip(names, values, strict=True))
+    tau = N.T @ (KT[:, None] * np.stack([columns.pop(f"i{j}") for j in range(1, 7)]))
+    Recorded(columns | {f"tau{j}": one for j, one in enumerate(tau, 1)}).save(Path(torques))
+    found = force_steps(ROBOT, [currents, torques])
+    assert not found.constants
+    assert found.stiffness["k1"].value == pytest.approx(K[0], rel=0.02)
+
+
+def test_a_run_that_is_there_twice_is_refused(tmp_path: Path) -> None:
+    one, other = blocked(tmp_path / "a.csv"), pressed(tmp_path / "b.csv", STRAIGHT)
+    with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in a.csv"):
+        locked_output(ROBOT, 2, [one, one])
+    with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in b.csv"):
+        force_steps(ROBOT, [other, other])

@@ -42,6 +42,12 @@ def test_stale_files_go_and_foreign_ones_stay(tmp_path: Path) -> None:
     assert tree(tmp_path / "robot") == NEW | {"notes/mine.txt": b"mine"}
 
 
+def test_what_is_gone_goes_with_the_others(tmp_path: Path) -> None:
+    replace(tmp_path / "robot", OLD | {"batch/old.c": b"old"})
+    replace(tmp_path / "robot", NEW, gone=("batch", "simulation"))
+    assert tree(tmp_path / "robot") == NEW
+
+
 @pytest.mark.parametrize("failing", range(5))
 def test_a_failure_at_any_move_restores_the_old_generation(
     tmp_path: Path, failing: int, monkeypatch: pytest.MonkeyPatch

@@ -30,7 +30,7 @@ _LANGUAGE = Language(
     calls={operation: f"lanes_{operation}" for operation in (*MATHEMATICS, "sign", "directed")},
     statement="const lanes {name} = {value};",
     literal="R({value})",
-    reserved=C_RESERVED | {"R", "LANES", "TILE", "BLOCK", "ENTRIES", "lanes", "prepared", "to", "PITCH", *INPUTS},
+    reserved=C_RESERVED | {"lanes", "prepared", "to", *INPUTS},
 )
 
 
@@ -55,7 +55,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
     if not of_many_samples(model):
         return {}
     prefix = model.robot.name
-    prepared = prepare(model.functions.values(), model.parameters, C_RESERVED | {"R"})
+    prepared = prepare(model.functions.values(), model.parameters, C_RESERVED)
     dynamics, regressor = model.functions[DYNAMICS], model.functions[REGRESSOR]
     assert regressor.sparsity is not None
     called = [*dynamics.called, *regressor.called]

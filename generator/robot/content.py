@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from generator.robot import fields
 from generator.robot.description import Joint, Length, Robot
 from generator.robot.document import Node, digest
-from generator.robot.names import identifier
+from generator.robot.names import robot_name
 from generator.robot.sections.drives import drives
 from generator.robot.sections.effects import effects, flexible
 from generator.robot.sections.geometry import base, gravity, lengths
@@ -22,7 +22,7 @@ _OPTIONAL = ("description", "source", "base", "geometry", "drives", "effects", "
 def robot_from(node: Node) -> Robot:
     """The robot. Raises InputError, with its place, for the first thing that is not as a robot file must be."""
     keys = fields.table(node, "the robot", _REQUIRED, _OPTIONAL)
-    name = identifier(fields.text(keys["name"].value, "name"), "robot name")
+    name = robot_name(fields.text(keys["name"].value, "name"))
     named_lengths = lengths(keys.get("geometry"))
     all_joints = joints(keys["joints"], named_lengths)
     return Robot(

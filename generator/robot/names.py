@@ -30,6 +30,9 @@ float64_t NULL NAN INFINITY EOF EXIT_SUCCESS EXIT_FAILURE HUGE_VAL j0 j1 jn y0 y
 
 _PYTHON = """casadi numpy np math sympy"""
 
+#: Targets that CMake makes by itself, and a library that the robot's own links.
+_CMAKE = "all clean depend edit_cache help install m package rebuild_cache test"
+
 _RESERVED = {
     **dict.fromkeys(_PYTHON.split(), "a module of the generated Python"),
     **dict.fromkeys(_C_LIBRARY.split(), "a name of the C library"),
@@ -53,4 +56,15 @@ def identifier(text: Text, what: str) -> str:
         raise InputError(text.place, f"{what} {name!r} is reserved in C++", "a name without two _ in a row")
     if name in _RESERVED:
         raise InputError(text.place, f"{what} {name!r} is {_RESERVED[name]}", "another name")
+    return name
+
+
+def robot_name(text: Text) -> str:
+    """The name that ``text`` gives to a robot, after which files, functions and a target of CMake are called.
+
+    Raises InputError as ``identifier`` does, and for a target that CMake keeps for itself.
+    """
+    name = identifier(text, "robot name")
+    if name in _CMAKE.split():
+        raise InputError(text.place, f"robot name {name!r} is a target of CMake", "another name")
     return name

@@ -85,7 +85,7 @@ def read(path: Path) -> Recording:
 def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Array:
     """Rows of numbers (N x c), of some columns where they are given; raises ValueError for what is none."""
     return np.loadtxt(
-        form.rows(rows),
+        form.rows(rows, columns),
         delimiter=form.separator,
         ndmin=2,
         comments=None,

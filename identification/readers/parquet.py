@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from generator.errors import InputError, Place
+from generator.review.words import listed
 from identification.extras import needing
 from identification.recording import Array, Recording, digest
 
@@ -14,24 +16,30 @@ EXTENSIONS = (".parquet",)
 
 
 def read(path: Path) -> Recording:
-    """The columns; a missing value is NaN. Raises InputError for a damaged file and a column that is not of numbers."""
+    """The columns of numbers; a missing value is NaN. A column of anything else is left out, and told.
+
+    Raises InputError for a damaged file and for a column that is there twice.
+    """
     file = str(path)
     with needing(Place(file)):
         import pyarrow
         from pyarrow import parquet
     try:
+        names = list(parquet.read_schema(path).names)
+        for k, name in enumerate(names):
+            if name in names[:k]:
+                raise InputError(Place(file, 1, k + 1), f"column {name} is there twice", "each column once")
         table = parquet.read_table(path)
     except pyarrow.ArrowException as error:
         problem = f"this is not a whole Parquet file ({' '.join(str(error).split())})"
         raise InputError(Place(file), problem, "a Parquet file") from None
-    names = list(table.column_names)
     columns: dict[str, Array] = {}
-    for k, name in enumerate(names, start=1):
-        try:
+    for name in names:
+        with suppress(TypeError, ValueError):
             columns[name] = np.asarray(table.column(name).to_numpy(), dtype=float)
-        except (TypeError, ValueError):
-            raise InputError(Place(file, 1, k), f"column {name} is {table.column(name).type}", "numbers") from None
-    return Recording(file, columns, digest(path), lambda row, column: _place(file, names, row, column))
+    words = [name for name in names if name not in columns]
+    notes = (f"{file}: {listed(words)} held no number and is left out",) if words else ()
+    return Recording(file, columns, digest(path), lambda row, column: _place(file, names, row, column), notes)
 
 
 def _place(file: str, names: list[str], row: int | None, column: str) -> Place:

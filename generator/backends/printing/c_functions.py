@@ -85,7 +85,7 @@ class CFunction:
 def c_language(prefix: str) -> Language:
     """C as the generated source writes it: constants through R(), mathematics through the robot's own macros."""
     calls = {operation: f"{prefix}_{operation}" for operation in (*MATHEMATICS, "sign", "directed")}
-    return Language(calls, f"const {prefix}_real {{name}} = {{value}};", "R({value})", C_RESERVED | {"R"})
+    return Language(calls, f"const {prefix}_real {{name}} = {{value}};", "R({value})", C_RESERVED)
 
 
 def c_function(function: Function, prepared: Prepared, prefix: str) -> CFunction:

@@ -26,8 +26,15 @@ _MATH = """
 """
 _PREDEFINED = "I NULL NAN INFINITY HUGE_VAL linux unix i386 vax sun"
 
-#: What C and C++ reserve, what <math.h> declares (a local of that name would shadow it), and what compilers predefine.
-C_RESERVED = frozenset(f"{_C} {_CPP} {_MATH} {_PREDEFINED}".split())
+#: Macros of the templates of C.
+_TEMPLATES = """
+    AHEAD BLOCK EACH_LANE ENTRIES EVENTS FIRST INLINE LANE LANES LANES_BYTES MATHEMATICS NBASE NGRAM NQ NUMBER PART
+    PARTS PITCH R REAL_BYTES SAMPLE SEARCHES SECOND SIZE SQUARES STREAM STREAM_END TILE TOLERANCE UNROLL WIDTH ZERO
+"""
+
+#: What C and C++ reserve, what <math.h> declares (a local of that name would shadow it), what compilers predefine, and
+#: what the templates define.
+C_RESERVED = frozenset(f"{_C} {_CPP} {_MATH} {_PREDEFINED} {_TEMPLATES}".split())
 
 #: Keywords of Python and the built-in names that generated modules call.
 PYTHON_RESERVED = frozenset(keyword.kwlist) | {"_", "tuple", "len", "enumerate", "zip", "float", "dict", "str", "int"}

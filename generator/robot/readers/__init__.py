@@ -56,8 +56,13 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
     except OSError as error:
         raise InputError(Place(file), f"cannot read the file ({error.strerror})", expected) from None
     try:
-        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        return _with_single_ends(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        before = content[: error.start]
-        place = Place(file, before.count(b"\n") + 1, error.start - before.rfind(b"\n"))
-        raise InputError(place, f"byte 0x{content[error.start]:02x} is not UTF-8", "a text file in UTF-8") from None
+        before = _with_single_ends(error.object[: error.start].decode())
+        place = Place(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
+        problem = f"byte 0x{error.object[error.start]:02x} is not UTF-8"
+        raise InputError(place, problem, "a text file in UTF-8") from None
+
+
+def _with_single_ends(text: str) -> str:
+    return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -73,14 +73,15 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
     """
     n = len(ratios)
     lower = [[Fraction(0)] * n for _ in range(n)]
-    convention = "row"
+    convention, seen = "row", set()
     for key, one in fields.named(entry.value, "coupling").items() if entry else ():
         if key == "convention":
             convention = fields.word(one.value, "convention of coupling", _CONVENTIONS)
             continue
         row, column = _element(Text(key, one.key), moving)
-        if lower[row][column]:
+        if (row, column) in seen:
             raise InputError(one.key, f"coupling coefficient {key} is given twice", "it once")
+        seen.add((row, column))
         lower[row][column] = _fraction(one.value, key)
     if convention == "direct":
         return tuple(tuple(ratios[i] if i == k else lower[i][k] for k in range(n)) for i in range(n))

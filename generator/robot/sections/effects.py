@@ -32,6 +32,9 @@ def _use(node: Node, joints: Sequence[Joint]) -> EffectUse:
         numbers: tuple[int, ...] = (moving_joint(keys["joint"].value, "joint of the effect", joints),)
     else:
         numbers = moving_joints(keys["joints"].value, "joints of the effect", joints)
+        if not numbers:
+            place = keys["joints"].value.place
+            raise InputError(place, f"effect {effect.content!r} has no joint", "one at least, or all")
     given = fields.named(keys["values"].value, "values") if "values" in keys else {}
     values = {name: fields.quantity(one.value, f"value {name}", None) for name, one in given.items()}
     return EffectUse(effect.content, numbers, values, effect.place)
