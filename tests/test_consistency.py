@@ -141,7 +141,7 @@ SET = ParameterSet(
         "Fv1": ParameterValue(12.3456789, "N m s/rad", 1.23456, note="first"),
         "Ia1": ParameterValue(1.23456789e-5, "kg m2"),
         "ZZ1R": ParameterValue(-6.54321e7, "kg m2"),
-        "MX1": ParameterValue(-3e-9, "kg m"),
+        "MX1": ParameterValue(-3e-14, "kg m"),
     },
     {"ML": ParameterValue(5, "kg")},
 )
@@ -270,6 +270,8 @@ def test_a_section_that_holds_no_sets_is_refused(text: str, refusal: str) -> Non
     assert str(refused.value).startswith(refusal)
 
 
-@pytest.mark.parametrize(("value", "expected"), [(123456.7, 123457.0), (1234567.8, 1.23457e6), (-4e-7, 0.0), (0, 0.0)])
+@pytest.mark.parametrize(
+    ("value", "expected"), [(123456.7, 123457.0), (1234567.8, 1.23457e6), (-4e-7, -4e-7), (-4e-13, 0.0), (0, 0.0)]
+)
 def test_rounded_is_what_is_read_back(value: float, expected: float) -> None:
     assert rounded(value) == expected

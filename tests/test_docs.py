@@ -26,8 +26,6 @@ FOLDERS = ("generator", "identification", "recipes", "robots", "templates", "tes
 _LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"`([^`]+)`")
 
-pytestmark = pytest.mark.xdist_group("docs")
-
 
 def text(name: str) -> str:
     return (ROOT / name).read_text(encoding="utf-8")
@@ -55,7 +53,7 @@ class Played:
     folder: Path
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def play(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Played]:
     """Plays a document, once."""
 
@@ -67,7 +65,7 @@ def play(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Played]:
     return played
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def manifest(play: Callable[[str], Played]) -> dict[str, Any]:
     """The manifest of the README's first generation."""
     path = play("README.md").folder / "generated" / "kr500" / "manifest.json"

@@ -114,9 +114,12 @@ def test_what_periods_have_in_common_by_rounding_is_noise_and_lacks_nothing() ->
     tau = base[0] + same + draw.normal(size=period * times)
     ready = [run(base, tau, period=period)]
     ready[0].unsettled = np.zeros_like(ready[0].kept)
-    (plain,), (known_,) = colours(bank(ready)), colours(bank(ready), [2.0 * draw.normal(size=(1, period * times))])
+    # As noise that the periods do not have in common would be.
+    drawn = np.sqrt(times) * 2.0 * draw.normal(size=(1, period * times))
+    (plain,), (known_,) = colours(bank(ready)), colours(bank(ready), [drawn])
+    power = 1.0 + 4.0 * times
     assert plain[0].deviations[0] == pytest.approx(1.0, rel=0.1)
-    assert known_[0].deviations[0] == pytest.approx(np.sqrt(5.0), rel=0.15)
+    assert known_[0].deviations[0] == pytest.approx(np.sqrt(power), rel=0.1)
     left = [known_[0].white((tau - base[0])[None], ready[0].kept[0])[0]]
-    assert lack_of_fit(ready, left, 0, 1).size > 0.7
-    assert lack_of_fit(ready, left, 0, 1, rounded=0.8).size < 0.75
+    assert lack_of_fit(ready, left, 0, 1).size == pytest.approx(2.0, rel=0.15)
+    assert lack_of_fit(ready, left, 0, 1, rounded=(power - 1) / power).size < 0.2
