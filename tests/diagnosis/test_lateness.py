@@ -78,12 +78,13 @@ def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) 
     assert one.parameters[f"torque_delay{motor}"].value == pytest.approx(0.018, abs=3e-4)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("delays", "joints"),
     [
-        pytest.param((12, -8), (1, 2), marks=pytest.mark.long),
+        ((12, -8), (1, 2)),
         ((16, -16), (1, 2)),
-        pytest.param((16, 22), (0, 1), marks=pytest.mark.long),
+        ((16, 22), (0, 1)),
     ],
 )
 def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[int, int], tmp_path: Path) -> None:

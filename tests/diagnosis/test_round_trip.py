@@ -68,15 +68,16 @@ def test_what_was_found_and_added_is_not_found_again(
     assert (again.verdict, again.findings) == (NOTHING, ())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("law", "size", "named"),
     [
-        pytest.param("torque_gain", 0.15, "torque_gain", marks=pytest.mark.long),
-        pytest.param("gear_ratio", 0.08, "gear_ratio", marks=pytest.mark.long),
+        ("torque_gain", 0.15, "torque_gain"),
+        ("gear_ratio", 0.08, "gear_ratio"),
         ("encoder_offset", 0.05, "position_offset"),
-        pytest.param("delay", 4e-3, "torque_delay", marks=pytest.mark.long),
-        pytest.param("torque_constant_drift", 0.5, "torque_drift", marks=pytest.mark.long),
-        pytest.param("base_tilt", 0.05, "base_tilt", marks=pytest.mark.long),
+        ("delay", 4e-3, "torque_delay"),
+        ("torque_constant_drift", 0.5, "torque_drift"),
+        ("base_tilt", 0.05, "base_tilt"),
     ],
 )
 def test_what_drives_and_signals_and_the_base_lack_is_corrected(

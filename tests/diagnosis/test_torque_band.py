@@ -121,13 +121,12 @@ def test_a_filter_is_not_taken_for_an_elastic_drive_train(tmp_path: Path) -> Non
     assert any("elasticity and backlash of drive trains are not looked for" in note for note in found.notes)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("hidden", "effects"),
     [
         pytest.param([], [], id="rigid"),
-        pytest.param(
-            [Effect("joint_flexibility", 2, 1.1e-5)], [("joint_elasticity", 2)], id="elastic", marks=pytest.mark.long
-        ),
+        pytest.param([Effect("joint_flexibility", 2, 1.1e-5)], [("joint_elasticity", 2)], id="elastic"),
     ],
 )
 def test_coarse_encoders_hide_no_elastic_drive_train(
