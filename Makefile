@@ -87,7 +87,7 @@ setup: $(TESTING) ## install the packages for simulate, excite, identify, diagno
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --dist worksteal -m "not long" --ignore=tests/extra tests
 
-test-long: $(TESTING) ## further cases of what make test holds, a minute or more each, and what a diagnosis costs
+test-long: $(TESTING) ## further and longer cases of what make test holds, and what a diagnosis costs
 	@$(PYTEST) -n 2 --dist worksteal -m long tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
