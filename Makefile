@@ -91,7 +91,7 @@ test-long: $(TESTING) ## further and longer cases of what make test holds, and w
 	@$(PYTEST) -n 2 --dist worksteal -m long tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
-	@$(PYTEST) tests/extra
+	@$(PYTEST) -n 2 --dist worksteal tests/extra
 
 bench: $(BENCHING) ## time the generated code beside other libraries, into docs/performance.md; only=NAME for one study
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.bench $(if $(only),only="$(only)")
