@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
@@ -12,12 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import Place
+from generator.review.words import listed
 
 Array: TypeAlias = NDArray[np.float64]
 #: The place of a value by its row, from 0, and its column; of the column's name without a row.
 Where: TypeAlias = Callable[[int | None, str], Place]
 
 _CHUNK = 1 << 20
+
+
+def left_out(file: str, words: Sequence[str]) -> tuple[str, ...]:
+    """What is to be told of columns of a file that hold no number; nothing without any."""
+    return (f"{file}: {listed(words)} held no number and is left out",) if words else ()
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from typing import NoReturn
 import numpy as np
 
 from generator.errors import InputError, Place
-from generator.review.words import listed
-from identification.recording import Array, Recording, digest
+from identification.recording import Array, Recording, digest, left_out
 from identification.text_form import Form, decimal_mark, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")
@@ -69,7 +68,7 @@ def read(path: Path) -> Recording:
         names = [name for name in form.names if name not in words]
         if not words or not names:
             _find_fault(layout, rows, str(error))
-        notes = (*notes, f"{file}: {listed(words)} held no number and is left out")
+        notes = (*notes, *left_out(file, words))
         try:
             values = _numbers(form, rows, [form.names.index(name) for name in names])
         except ValueError as other:

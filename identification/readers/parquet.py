@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from generator.errors import InputError, Place
-from generator.review.words import listed
 from identification.extras import needing
-from identification.recording import Array, Recording, digest
+from identification.recording import Array, Recording, digest, left_out
 
 EXTENSIONS = (".parquet",)
 
@@ -37,8 +36,7 @@ def read(path: Path) -> Recording:
     for name in names:
         with suppress(TypeError, ValueError):
             columns[name] = np.asarray(table.column(name).to_numpy(), dtype=float)
-    words = [name for name in names if name not in columns]
-    notes = (f"{file}: {listed(words)} held no number and is left out",) if words else ()
+    notes = left_out(file, [name for name in names if name not in columns])
     return Recording(file, columns, digest(path), lambda row, column: _place(file, names, row, column), notes)
 
 

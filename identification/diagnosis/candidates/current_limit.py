@@ -101,7 +101,5 @@ def _torque_per_recorded(scene: Scene, k: int) -> Array:
     robot, warmth = scene.robot, scene.motion.warmth
     gain = robot.signals.torque_gain
     result = np.full(scene.motion.samples, float(constants(robot)[k]) * (float(gain[k]) if gain else 1.0))
-    if warmth is not None:
-        for _, part in (one for one in drifting(robot) if one[0] == k):
-            result *= 1 + part * warmth[k]
-    return result
+    drift = dict(drifting(robot)).get(k, 0.0)
+    return result * (1 + drift * warmth[k]) if drift and warmth is not None else result
