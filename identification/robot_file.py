@@ -13,7 +13,7 @@ from ruamel.yaml import YAML
 from generator.robot import fields
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.document import Text
-from generator.robot.readers import yaml
+from generator.robot.readers import with_single_ends, yaml
 
 _SECTION = "parameters"
 
@@ -53,7 +53,7 @@ def with_parameter_set(text: str, one: ParameterSet, file: str = "robot file") -
 
     Raises InputError, ``file`` its name, for a text that is not YAML or whose section is not a table.
     """
-    text = text.replace("\r\n", "\n").replace("\r", "\n").rstrip() + "\n"
+    text = with_single_ends(text).rstrip() + "\n"
     _check(text, file)
     root = YAML(typ="safe", pure=True).compose(text)
     above = _Layout(root.start_mark.column + (2 if root.flow_style else 0), braces=root.flow_style)

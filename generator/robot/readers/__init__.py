@@ -56,13 +56,14 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
     except OSError as error:
         raise InputError(Place(file), f"cannot read the file ({error.strerror})", expected) from None
     try:
-        return _with_single_ends(content.decode("utf-8-sig"))
+        return with_single_ends(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        before = _with_single_ends(error.object[: error.start].decode())
+        before = with_single_ends(error.object[: error.start].decode())
         place = Place(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
         problem = f"byte 0x{error.object[error.start]:02x} is not UTF-8"
         raise InputError(place, problem, "a text file in UTF-8") from None
 
 
-def _with_single_ends(text: str) -> str:
+def with_single_ends(text: str) -> str:
+    """A text whose lines end in one character, whichever system wrote it."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
