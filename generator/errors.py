@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -30,3 +32,13 @@ class InputError(Exception):
         self.place = place
         self.problem = problem
         self.expected = expected
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As it is, from another process too: an exception is else made anew of its one line."""
+        return _again, (type(self), str(self), self.__dict__)
+
+
+def _again(kind: type[InputError], line: str, told: Mapping[str, Any]) -> InputError:
+    error = kind.__new__(kind, line)
+    error.__dict__.update(told)
+    return error

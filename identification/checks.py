@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError
-from generator.robot.description import Joint, Robot
+from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.neighbours import ARITHMETIC, at_extremes
 from identification.recording import Array, Where
 from identification.signals import Measured
@@ -75,7 +75,7 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
         if steps[row] > _JUMP * period and steps[row] > 20 * np.quantile(steps, 0.99):
             problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
             raise InputError(where(row + 1, name), problem, "positions without jumps")
-        _speed(q[k], name, period, where)
+        _speed(q[k], joint, name, period, where)
         if not resting:
             _held(q[k], steps, name, where)
 
@@ -99,13 +99,14 @@ def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
         raise InputError(where(row, name), problem, "rad, or limits in the robot file; are these degrees?")
 
 
-def _speed(x: Array, name: str, period: float, where: Where) -> None:
+def _speed(x: Array, joint: Joint, name: str, period: float, where: Where) -> None:
     width = min(max(1, round(_WINDOW / period)), len(x) - 1)
     speed = np.abs(x[width:] - x[:-width]) / (width * period)
     if speed.max() > _FAST:
         row = int(np.argmax(speed > _FAST))
         problem = f"{name} moves at {speed[row]:.4g} a second"
-        raise InputError(where(row, name), problem, f"at most {_FAST:g} rad/s; are these degrees?")
+        unit, wrong = joint.position_unit, "millimetres" if joint.sigma == PRISMATIC else "degrees"
+        raise InputError(where(row, name), problem, f"at most {_FAST:g} {unit}/s; are these {wrong}?")
 
 
 def _held(x: Array, steps: Array, name: str, where: Where) -> None:

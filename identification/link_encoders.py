@@ -38,6 +38,7 @@ _SIGN = 3
 _ONE_WAY = 0.05
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
+_NO_ROW = "no row is above the joint's standstill speed"
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ def link_encoders(
     ``friction`` holds Fvm or Fv by name [SI]: torque that is lost before the drive train twists, so that Fv/k is
     missing in the speed's coefficient.
 
-    Raises InputError for runs that are too short and for runs without link-side encoders.
+    Raises InputError for runs that are too short, without link-side encoders, or in which no such joint moves.
     """
     return of_runs(robot, [load(str(source), robot, recipe.columns) for source in sources], friction, recipe)
 
@@ -112,13 +113,16 @@ def of_runs(
         name = f"k{joint.number}"
         stiffness[name], late, residuals[k] = _told(rows, joint, viscous)
         still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
-        latency[f"latency{joint.number}"] = _STANDS if still else late if np.isfinite(late.std) else _UNSEEN
+        seen = late.refused or np.isfinite(late.std)
+        latency[f"latency{joint.number}"] = _STANDS if still else late if seen else _UNSEEN
         mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
     if not latency:
         names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
         raise InputError(runs[0].place, "there are no columns of link-side encoders", names)
+    if not any(len(rows.twist) for rows in kept.values()):
+        raise InputError(runs[0].place, "no joint with a link-side encoder moves", "rows above its standstill speed")
     found = tuple(zip(runs, filters, strict=True))
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
@@ -155,20 +159,23 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
 
 def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
     """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
+    if not len(rows.twist):
+        stiffness, latency = (Value(None, np.inf, unit, refused=_NO_ROW) for unit in (joint.stiffness_unit, "s"))
+        return stiffness, latency, Residual(0, 0.0, 0.0, 0.0)
     moved = np.column_stack([rows.own[:, 1:], rows.constants, rows.own[:, 0]])
     compliance = _last(rows.twist, moved, rows.torque)
     stiffness = _stiffness(*compliance, joint)
     others, columns = np.column_stack([rows.own[:, 1:], rows.constants]), rows.own[:, 0]
     if stiffness.value is not None:
         others = np.column_stack([others, rows.torque])
-    latency, std = _last(rows.twist, others, columns)
+    late, std = _last(rows.twist, others, columns)
     if stiffness.value is not None and viscous is not None:
-        latency += viscous * compliance[0]
+        late += viscous * compliance[0]
     every = np.column_stack([others, columns])
     e = _left(rows.twist, every)
     size = float(np.linalg.norm(rows.twist))
     spread = float(np.linalg.norm(rows.twist - rows.twist.mean())) if rows.twist.size else 0.0
-    return stiffness, Value(latency, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
+    return stiffness, Value(late, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
 
 
 def _last(y: Array, others: Array, x: Array) -> tuple[float, float]:

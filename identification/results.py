@@ -221,11 +221,11 @@ def _norms(of: Residuals, numbers: Sequence[int]) -> dict[str, Any]:
 
 
 def _marked(value: Any) -> Any:
-    """Infinite numbers replaced by a text that no name contains."""
+    """Infinite numbers replaced by a text that no name contains; of what is no number JSON says nothing."""
     if isinstance(value, Mapping):
         return {key: _marked(one) for key, one in value.items()}
     if isinstance(value, list | tuple):
         return [_marked(one) for one in value]
-    if isinstance(value, float) and not math.isfinite(value):
+    if isinstance(value, float) and value == math.inf:
         return _MARK
     return value

@@ -39,6 +39,9 @@ def sensitivity(found: Identification, data: Sequence[str | Path]) -> tuple[list
         recipes.append(("factor", float(factor), found.recipe.changed(cutoff=filters.cutoff, factor=factor)))
     tried, notes = [], []
     for setting, value, recipe in recipes:
+        if value == getattr(filters, setting):
+            notes.append(f"{setting} {value:g} is at its limit: one that goes further could not be tried")
+            continue
         try:
             tried += _variation(found, data, setting, value, recipe)
         except InputError as error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +25,8 @@ def key_of(document: Mapping[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:_DIGITS]
 
 
-def done_before(folder: Path, tasks: Mapping[str, Any]) -> dict[str, Any]:
-    """Results (JSON values) that an earlier run of the study left in its ``folder``.
+def done_before(folder: Path, tasks: Mapping[str, Any], keys: Collection[str] = ()) -> dict[str, Any]:
+    """Results (JSON values) that an earlier run of the study left in its ``folder``, each with these ``keys``.
 
     Raises InputError for a file there that is none.
     """
@@ -37,7 +37,9 @@ def done_before(folder: Path, tasks: Mapping[str, Any]) -> dict[str, Any]:
             continue
         try:
             result[name] = json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            if not all(key in result[name] for key in keys):
+                raise ValueError("keys are missing")
+        except (OSError, TypeError, ValueError):
             raise InputError(Place(str(path)), "this is no result of a study", "a file that a study wrote") from None
     return result
 
@@ -48,13 +50,14 @@ def study(
     executor: Executor,
     folder: Path | None = None,
     counted: Counted = lambda done, total: None,
+    keys: Collection[str] = (),
 ) -> dict[str, Any]:
-    """``function`` of every task, by name, in their order; the results are JSON values.
+    """``function`` of every task, by name, in their order; the results are JSON values, with ``keys`` if any are given.
 
     Each result is written into ``folder`` as it comes, whole or not at all; tasks whose result is there are not run
     again. The folder's name should hold the study's key, as nothing else tells whose results they are.
     """
-    found = {} if folder is None else done_before(folder, tasks)
+    found = {} if folder is None else done_before(folder, tasks, keys)
     counted(len(found), len(tasks))
     left = {name: task for name, task in tasks.items() if name not in found}
     for name, result in executor.map(function, left) if left else ():

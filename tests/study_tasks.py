@@ -6,6 +6,8 @@ import os
 import signal
 from pathlib import Path
 
+from generator.errors import InputError, Place
+
 
 def squared(task: tuple[int, str]) -> int:
     """Leaves a mark of its number."""
@@ -23,6 +25,11 @@ def first_dies(task: tuple[int, str]) -> int:
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
     return number**2
+
+
+def refuses(task: int) -> int:
+    """As a user's mistake is."""
+    raise InputError(Place("cc"), "there is no compiler", "gcc")
 
 
 def dies(task: int) -> int:

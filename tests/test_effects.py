@@ -37,10 +37,11 @@ effects:
 """
 
 
-def arm(tmp_path: Path, effect: str, values: str = "") -> Model:
-    """A pendulum with one effect, its inverse dynamics and the effect's rates."""
+def arm(tmp_path: Path, effect: str, values: str = "", *others: str) -> Model:
+    """A pendulum with one effect and ``others`` without values, its inverse dynamics and the effects' rates."""
     path = tmp_path / "arm.yaml"
-    path.write_text(ARM.format(effect=effect, values=values))
+    more = "".join(f"  - {{effect: {other}, joint: 1}}\n" for other in others)
+    path.write_text(ARM.format(effect=effect, values=values) + more)
     return derive(read(path), ("inverse_dynamics", "inverse_dynamics_loaded", "direct_dynamics", "effect_rates"))
 
 
@@ -227,6 +228,32 @@ def test_a_rotor_that_bodies_imitate_by_symbolic_lengths_is_refused() -> None:
     symbolic = replace(made, lengths=(Length("a1", Rational(1, 4), symbolic=True),))
     with pytest.raises(InputError, match=r"jib.yaml:11:1: Iar2 is grouped with other parameters by symbolic lengths"):
         _ = Model(symbolic).grouping
+
+
+@pytest.mark.parametrize(("effect", "value"), [("gradual_friction", "v0"), ("stribeck_friction", "vs")])
+@pytest.mark.parametrize("speed", ["0.005", "0.0001"])
+def test_friction_of_the_lowest_speeds_is_no_other_friction(
+    effect: str, value: str, speed: str, tmp_path: Path
+) -> None:
+    """Beyond the highest of them it is dry friction, or nothing."""
+    model = arm(tmp_path, effect, f"{value}: {speed} rad/s", "coulomb_friction")
+    (name, *_) = next(one for one in model.effects if one.effect.id == effect).names
+    assert name in {base.head for base in model.grouping.base}
+    assert all(name not in {part for _, part in base.terms[1:]} for base in model.grouping.base)
+
+
+def test_friction_without_a_torque_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"arm.yaml:\d+:\d+: the torque of Fst1 vanishes at every speed from 1e-9 on"):
+        arm(tmp_path, "stribeck_friction", "vs: 1e-12 rad/s")
+
+
+def test_what_loads_a_drive_and_what_does_not_are_not_grouped_under_friction_by_the_load(tmp_path: Path) -> None:
+    """An offset loads it, asymmetric dry friction does not, and the torque of both is the same."""
+    model = arm(tmp_path, "offset", "", "asymmetric_coulomb")
+    assert "Off1R" in {base.name for base in model.grouping.base}
+    told = "the torque of Fcn1 is one that Off1 make too, and friction by the load tells them apart"
+    with pytest.raises(InputError, match=told):
+        arm(tmp_path, "offset", "", "asymmetric_coulomb", "load_friction")
 
 
 def test_a_joint_has_one_balancer() -> None:

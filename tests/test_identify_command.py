@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from generator.robot.readers import read
@@ -28,6 +29,19 @@ def identified(folder: Path, capsys: pytest.CaptureFixture[str], *more: str) -> 
     robot, runs = folder / "two_links.yaml", [folder / "a.csv", folder / "b.csv"]
     words = ["identify", robot, "--data", *runs, "--test", folder / "c.csv", "--out", folder / "out", *more]
     return command(*words, capsys=capsys)
+
+
+def test_a_held_out_run_without_a_row_tells_nothing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its joints creep below the speed of a standstill."""
+    links = two_links(folder)
+    run = recorded(links, TRUTH, noise=0.02)
+    slow = {f"q{j}": 0.3 + 1e-3 * np.sin(0.1 * run.columns["t"]) for j in (1, 2)}
+    creep = run.with_columns(**slow).save(folder / "creep.csv")
+    robot, out = folder / "two_links.yaml", folder / "creeping"
+    done = command("identify", robot, "--data", folder / "a.csv", "--test", creep, "--out", out, capsys=capsys)
+    assert done.status == 0, done.err
+    page = (out / "report.html").read_text()
+    assert "No row that was held out counts, so nothing tells how it carries over." in page
 
 
 def results(folder: Path) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from identification.dataset import load
 from identification.inverse_model import identify
 from identification.link_encoders import link_encoders, of_runs
 from identification.recipe import Recipe
+from identification.report.stiffness import report as stiffness_report
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
@@ -88,6 +89,15 @@ def test_a_joint_that_creeps_tells_nothing(machine: Machine, tmp_path: Path) -> 
     found = link_encoders(machine.robot, [str(run)])
     assert (found.latency["latency2"].value, found.stiffness["k2"].value) == (None, None)
     assert found.residuals[1].rows == 0
+    refused = found.latency["latency2"].refused
+    assert refused == found.stiffness["k2"].refused == "no row is above the joint's standstill speed"
+    both = link_encoders(machine.robot, [str(run), recorded(machine, RUN, tmp_path / "moving.csv")])
+    for one in (found, both):
+        page = stiffness_report.report(one, of_link_encoders(one)).decode()
+        assert ("k2 cannot be told" in page) is (one is found)
+    still = Recorded({**columns, "q2": slow, "qs2": slow, "q1": slow, "qs1": slow}).save(tmp_path / "still.csv")
+    with pytest.raises(InputError, match="no joint with a link-side encoder moves, expected rows above"):
+        link_encoders(machine.robot, [str(still)])
 
 
 def test_friction_that_sticks_is_no_compliance(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import cvxpy as cp
 import numpy as np
@@ -299,6 +300,33 @@ def test_further_starts_are_spread_and_allowed(search: tuple[Search, Array]) -> 
     assert all(wide.positivity.holds(chi) for chi in drawn.values())
     assert np.std([chi[3] for chi in drawn.values()]) > 0.3 * abs(first[3])
     assert all((drawn[name] == chi).all() for name, chi in starts(wide, first, 8).items())
+
+
+def test_what_is_shown_does_not_depend_on_the_weights(slide: Machine, tmp_path: Path) -> None:
+    """Errors of a slide are far below a metre: in metres every parameter would hardly move anything."""
+    gentle = {"speed": 0.05, "acceleration": 0.05, "harmonics": 3}
+    short = Simulation(parameters="published", duration=6.0, noise=(0.001,), trajectory_settings=gentle)
+    path = save(simulate(slide, short), slide.robot.name, slide.robot.digest, tmp_path / "slide.csv")[0]
+    run = load(str(path), slide.robot)
+    truth = {name: float(one.value) for name, one in slide.robot.parameter_sets["published"].values.items()}
+    found = [
+        estimate(slide, [run], truth, settings=Settings(Recipe(standstill=0.001, weights=weights), 0.4))
+        for weights in ("joint", "none")
+    ]
+    assert [one.hidden for one in found] == [(), ()]
+    for name in found[0].names:
+        assert found[1].std(name) == pytest.approx(found[0].std(name), rel=1e-3)
+
+
+def test_evolution_leaves_a_start_that_diverges(search: tuple[Search, Array]) -> None:
+    of, first = search
+    at = of.criterion.sought.index("Fv1")
+    begin, std = first.copy(), np.full(len(first), 1e-3)
+    begin[at], std[at] = -300.0, 300.0
+    assert not np.isfinite(of.criterion.value(of.criterion.begin(begin)))
+    wide = replace(of, std=std, settings=replace(of.settings, method="evolution", iterations=10))
+    found = methods()["evolution"].minimise(wide, begin)
+    assert np.isfinite(of.criterion.value(found.point))
 
 
 @pytest.mark.parametrize("name", ["nelder-mead", "evolution"])

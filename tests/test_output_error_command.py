@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -13,10 +14,12 @@ from typing import Any
 
 import dask
 import distributed
+import numpy as np
 import pytest
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.readers import read
+from identification.corrections import TooWarm, Untold
 from identification.executors import cluster
 from identification.executors.cluster import Cluster
 from identification.executors.here import Here
@@ -26,7 +29,7 @@ from identification.output_error.search import Settings
 from identification.recipe import Recipe
 from identification.study import key_of, study
 from tests.commands import command
-from tests.study_tasks import dies, first_dies, squared
+from tests.study_tasks import dies, first_dies, refuses, squared
 
 STARTS = 3
 
@@ -76,9 +79,10 @@ def test_a_study_goes_on_where_it_was(tmp_path: Path) -> None:
     assert counts == [(2, 5), (3, 5), (4, 5), (5, 5)]
     assert (tmp_path / "done_1").read_text() == "once"
     assert list(found) == list(SQUARES)
-    (kept / "task_3.json").write_text("{")
-    with pytest.raises(InputError, match=r"task_3\.json:1:1: this is no result of a study"):
-        study(squared, tasks(tmp_path), Here(), kept)
+    for text, keys in (("{", ()), ("{}", ("rms",)), ("3", ("rms",))):
+        (kept / "task_3.json").write_text(text)
+        with pytest.raises(InputError, match=r"task_[03]\.json:1:1: this is no result of a study"):
+            study(squared, tasks(tmp_path), Here(), kept, keys=keys)
     assert key_of({"a": 1.0}) != key_of({"a": 1.5})
 
 
@@ -90,6 +94,20 @@ def test_a_process_that_dies_loses_nothing(tmp_path: Path) -> None:
 def test_a_function_that_kills_every_process_is_given_up(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="processes die before any task is done"):
         study(dies, {"one": 1}, Processes(1))
+
+
+def test_processes_that_die_while_tasks_are_given_out_are_given_up() -> None:
+    with pytest.raises(InputError, match="processes die before any task is done"):
+        study(dies, {f"{k}": k for k in range(200)}, Processes(20))
+
+
+def test_bad_input_is_told_from_another_process() -> None:
+    with pytest.raises(InputError, match=r"^cc:1:1: there is no compiler, expected gcc$") as told:
+        study(refuses, {"one": 1}, Processes(1))
+    assert (told.value.place, told.value.problem) == (Place("cc"), "there is no compiler")
+    for error in (Untold(3, Place("run.csv"), True), TooWarm(2, Place("run.csv"), "it is hot")):
+        again = pickle.loads(pickle.dumps(error))
+        assert (type(again), str(again), again.joint) == (type(error), str(error), error.joint)
 
 
 @pytest.fixture(scope="module")
@@ -191,6 +209,14 @@ def test_the_command_writes_its_results_and_resumes(
     done = command(*words, capsys=capsys)
     assert "starts: 1 of 2 done\nstarts: 2 of 2 done" in done.err
     assert (out / "results.json").read_bytes() == before
+    fast = tmp_path / "fast.csv"
+    values = np.loadtxt(run, delimiter=",", skiprows=1)
+    values[:, -1] *= 1e6
+    np.savetxt(fast, values, delimiter=",", header=run.read_text().splitlines()[0], comments="")
+    done = command(*words[:5], fast, *words[6:], capsys=capsys)
+    assert "note: the simulation diverges on what was held out" in done.out, done.err
+    assert "nan" not in (out / "results.json").read_text() + done.out
+    assert json.loads((out / "results.json").read_text())["residual"]["test"]["total"]["norm"] == float("inf")
     command(*words, "--segment", "0.5", capsys=capsys)
     assert len(list((out / "starts").iterdir())) == 2
 

@@ -20,6 +20,7 @@ from identification.report import series
 from identification.report.identify.report import report
 from identification.report.identify.sections import condition, summary
 from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, Subject
+from identification.report.numbers import plain
 from identification.report.welch import spectrum
 from tests.recorded import TRUTH
 from tests.reports import Page, identified, pages
@@ -111,6 +112,29 @@ def test_the_lag_of_link_side_encoders_is_shown(written: dict[str, bytes]) -> No
     text = written["links"].decode()
     assert "k1 cannot be told from these runs" in text
     assert "differences q − qs are left unexplained" in text
+
+
+def test_a_line_far_from_zero_keeps_its_points_apart() -> None:
+    """Times of a clock, angles of a drive train that twists by a thousandth of where it stands."""
+    t = 1.7e9 + np.arange(1000) / 1000
+    across, _ = series.line(t, np.sin(9 * t), 2000)
+    assert np.array(across, dtype=float) == pytest.approx(t, abs=1e-6, rel=0)
+    assert series.resolved(-1.5 + np.array([0.0, 1.25e-7])) == [-1.5, -1.499999875]
+    assert series.resolved(np.array([2.0, 2.0])) == [2.0, 2.0]
+
+
+def test_a_spectrum_ends_where_a_slower_run_ends() -> None:
+    """Beyond, the faster one tells alone."""
+    t, slow = np.arange(4000) / 200, np.arange(400) / 20
+    silent, loud = np.zeros(4000), np.random.default_rng(1).normal(size=400)
+    found = spectrum([(t, silent, 1 / 200), (slow, loud, 1 / 20)])
+    assert found is not None
+    assert np.all(found.amplitude[found.f > 10] == 0)
+    assert np.all(found.amplitude[found.f < 10] > 0)
+
+
+def test_what_is_no_number_is_a_dash() -> None:
+    assert [plain(one) for one in (math.nan, math.inf, -math.inf)] == ["–", "∞", "−∞"]
 
 
 def test_the_same_result_gives_the_same_bytes(subject: Subject) -> None:

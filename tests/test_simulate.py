@@ -25,7 +25,7 @@ from identification.trajectories import trajectories
 from identification.trajectory import Reference, Task
 from tests.commands import command
 from tests.elastic_links import KT, MOTORS, N
-from tests.recorded import TRUTH
+from tests.recorded import TRUTH, Recorded
 
 Array = NDArray[np.float64]
 
@@ -183,6 +183,22 @@ def test_references_start_at_rest_and_keep_their_limits(name: str, given: Mappin
         assert np.abs(np.diff(q, axis=0) / task.period - (qd[1:] + qd[:-1]) / 2).max() < 1e-3
 
 
+def test_many_harmonics_keep_the_limits_too(file: Path) -> None:
+    """Between instants at which the series is looked at it is no faster."""
+    given: dict[str, float] = {"harmonics": 99, "frequency": 0.02, "acceleration": 2.0, "speed": 1.0}
+    for seed in range(5):
+        task, reference = plan(file, "fourier", seed, **given)
+        acceleration = np.abs(np.diff(reference.qd, axis=0)).max() / task.period
+        assert 0.5 < acceleration < 2.0 * 1.001
+
+
+def test_a_reference_may_hold_still(file: Path, tmp_path: Path) -> None:
+    held = Recorded({"t": np.arange(4) / 10, "q1": np.full(4, 0.1), "q2": np.full(4, -0.2)}).save(tmp_path / "held.csv")
+    task, _ = plan(file, "fourier")
+    reference = trajectories()["played"].plan(replace(task, settings={"file": str(held)}))
+    assert reference.q == pytest.approx(np.tile([0.1, -0.2], (len(reference.q), 1)))
+
+
 def test_a_fourier_series_repeats(file: Path) -> None:
     _, reference = plan(file, "fourier", frequency=0.2)
     assert np.abs(reference.q[5000:] - reference.q[:-5000]).max() < 1e-12
@@ -284,7 +300,8 @@ REFUSED = {
     ("--pose", "1", "9"): "--pose:1:1: joint 2 at 9, expected a position from -2.793 to 2.793",
     ("--parameters", "mine"): "--parameters:1:1: two_links has no parameter set 'mine', expected ",
     ("--duration", "0"): "--duration:1:1: 0, expected a number above 0",
-    ("--duration", "1e9"): "--duration:1:1: 1000000000000 samples, expected at most 100000000",
+    ("--duration", "1e9"): "--duration:1:1: 1e+12 samples, expected at most 100000000",
+    ("--duration", "1e300", "--rate", "1e300"): "--duration:1:1: inf samples, expected at most 100000000",
     ("--rate", "nan"): "--rate:1:1: nan, expected a number above 0",
     ("--log-rate", "300"): "--log-rate:1:1: 300, expected --rate, 1000 Hz, divided by a whole number",
     ("--also", "qx"): "--also:1:1: columns 'qx', expected one of qr, qs, temp",

@@ -57,5 +57,25 @@ def test_a_number_may_be_special(name: str, tmp_path: Path) -> None:
     check_core(subject(arm(tmp_path, symbolic=False, values=SPECIAL[name]), 1, CORE), 1)
 
 
+#: Named angles that are numbers, and what quarter turns among them are.
+NAMED = [("90 deg", "pi/2"), ("-180 deg", "pi"), ("0 deg", "0"), ("-1.81 rad", "")]
+
+
+@pytest.mark.parametrize(("angle", "exact"), NAMED)
+def test_a_named_angle_that_is_a_number_is_one_in_the_code(angle: str, exact: str, tmp_path: Path) -> None:
+    """Its name stands in the groupings where it is no quarter turn, and no sine of it is left to the code."""
+    lengths = {"A": "0.4 m", "D": "a", "R": "0"}
+    named = arm(tmp_path, symbolic=False, values={**lengths, "B": angle, "ALPHA": "b"})
+    plain = arm(tmp_path, symbolic=False, values={**lengths, "B": "0 m", "ALPHA": exact or angle.split()[0]})
+    made, other = subject(named, 1, CORE), subject(plain, 1, CORE)
+    check_core(made, 1)
+    functions = (made.model.functions, other.model.functions)
+    assert {name: one.count for name, one in functions[0].items()} == {
+        name: one.count for name, one in functions[1].items()
+    }
+    terms = [str(part) for base in made.model.grouping.base for part, _ in base.terms]
+    assert any("b" in one for one in terms) is (not exact)
+
+
 def test_other_values_hold_away_from_the_nominal_ones(tmp_path: Path) -> None:
     check_core(subject(arm(tmp_path, symbolic=True, values={"A": "0.4 m", "B": "0.3 m"}), 1, CORE), 1)

@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from math import inf
 from typing import Any
 
-from benchmarks.diagnosis_study.archive import restore, store
+from benchmarks.diagnosis_study.archive import archived, restore, store
 from benchmarks.diagnosis_study.drawing import MODES, cells
-from benchmarks.diagnosis_study.page import JSON, tables, write
+from benchmarks.diagnosis_study.pages.page import JSON, tables, write
 from benchmarks.diagnosis_study.runner import Plan, folder_of_results, kept, run
 
 
@@ -33,15 +33,16 @@ def main() -> int:
     for one in run(plan, folder):
         made.append(one)
         print(_line(one), flush=True)
-    results = made if told.development else kept(folder)
-    found = tables(results)
     if told.development:
+        found = tables(made, made)
         print(json.dumps({key: found[key] for key in ("counts", "cells", "baselines")}, indent=1))
         return 0
+    results = kept(folder)
     store(folder.name, results)
-    record = {"code": folder.name, **found}
-    JSON.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-    write(results, found)
+    every = archived()
+    found = tables(results, every)
+    JSON.write_text(json.dumps({"code": folder.name, **found}, indent=1) + "\n", encoding="utf-8")
+    write(every, found)
     return int(any("failed" in one for one in results))
 
 

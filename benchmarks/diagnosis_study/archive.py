@@ -1,4 +1,6 @@
-"""Results of cases as the repository keeps them, a line each, so that a study goes on where it was on any machine."""
+"""Results of cases as the repository keeps them, a line each: every case that was ever drawn, as the last code that was
+asked about it answered. A study goes on where it was on any machine.
+"""
 
 from __future__ import annotations
 
@@ -9,36 +11,42 @@ from typing import Any
 
 from benchmarks.diagnosis_study.case import case
 
-#: First the code that the results came from, then the results.
 ARCHIVE = Path(__file__).parents[1] / "diagnosis_cases.jsonl"
 
 
-def archived(archive: Path = ARCHIVE) -> tuple[str, list[dict[str, Any]]]:
-    """The code that the results came from, and the results; neither without a file."""
+def archived(archive: Path = ARCHIVE) -> list[dict[str, Any]]:
+    """The results, each with the ``code`` that it came from; none without a file."""
     if not archive.exists():
-        return "", []
-    first, *results = map(json.loads, archive.read_text(encoding="utf-8").splitlines())
-    return first["code"], results
+        return []
+    return [json.loads(line) for line in archive.read_text(encoding="utf-8").splitlines()]
 
 
 def restore(folder: Path, archive: Path = ARCHIVE) -> None:
     """The archive's results put into the folder of results of the same code, as far as it lacks them."""
-    code, results = archived(archive)
-    if code != folder.name:
-        return
     folder.mkdir(parents=True, exist_ok=True)
-    for one in results:
-        file = folder / f"{case(one['case']).name}.json"
-        if not file.exists():
+    for one in archived(archive):
+        file = folder / f"{_name(one)}.json"
+        if one.pop("code") == folder.name and not file.exists():
             file.write_text(json.dumps(one, indent=1) + "\n", encoding="utf-8")
 
 
 def store(code: str, results: Iterable[Mapping[str, Any]], archive: Path = ARCHIVE) -> None:
-    """The archive made anew from all results of a code, without the whole answers."""
-    records = [{"code": code}, *map(_short, results)]
-    text = "".join(json.dumps(one, separators=(",", ":")) + "\n" for one in records)
+    """The archive with all results of a code, without the whole answers, in the place of what earlier codes said of the
+    same cases. Of earlier codes' cases those that were scored stay.
+    """
+    records = {_name(one): one for one in archived(archive) if one["code"] != code and "score" in one}
+    records |= {_name(one): {"code": code, **_short(one)} for one in results}
+    text = "".join(json.dumps(records[name], separators=(",", ":")) + "\n" for name in sorted(records))
     archive.write_text(text, encoding="utf-8")
 
 
+def _name(one: Mapping[str, Any]) -> str:
+    return case(one["case"]).name
+
+
 def _short(one: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in one.items() if key != "answer"}
+    """What the case itself says stands once."""
+    result = {key: value for key, value in one.items() if key != "answer"}
+    if "truth" in one:
+        result["truth"] = {key: value for key, value in one["truth"].items() if key != "case"}
+    return result

@@ -29,8 +29,9 @@ from tests.plant.simulate import RanAway
 ROOT = Path(__file__).parents[2]
 #: Where results of cases are kept, by the code that they came from.
 RESULTS = ROOT / "build" / "diagnosis_study"
-#: What a result depends on.
+#: What a result depends on, and what it does not.
 _SOURCES = ("generator", "identification", "templates", "tests/plant", "benchmarks/diagnosis_study")
+_WITHOUT = {"__pycache__", "pages"}
 #: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
 MISMATCH = 0.05
 #: Processes share the cores by cases.
@@ -79,7 +80,7 @@ def folder_of_results(reserved: bool = True) -> Path:
     digest = sha256()
     for source in _SOURCES:
         for file in sorted((ROOT / source).rglob("*")):
-            if file.is_file() and "__pycache__" not in file.parts:
+            if file.is_file() and _WITHOUT.isdisjoint(file.parts):
                 digest.update(file.read_bytes())
     return RESULTS / (digest.hexdigest()[:16] + ("" if reserved else "_development"))
 

@@ -6,6 +6,7 @@ count); what is printed is the symbol. The two are carried together through ever
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -67,6 +68,7 @@ class Numbers:
 
     def __init__(self, robot: Robot) -> None:
         self._values = {sympy.Symbol(length.name, real=True): length.value for length in robot.lengths}
+        self._constant = robot.constant_angles
         self._half_tangents = _half_tangents(robot)
         names = [str(symbol) for symbol in self._values] + [str(symbol) for symbol in self._half_tangents.values()]
         self._field: Any = field(names or ["_"], QQ)[0]
@@ -94,16 +96,20 @@ class Numbers:
         """Cosine and sine of a constant angle: exact at quarter turns, else through the half angle's tangent, or as
         numbers where the robot has many such angles.
         """
-        if (2 * angle / sympy.pi).is_Integer:
-            return self.integer(int(sympy.cos(angle))), self.integer(int(sympy.sin(angle)))
+        quarters, rest = _quarters(angle, self._constant)
+        cosine, sine = self._of(rest) if rest else (self.one, self.zero)
+        return ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))[quarters]
+
+    def _of(self, angle: sympy.Expr) -> tuple[Scalar, Scalar]:
+        """The same of an angle that is no quarter turn."""
         positive, sign = _unsigned(angle)
         if positive not in self._half_tangents:
             at = angle.xreplace(self._values)
             return self.constant(sympy.cos(at)), self.constant(sympy.sin(at))
         t = self._generators[str(self._half_tangents[positive])]
         at = positive.subs(self._values)
-        cosine = Scalar((1 - t**2) / (1 + t**2), exact_constant(sympy.cos(at)))
-        sine = Scalar(2 * t / (1 + t**2), exact_constant(sympy.sin(at)))
+        cosine = _settled((1 - t**2) / (1 + t**2), exact_constant(sympy.cos(at)))
+        sine = _settled(2 * t / (1 + t**2), exact_constant(sympy.sin(at)))
         return cosine, sine if sign > 0 else -sine
 
     def expression(self, scalar: Scalar) -> sympy.Expr:
@@ -146,8 +152,9 @@ def _half_tangents(robot: Robot) -> dict[sympy.Expr, sympy.Symbol]:
     symbolic = {sympy.Symbol(length.name, real=True) for length in robot.lengths if length.symbolic}
     angles: dict[sympy.Expr, sympy.Symbol] = {}
     for angle in _constant_angles(robot):
-        if not (2 * angle / sympy.pi).is_Integer:
-            positive, _ = _unsigned(angle)
+        _, rest = _quarters(angle, robot.constant_angles)
+        if rest:
+            positive, _ = _unsigned(rest)
             angles.setdefault(positive, sympy.Symbol(f"_tan_half_{len(angles)}"))
     named = {angle: symbol for angle, symbol in angles.items() if angle.free_symbols}
     for written, most in ((angles, _WRITTEN), (named, _NAMED)):
@@ -163,6 +170,16 @@ def _constant_angles(robot: Robot) -> list[sympy.Expr]:
         if joint.sigma != REVOLUTE:
             angles.append(joint.theta)
     return angles
+
+
+def _quarters(angle: sympy.Expr, constant: Mapping[sympy.Symbol, sympy.Expr]) -> tuple[int, sympy.Expr]:
+    """Quarter turns of an angle, 0 to 3, and what is left beside them; ``constant`` angles may be some."""
+    turns = 2 * angle.xreplace(constant) / sympy.pi
+    if turns.is_Integer:
+        return int(turns) % 4, sympy.Integer(0)
+    beside, named = angle.as_independent(*angle.free_symbols, as_Add=True) if angle.free_symbols else (0, angle)
+    turns = 2 * sympy.sympify(beside) / sympy.pi
+    return (int(turns) % 4, named) if turns.is_Integer else (0, angle)
 
 
 def _unsigned(angle: sympy.Expr) -> tuple[sympy.Expr, int]:

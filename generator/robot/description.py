@@ -8,7 +8,7 @@ SI units throughout: m, rad, s, kg, N, N m, A; a prismatic joint has m for rad a
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import sympy
@@ -63,6 +63,11 @@ class Joint:
     torque_limit: sympy.Expr | None = None
     tool: bool = False
     label: str = ""
+
+    def at(self, angles: Mapping[sympy.Symbol, sympy.Expr]) -> Joint:
+        """The joint with named ``angles`` written as what they are [rad]."""
+        alpha, theta, gamma = (angle.xreplace(angles) for angle in (self.alpha, self.theta, self.gamma))
+        return replace(self, alpha=alpha, theta=theta, gamma=gamma)
 
     @property
     def variable(self) -> sympy.Symbol:
@@ -198,6 +203,12 @@ class Robot:
     def moving(self) -> tuple[Joint, ...]:
         """The joints that move, in order: element i of q belongs to ``moving[i]``."""
         return tuple(joint for joint in self.joints if joint.sigma != FIXED)
+
+    @property
+    def constant_angles(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Named angles [rad] that are no parameters of the code, by their symbols."""
+        named = [one for one in self.lengths if one.unit == "rad" and not one.symbolic]
+        return {sympy.Symbol(one.name, real=True): one.value for one in named}
 
     @property
     def numbers(self) -> tuple[int, ...]:

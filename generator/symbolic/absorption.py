@@ -6,7 +6,7 @@ with them like any other; its coefficients follow from the columns' numbers, to 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,10 +20,22 @@ _TOLERANCE = 1e-9
 _DIGITS = 12
 
 
-def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]]) -> Grouping:
+class NotGrouped(Exception):
+    """Why the parameter ``name`` of an effect can be grouped with no other, and what is expected instead."""
+
+    def __init__(self, name: str, problem: str, expected: str) -> None:
+        super().__init__(f"{problem}, expected {expected}")
+        self.name, self.problem, self.expected = name, problem, expected
+
+
+def absorbed(
+    grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]], apart: Collection[str] = ()
+) -> Grouping:
     """The grouping with those of the parameters ``effects`` grouped that the others, and those before them, make too.
 
-    ``w`` holds the column of each standard parameter over random states.
+    ``w`` holds the column of each standard parameter over random states. Parameters ``apart`` are not to be grouped
+    with others: a load that a friction reads is made of either. Raises NotGrouped where they would be, and for a torque
+    that is zero at all states.
     """
     heads = [base.head for base in grouping.base]
     kept = [head for head in heads if head not in effects]
@@ -32,6 +44,9 @@ def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray
         size = float(np.linalg.norm(w[name]))
         if name not in heads:
             continue
+        if not size:
+            problem = f"the torque of {name} vanishes at every speed from 1e-9 on"
+            raise NotGrouped(name, problem, "values that leave one")
         rest = w[name] / size
         for _ in range(2):  # once more, for what rounding leaves of the first
             rest = rest - span @ (span.T @ rest)
@@ -39,7 +54,12 @@ def absorbed(grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray
             kept.append(name)
             span = np.column_stack([span, rest / np.linalg.norm(rest)])
         else:
-            grouping = _grouped(grouping, name, _coefficients(w, name, kept))
+            coefficients = _coefficients(w, name, kept)
+            mixed = [one for one, x in coefficients.items() if x and (one in apart) is not (name in apart)]
+            if mixed:
+                problem = f"the torque of {name} is one that {' and '.join(mixed)} make too, and friction by the load"
+                raise NotGrouped(name, f"{problem} tells them apart", "one of these effects alone")
+            grouping = _grouped(grouping, name, coefficients)
     return grouping
 
 

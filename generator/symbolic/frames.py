@@ -86,10 +86,15 @@ class Chain:
 
 
 def build_chain(robot: Robot, program: Program, values: Mapping[sympy.Symbol, Node]) -> Chain:
-    """The chain of ``robot`` with the symbols of its geometry (lengths, joint variables) read from ``values``."""
+    """The chain of ``robot`` with the symbols of its geometry (lengths, joint variables) read from ``values``.
+
+    Named angles that are constants stand in its frames as the numbers they are: quarter turns among them are exact.
+    """
     frames: list[Frame] = []
     coordinate = 0
-    for joint in robot.joints:
+    angles = robot.constant_angles
+    for named in robot.joints:
+        joint = named.at(angles)
         entry, rotation, position = _transform(joint, program, values)
         parent = frames[joint.antecedent - 1] if joint.antecedent else None
         moving = joint.sigma != FIXED

@@ -18,7 +18,7 @@ from generator.grouping.special_lengths import elsewhere, general_grouping
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
 from generator.robot.undefined import hardly_defined
-from generator.symbolic.absorption import absorbed
+from generator.symbolic.absorption import NotGrouped, absorbed
 from generator.symbolic.bodies import INERTIAL, Body, body
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.effect_torques import STATES, WARMTH
@@ -78,7 +78,10 @@ class Model:
         others = [name for instance in self.effects if not instance.effect.drive_train for name in instance.names]
         if not others:
             return exact
-        nominal = _absorbed(self.robot, exact, others)
+        try:
+            nominal = _absorbed(self.robot, exact, others)
+        except NotGrouped as found:
+            raise InputError(self._place(found.name), found.problem, found.expected) from None
         if symbolic := [length.name for length in self.robot.lengths if length.symbolic]:
             moved = _absorbed(elsewhere(self.robot, symbolic), exact, others)
             for name in others:
@@ -323,4 +326,6 @@ def _absorbed(robot: Robot, exact: Grouping, others: Sequence[str]) -> Grouping:
     """The grouping with effects in it, at the robot's lengths as numbers."""
     lengths = tuple(replace(one, symbolic=False) for one in robot.lengths)
     numeric = Model(replace(robot, lengths=lengths))
-    return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}))
+    by_load = any("load" in one.effect.needs for one in numeric.effects)
+    rubbing = [name for one in numeric.effects if by_load and not one.effect.loads for name in one.names]
+    return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}), rubbing)

@@ -17,6 +17,8 @@ Columns = Mapping[str, Mapping[int, Node]]
 
 #: Times that states are drawn, until effects are defined at enough of them.
 _DRAWS = 500
+#: Powers of ten that speeds span in half of the states: an effect may be one of low speeds alone.
+_DECADES = 9
 
 
 class HardlyDefined(Exception):
@@ -58,12 +60,13 @@ def sampled(
     these are more than half. Raises HardlyDefined where that does not help.
     """
     samples = 3 * (12 + len(columns) // max(dof, 1))
-    random = np.random.default_rng(0)
+    random, slow = np.random.default_rng(0), np.random.default_rng(1)
     sizes = {**dict.fromkeys(("q", "qd", "qdd"), dof), **varying}
     reachable = program.reachable([entry for column in columns.values() for entry in column.values()])
     drawn: list[NDArray[np.float64]] = []
     for _ in range(_DRAWS):
         inputs = {name: random.uniform(-3.0, 3.0, (samples, size)) for name, size in sizes.items()}
+        inputs["qd"][::2] *= 10 ** slow.uniform(-_DECADES, 0, inputs["qd"][::2].shape)
         with np.errstate(all="ignore"):
             values = evaluate_nodes(reachable, {**inputs, **given})
         rows = _rows(columns, values, samples, dof)

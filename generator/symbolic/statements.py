@@ -11,6 +11,9 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Union
 
+import sympy
+
+from generator.constants import exact_constant
 from generator.symbolic.counts import Count
 
 Number = int | Fraction
@@ -384,14 +387,9 @@ class Program:
 
 
 def _fold(name: str, a: Fraction) -> Fraction | None:
-    if name == "abs":
-        return abs(a)
-    if name == "sign":
-        return Fraction((a > 0) - (a < 0))
-    if a == 0 and name in ("sin", "sqrt", "tanh"):
-        return Fraction(0)
-    if (a == 0 and name in ("cos", "exp")) or (a == 1 and name == "sqrt"):
-        return Fraction(1)
-    if a == 1 and name == "log":
-        return Fraction(0)
-    return None
+    """The function's value, None where it has none that is real and finite."""
+    function = getattr(sympy, {"abs": "Abs"}.get(name, name))
+    try:
+        return exact_constant(function(sympy.Rational(a.numerator, a.denominator)))
+    except ValueError:
+        return None

@@ -107,7 +107,9 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     robot = read(path)
     folder = arguments.out or Path("excitation") / robot.name
-    spare(path, [folder / RUN, folder / BESIDE])
+    for source in (path, arguments.recipe):
+        if source is not None and source.exists():
+            spare(source, [folder / RUN, folder / BESIDE])
     _check_noise(arguments, robot)
     with stage(f"deriving the model of {path.stem}"):
         regressors = Regressors(robot)

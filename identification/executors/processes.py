@@ -33,8 +33,8 @@ class Processes:
             # Started afresh, not forked: threads of compiled libraries do not survive a fork.
             context = multiprocessing.get_context("spawn")
             with ProcessPoolExecutor(min(self._workers, len(left)), mp_context=context) as pool:
-                names = {pool.submit(function, task): name for name, task in left.items()}
                 try:
+                    names = {pool.submit(function, task): name for name, task in left.items()}
                     for future in as_completed(names):
                         result = future.result()
                         del left[names[future]]

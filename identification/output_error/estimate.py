@@ -101,7 +101,8 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     reduced = normal.reduced()
     size = np.sqrt(np.diag(reduced.H))
     # Parameters of which a change as large as they are, or as is expected, could not be told from the errors.
-    silent = size * np.maximum(np.abs(point.chi), search.std) < _UNSEEN
+    shown = np.sqrt(np.diag(criterion.weighted(errors).normal(at).reduced().H))
+    silent = shown * np.maximum(np.abs(point.chi), search.std) < _UNSEEN
     size = np.where(silent, np.inf, size)
     power, directions = np.linalg.eigh(reduced.H / np.outer(size, size))
     seen = power > _RANK**2 * power[-1]
@@ -144,13 +145,15 @@ def _settled(criterion: Criterion, chi: Array) -> Point:
 
 
 def _residuals(criterion: Criterion, errors: Sequence[Array]) -> Residuals:
-    """Norms of position errors, of positions, and of positions about their mean in each run."""
+    """Norms of position errors, infinite where the simulation diverges, of positions, and of positions about their mean
+    in each run.
+    """
     result = {}
     for k in range(len(criterion.scale)):
         q = [one.q[:, :, k] for one in criterion.experiments]
         result[k] = Residual(
             sum(one.size for one in q),
-            float(np.linalg.norm(np.concatenate([e[:, :, k].ravel() for e in errors]))),
+            float(np.nan_to_num(np.linalg.norm(np.concatenate([e[:, :, k].ravel() for e in errors])), nan=np.inf)),
             float(np.linalg.norm(np.concatenate([one.ravel() for one in q]))),
             float(np.linalg.norm(np.concatenate([one.ravel() - one.mean() for one in q]))),
         )

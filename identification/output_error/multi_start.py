@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 
 #: Folder of the results of single starts.
 STARTS = "starts"
+#: Keys of such a result.
+_RESULT = ("chi", "states", "scale", "rms", "simulations", "iterations")
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ def output_error(
         for name, one in starts(search, chi, count).items()
     }
     kept = None if folder is None else folder / STARTS / _key(tasks["start_001"])
-    results = study(run_start, tasks, executor or Here(), kept, counted)
+    results = study(run_start, tasks, executor or Here(), kept, counted, _RESULT)
     scores = {name: _score(search, np.array(one["rms"])) for name, one in results.items()}
     chosen = min(scores, key=lambda name: scores[name])
     best = evaluated(search, _minimum(search, results[chosen]), tried)
@@ -184,5 +186,7 @@ def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) ->
             notes.append(f"{one.run.name}: {unused * one.period:.3g} s are not part of any segment")
     if best.limited:
         notes.append("the constraint that M(q) is positive definite holds; standard deviations are those without it")
+    if best.test is not None and not np.isfinite(best.test.total.norm):
+        notes.append("the simulation diverges on what was held out: shorter segments follow it further")
     notes += [f"{name} cannot be identified: no position shows it alone" for name in best.hidden]
     return tuple(dict.fromkeys(notes))

@@ -20,7 +20,9 @@ def number(value: float | None, digits: int = 5) -> Markup:
 
 
 def plain(value: float, digits: int = 5) -> str:
-    """The same without markup."""
+    """The same without markup; a dash for what is no number."""
+    if math.isnan(value):
+        return NONE
     if not math.isfinite(value):
         return "∞" if value > 0 else "−∞"
     return minus(scientific(value, digits))

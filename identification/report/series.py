@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,6 +18,8 @@ Numbers = list[float | None]
 
 #: Points of all lines of one kind on a page, and the most and the fewest of one line.
 _ALL, _MOST, _FEWEST = 48_000, 1600, 160
+#: Significant digits of a number that is exact.
+_EXACT = 17
 #: Distance of two samples, in the usual one, from which a line is interrupted.
 _GAP = 1.5
 
@@ -41,7 +44,7 @@ def line(x: Array, y: Array, count: int) -> tuple[Numbers, Numbers]:
     steps = np.diff(x)
     missing = np.concatenate([[0], np.cumsum(steps > _GAP * np.median(steps))]) if len(x) > 1 else np.zeros(len(x))
     breaks = np.flatnonzero(np.diff(missing[kept])) + 1
-    across: Numbers = numbers(x[kept], 7)
+    across: Numbers = resolved(x[kept], 7)
     upward: Numbers = numbers(y[kept])
     for at in breaks[::-1]:
         across.insert(at, across[at])
@@ -52,6 +55,13 @@ def line(x: Array, y: Array, count: int) -> tuple[Numbers, Numbers]:
 def numbers(values: Iterable[float | None], digits: int = 5) -> Numbers:
     """Numbers with so many significant digits; None for what is none, or not finite."""
     return [float(f"{value:.{digits}g}") if value is not None and np.isfinite(value) else None for value in values]
+
+
+def resolved(values: Array, digits: int = 5) -> Numbers:
+    """Numbers with so many significant digits of their range, however far from zero they are."""
+    span = np.ptp(values) if len(values) else 0.0
+    more = math.ceil(math.log10(np.abs(values).max() / span)) if span else 0
+    return numbers(values, min(digits + max(more, 0), _EXACT))
 
 
 def some(count: int, most: int) -> NDArray[np.int64]:

@@ -28,14 +28,15 @@ def spectrum(runs: Sequence[tuple[Array, Array, float]]) -> Spectrum | None:
 
     Welch's method, stretches that overlap by half under Hann's window; missing rows are zero and the density is divided
     by the part of the rows that is there (Parzen 1963). Runs count by their rows; those of another time step than the
-    first run's are interpolated to its frequencies.
+    first run's are interpolated to its frequencies, as far as theirs go.
     """
     found = [(f, density, len(y)) for t, y, step in runs if (one := _density(t, y, step)) for f, density in [one]]
     if not found:
         return None
     f = found[0][0]
-    densities = [np.interp(f, own, density) * count for own, density, count in found]
-    return Spectrum(f[1:], np.sqrt(np.sum(densities, axis=0) / sum(count for *_, count in found))[1:])
+    densities = np.array([np.interp(f, own, density) for own, density, _ in found])
+    weights = np.array([count * (f <= own[-1]) for own, _, count in found])
+    return Spectrum(f[1:], np.sqrt(np.average(densities, axis=0, weights=weights))[1:])
 
 
 def _density(t: Array, y: Array, step: float) -> tuple[Array, Array] | None:

@@ -84,10 +84,11 @@ def _check_numbers(settings: Settings) -> None:
 
 
 def _check_rates(settings: Settings) -> None:
+    asked = settings.duration * settings.rate
+    if asked > _MOST:
+        raise InputError(command_line("--duration"), f"{asked:g} samples", f"at most {_MOST}")
     if settings.samples < 2:
         raise InputError(command_line("--duration"), f"{settings.duration:g} s is one sample", "a longer run")
-    if settings.samples > _MOST:
-        raise InputError(command_line("--duration"), f"{settings.samples} samples", f"at most {_MOST}")
     if settings.log_rate is not None:
         ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
         if ratio < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:

@@ -7,8 +7,8 @@ import numpy as np
 from identification.fourier_series import FourierSeries, from_rest
 from identification.trajectory import Reference, Setting, Task, Trajectory
 
-#: Instants of a period at which a series is looked at.
-_LOOKED_AT = 2000
+#: Instants of a period of the highest harmonic at which a series is looked at.
+_LOOKED_AT = 400
 #: Largest phase of the highest harmonic in a sample [rad].
 _PHASE = 0.5
 
@@ -27,7 +27,7 @@ def _plan(task: Task) -> Reference:
         raise ValueError(f"joint {number} is too near to its limit, expected --pose with room on both sides")
     drawn = task.draw.normal(size=(n, 2, len(orders))) / orders
     a, b = from_rest(drawn[:, 0], drawn[:, 1])
-    looked_at = np.linspace(0, 1 / frequency, _LOOKED_AT)
+    looked_at = np.linspace(0, 1 / frequency, _LOOKED_AT * len(orders))
     peaks = FourierSeries(frequency, np.zeros(n), a, b).motion(looked_at)
     limits = (room, task.number("speed"), task.number("acceleration"))
     scale = np.min([limit / np.abs(one).max(axis=1) for limit, one in zip(limits, peaks.signals, strict=True)], axis=0)

@@ -18,6 +18,8 @@ from identification.trajectory import Array, Reference, Setting, Task, Trajector
 _STEMS = ("qr", "q")
 #: Speed at the start, in parts of the largest one, that is rest.
 _REST = 0.01
+#: Speed [rad/s, m/s] that is rounding.
+_STANDS = 1e-9
 
 
 def _plan(task: Task) -> Reference:
@@ -38,7 +40,7 @@ def _plan(task: Task) -> Reference:
     within = task.times <= t[-1]
     at = np.minimum(task.times, t[-1])
     q, qd = motion(at), np.where(within, motion.derivative()(at), 0.0)
-    if (np.abs(qd[:, 0]) > _REST * np.abs(qd).max()).any():
+    if (np.abs(qd[:, 0]) > max(_REST * np.abs(qd).max(), _STANDS)).any():
         raise ValueError(f"{file} does not begin at rest, expected speeds of zero at the start")
     return Reference(q.T, qd.T)
 

@@ -16,10 +16,10 @@ from benchmarks.diagnosis_study.archive import archived, restore, store
 from benchmarks.diagnosis_study.baselines import named_by_baselines
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
 from benchmarks.diagnosis_study.drawing import cases, cells
-from benchmarks.diagnosis_study.intervals import Share
 from benchmarks.diagnosis_study.making import file_of, invisible, made
-from benchmarks.diagnosis_study.page import JSON, PAGE, page, tables
-from benchmarks.diagnosis_study.power_curve import power_curve
+from benchmarks.diagnosis_study.pages.intervals import Share
+from benchmarks.diagnosis_study.pages.page import JSON, PAGE, page, tables
+from benchmarks.diagnosis_study.pages.power_curve import power_curve
 from benchmarks.diagnosis_study.runner import MISMATCH, result
 from benchmarks.diagnosis_study.scoring import NAMED, NOTHING, UNEXPLAINED, scored
 from benchmarks.diagnosis_study.sizing import Fit, Size
@@ -217,11 +217,14 @@ def test_the_page_says_what_the_results_say() -> None:
         {"case": Case("null", "three_axis", FREE, 2).record(), "skipped": "no size"},
         {"case": Case("null", "three_axis", FREE, 3).record(), "failed": "exit status 1"},
     ]
-    found = tables(results)
+    before = [{**record("null", right, []), "code": "abc"}, *({**one, "code": "def"} for one in results)]
+    found = tables(results, before)
     assert found["counts"] == {"scored": 6, "out of reach": 1, "failed": 1, "scored apart": 0}
     text = page(found)
     assert f"| one effect, 3 x noise | free fit | right effect and joint first | {Share(3, 4)} |" in text
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
+    assert f"| nothing hidden | free fit | nothing named | {Share(1, 2)} |" in text
+    assert found["every"] == {"scored": 7, "codes": 2}
     assert "| dahl_friction |" in text
     assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}
     assert "| stribeck | 1 | 12 |" in text
@@ -230,9 +233,9 @@ def test_the_page_says_what_the_results_say() -> None:
 def test_the_committed_page_is_of_the_committed_results() -> None:
     committed = json.loads(JSON.read_text(encoding="utf-8"))
     assert PAGE.read_text(encoding="utf-8") == page(committed)
-    code, results = archived()
-    assert committed["code"] == code
-    assert {key: committed[key] for key in tables(results)} == json.loads(json.dumps(tables(results)))
+    every = archived()
+    found = tables([one for one in every if one["code"] == committed["code"]], every)
+    assert {key: committed[key] for key in found} == json.loads(json.dumps(found))
 
 
 def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> None:
@@ -240,10 +243,22 @@ def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> No
     whole = json.loads(json.dumps(record("null", [], [], NOTHING)))
     name = f"{case(whole['case']).name}.json"
     store("abc", [whole | {"answer": {"verdict": NOTHING}}], archive)
-    assert archived(archive) == ("abc", [whole])
+    short = whole | {"code": "abc", "truth": {key: whole["truth"][key] for key in ("mismatch", "hidden")}}
+    assert archived(archive) == [short]
     for code, there in (("abc", [name]), ("def", [])):
         restore(tmp_path / code, archive)
         assert [file.name for file in tmp_path.glob(f"{code}/*")] == there
+
+
+def test_the_archive_keeps_the_last_answer_to_each_case(tmp_path: Path) -> None:
+    """Of earlier codes only scored cases."""
+    archive = tmp_path / "cases.jsonl"
+    one, other = (Case("null", "three_axis", FREE, seed).record() for seed in (1, 2))
+    store("abc", [{"case": one, "score": {}}, {"case": other, "skipped": "no size"}], archive)
+    store("def", [{"case": other, "failed": "exit status 1"}], archive)
+    assert [(kept["code"], kept["case"]["seed"]) for kept in archived(archive)] == [("abc", 1), ("def", 2)]
+    store("ghi", [{"case": one, "score": {"named": []}}], archive)
+    assert archived(archive) == [{"code": "ghi", "case": json.loads(json.dumps(one)), "score": {"named": []}}]
 
 
 def test_the_power_curve_is_drawn() -> None:

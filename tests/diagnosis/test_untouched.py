@@ -14,6 +14,8 @@ from identification.diagnosis.runs.roles import Roles
 from identification.residuals import Residual
 from tests.diagnosis.diagnosed_arm import ready, recorded, torque
 
+RUNS = "untouched runs"
+
 
 def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
     """Of 100 rows with a spread of 50 N m rms."""
@@ -22,23 +24,23 @@ def tried(before: float, after: float, floor: float = 1.0) -> Untouched:
 
 
 def test_a_model_that_leaves_noise_meets_no_objection() -> None:
-    assert objections({1: tried(1.02, 1.03), 2: tried(30.0, 1.4)}) == []
+    assert objections({1: tried(1.02, 1.03), 2: tried(30.0, 1.4)}, RUNS) == []
 
 
 def test_a_joint_that_got_worse_is_told() -> None:
-    assert objections({1: tried(1.4, 1.81), 2: tried(5.0, 1.0)}) == [
+    assert objections({1: tried(1.4, 1.81), 2: tried(5.0, 1.0)}, RUNS) == [
         "the new model explains the untouched runs less well on joint 1 (2.8 % without what was found, 3.62 % with it)"
     ]
 
 
 def test_joints_that_keep_more_than_noise_are_told() -> None:
-    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)})
+    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)}, RUNS)
     where = "on joint 1 (40 %, noise 2 %), joint 2 (53.5 %, noise 2 %)"
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
 
 
 def test_what_a_rigid_model_cannot_play_is_no_objection() -> None:
-    assert objections({1: tried(40.0, 20.0)}, elastic=True) == []
+    assert objections({1: tried(40.0, 20.0)}, RUNS, elastic=True) == []
 
 
 def test_both_models_are_held_against_the_rows_that_count_for_both() -> None:
@@ -78,7 +80,7 @@ def test_what_a_testing_run_contradicts_is_taken_back(
 
 
 def test_what_was_found_and_is_not_written_is_no_objection() -> None:
-    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75)}, unwritten={1})
+    (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75)}, RUNS, unwritten={1})
     assert "joint 2" in told
     assert "joint 1" not in told
 
@@ -86,6 +88,6 @@ def test_what_was_found_and_is_not_written_is_no_objection() -> None:
 def test_a_gain_that_makes_torques_larger_makes_no_joint_worse() -> None:
     """Half as much again of the torque, and of its noise: the part of the spread is what counts."""
     one = Untouched(Residual(100, 20.0, 600.0, 500.0), Residual(100, 24.0, 900.0, 750.0), 1.0)
-    assert objections({1: one}) == []
+    assert objections({1: one}, RUNS) == []
     assert one.closed is not None
     assert one.closed == pytest.approx((4.0**2 - 3.2**2) / (4.0**2 - 2.0**2))

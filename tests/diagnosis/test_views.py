@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,12 +14,24 @@ from numpy.typing import NDArray
 
 from generator.robot.description import REVOLUTE, Joint
 from identification.diagnosis.columns.whitening import Colour
+from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.verdict.views import View, strongest, views
+from tests.diagnosis.diagnosed_arm import ready, recorded, torque
 from tests.matrices import WHITE
 
 Array = NDArray[np.float64]
 
 COUNT, RATE = 6000, 50.0
+
+
+def test_time_is_that_since_the_recording_began(tmp_path: Path) -> None:
+    """Parts of one recording come one after the other."""
+    regressors, (source,) = recorded(tmp_path, [torque("")])
+    first, second = (ready(f"{source}@{part}", regressors).sampled for part in ("0:15", "20:35"))
+    for one, begins in ((first, 0.0), (second, 20.0)):
+        t = Scene(one, regressors, {}).t
+        assert t == pytest.approx(one.times)
+        assert begins <= t[0] < begins + 2
 
 
 class Seen:

@@ -221,6 +221,12 @@ class Bank:
             others = np.array([*range(old), len(at) - 1])
             self.grams[run][np.ix_(at[others], new)] += products[:, others].T
 
+    def counts(self, joint: int) -> tuple[int, int]:
+        """Kept rows of a joint in all runs, and columns of the base that act on it."""
+        parts = [joints[joint] for joints in self._joints]
+        model = {number for one in parts for number in one.numbers if number < len(self.base)}
+        return sum(int(one.kept.sum()) for one in parts), len(model)
+
     def raw(self, run: int, joint: int) -> tuple[list[int], Array, Array, NDArray[np.bool_]]:
         """Column numbers, columns (k x N), torque (N) and kept rows (N) of a joint, as recorded."""
         one = self._joints[run][joint]

@@ -96,8 +96,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     stated_aside = [one.evidence for one in aside if one in additions]
     told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes]
     if prior is not None and written:
-        told.append(_gain(*without))
-    told += objections(untouched(bank, *without), elastic, left_out)
+        told += _gain(*without, found.roles.tested)
+    told += objections(untouched(bank, *without), found.roles.tested, elastic, left_out)
     return Mended(
         text=text,
         robot=new.robot,
@@ -174,13 +174,16 @@ def _beside(
     return before, after
 
 
-def _gain(without: Sequence[Played], after: Sequence[Played]) -> str:
-    """What the findings do beside a fit: a prior's values alone are further off than what the runs make of them."""
-    old, new = (together(one).total.relative_to_mean for one in (without, after))
-    return (
-        f"fitted to the same runs near the same prior, the model without what was found leaves {old:.3g} % of the "
-        f"untouched runs, the one with it {new:.3g} %"
-    )
+def _gain(without: Sequence[Played], after: Sequence[Played], runs: str) -> Iterator[str]:
+    """What the findings do on ``runs``, in words, beside a fit: a prior's values alone are further off than what the
+    runs make of them.
+    """
+    old, new = (together(one).total for one in (without, after))
+    if old.rows and new.rows:
+        yield (
+            "fitted to the same runs near the same prior, the model without what was found leaves "
+            f"{old.relative_to_mean:.3g} % of the {runs}, the one with it {new.relative_to_mean:.3g} %"
+        )
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

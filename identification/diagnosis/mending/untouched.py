@@ -54,8 +54,11 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     }
 
 
-def objections(tried: Mapping[int, Untouched], elastic: bool = False, unwritten: Collection[int] = ()) -> list[str]:
-    """What untouched runs say against the model after: joints that it explains less well, or not down to the noise.
+def objections(
+    tried: Mapping[int, Untouched], runs: str, elastic: bool = False, unwritten: Collection[int] = ()
+) -> list[str]:
+    """What ``runs`` (in words) on which models were ``tried`` say against the one after: joints that it explains less
+    well, or not down to the noise.
 
     A share is that of the torque's spread. Of a robot with ``elastic`` joints a rigid model leaves more than noise,
     on the other joints too, which the links' inertia couples with them; so does one without what was found and is
@@ -74,11 +77,11 @@ def objections(tried: Mapping[int, Untouched], elastic: bool = False, unwritten:
     ]
     notes = []
     if worse:
-        notes.append(f"the new model explains the untouched runs less well on {', '.join(worse)}")
+        notes.append(f"the new model explains the {runs} less well on {', '.join(worse)}")
     if lacking:
         where = ", ".join(lacking)
         notes.append(
-            f"the untouched runs keep far more than noise on {where}: the model lacks more than was found, or they show"
+            f"the {runs} keep far more than noise on {where}: the model lacks more than was found, or they show"
             " what the others did not"
         )
     return notes

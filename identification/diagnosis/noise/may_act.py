@@ -58,14 +58,14 @@ def with_noise(parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[i
     return result
 
 
-def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[Rows]:
+def with_maps(parts: Sequence[Rows], bank: Bank, joint: int, maps: Sequence[Array]) -> list[Rows]:
     """Rows of a joint in each run with ``maps`` and with the model's columns once more for each run by itself, which
     may be another one there, where there are rows enough.
     """
     if not maps:
         return list(parts)
     p, more = len(bank.base), len(maps[0])
-    count, model = _counts(bank, parts)
+    count, model = bank.counts(joint)
     if not enough(count, model + more):
         return list(parts)
     apart = enough(count, model + more + model * len(parts))
@@ -83,18 +83,8 @@ def with_maps(parts: Sequence[Rows], bank: Bank, maps: Sequence[Array]) -> list[
 
 def maps_taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
     """Whether rows of a joint are enough for its maps to be taken out of its noise."""
-    rows, model = counts(bank, joint)
+    rows, model = bank.counts(joint)
     return enough(rows, model + len(maps[joint][0]))
-
-
-def counts(bank: Bank, joint: int) -> tuple[int, int]:
-    """Rows of a joint in all runs, and base columns that act on it."""
-    return _counts(bank, [without_record(bank, r, joint) for r in range(len(bank.runs))])
-
-
-def _counts(bank: Bank, parts: Sequence[Rows]) -> tuple[int, int]:
-    model = {number for part in parts for number in part.numbers if 0 <= number < len(bank.base)}
-    return sum(int(part.kept.sum()) for part in parts), len(model)
 
 
 def enough(rows: int, columns: int) -> bool:

@@ -61,13 +61,13 @@ def _of_joint(
 ) -> list[Colour]:
     """The colour of a joint's noise in each run."""
     plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
-    found = _joint(with_maps(plain, bank, maps), bank, rounded)
+    found = _joint(with_maps(plain, bank, joint, maps), bank, rounded)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
     power = sum(float(np.sum(x**2)) for x in torques) / max(sum(x.size for x in torques), 1)
     if not _NOISY < power < _ABSURD:
         return found
     noisy = with_noise(plain, bank, joint, redrawn)
-    return _joint(with_maps(noisy, bank, maps), bank, rounded)
+    return _joint(with_maps(noisy, bank, joint, maps), bank, rounded)
 
 
 def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:

@@ -41,6 +41,11 @@ class Roles:
         """Whether nothing is fitted to what tests."""
         return not set(self.test) & set(self.searched)
 
+    @property
+    def tested(self) -> str:
+        """The runs that test, in words, by whether anything looked at them before."""
+        return "untouched runs" if self.untouched else "runs that were fitted"
+
 
 def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
     """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.

@@ -68,15 +68,15 @@ class Scene:
 
     @property
     def t(self) -> Array:
-        """Time since the run's start [s] (N)."""
-        return self.sampled.times - self.sampled.run.start
+        """Time since the recording began [s] (N)."""
+        return self._inside(self.sampled.run.elapsed)
 
     def warmth(self, k: int, warm_up_time: float | None = None) -> Array:
         """How warm the drive of coordinate ``k`` is (N), 0 when the recording began: as the robot's file says, or by
         ``warm_up_time`` [s]; not a number where neither tells.
         """
         if warm_up_time is not None:
-            return warming_up(self._inside(self.sampled.run.elapsed), warm_up_time)
+            return warming_up(self.t, warm_up_time)
         if self.motion.warmth is None:
             return np.full(self.motion.samples, np.nan)
         told: Array = self.motion.warmth[k]

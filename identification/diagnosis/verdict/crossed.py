@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import span_of
-from identification.diagnosis.noise.may_act import counts
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.f_test import f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
@@ -41,7 +40,7 @@ def crossed(found: Search, weights: Mapping[int, float]) -> dict[int, Crossed]:
     bank, result = found.bank, {}
     for k in range(bank.dof if bank.alone else 0):
         e = np.concatenate([bank.residual(r, k, weights) for r in bank.alone])
-        _, fitted = counts(bank, k)
+        _, fitted = bank.counts(k)
         tried = [(f_test(X, e, fitted), follows) for X, follows in _columns(bank, k)]
         told = [Crossed(follows, one.part) for one, follows in tried if len(tried) * one.p < CHANCE]
         largest = max(told, key=lambda one: one.part, default=None)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis.columns.bank import Bank
-from identification.diagnosis.noise.may_act import counts, enough
+from identification.diagnosis.noise.may_act import enough
 from identification.diagnosis.search.likely import common
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
@@ -25,7 +25,7 @@ def few_rows(bank: Bank) -> Few:
     """Of the joints of a bank; nothing where all have rows enough."""
     result = {}
     for k in range(bank.dof):
-        rows, model = counts(bank, k)
+        rows, model = bank.counts(k)
         if rows and not enough(rows, model):
             result[k] = rows, model
     return result

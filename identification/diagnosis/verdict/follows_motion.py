@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import groups
-from identification.diagnosis.noise.may_act import counts, maps_taken
+from identification.diagnosis.noise.may_act import maps_taken
 from identification.diagnosis.verdict.f_test import FTest, f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, Lack
 
@@ -30,7 +30,7 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     e = np.concatenate([residuals[r] for r in bank.alone])
     X = np.concatenate([bank.whitened(r, k, maps[k][r]) for r in bank.alone], axis=1)
     each = groups(bank.robot.numbers, k)
-    _, fitted = counts(bank, k)
+    _, fitted = bank.counts(k)
     found = [_follows(f_test(X[part], e, fitted), len(e), what, lack, len(each)) for what, part in each.items()]
     return max((one for one in found if one.p < CHANCE), key=lambda one: one.size, default=lack)
 

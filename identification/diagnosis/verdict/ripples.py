@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import span_of
-from identification.diagnosis.noise.may_act import counts
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.f_test import f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
@@ -80,7 +79,7 @@ def ripples(found: Search, weights: Mapping[int, float]) -> dict[int, Ripple]:
         wave = waves.wave(number)
         e = np.concatenate([bank.residual(r, k, weights) for r in bank.alone])
         X = np.concatenate([_columns(bank, r, k, wave) for r in bank.alone], axis=1)
-        one = f_test(X, e, counts(bank, k)[1])
+        one = f_test(X, e, bank.counts(k)[1])
         if len(waves) * one.p < CHANCE and one.part >= _LEAST:
             result[k] = Ripple(2 * np.pi / wave, one.part, number > _FOLDED * waves.last)
     return result

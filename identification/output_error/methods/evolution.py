@@ -23,8 +23,10 @@ _GENERATIONS = 100
 def minimise(search: Search, start: Array) -> Minimum:
     """The minimum found from ``start`` (b) on; its first step is the settings' spread, in standard deviations."""
     settings, criterion = search.settings, search.criterion
-    if search.weighted:
-        criterion = criterion.weighted(criterion.errors(criterion.begin(start)))
+    errors = criterion.errors(criterion.begin(start))
+    # Where the simulation diverges from the start its errors are no scale.
+    if search.weighted and np.isfinite(criterion.sum(errors)):
+        criterion = criterion.weighted(errors)
     end = time.monotonic() + (settings.seconds or np.inf)
     most = settings.iterations or (_GENERATIONS if settings.seconds is None else 10**9)
     draw = np.random.RandomState(settings.seed + 1)

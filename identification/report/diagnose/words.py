@@ -145,7 +145,7 @@ def change(subject: Subject) -> Iterator[str]:
         return
     totals = [together(played).total.relative_to_mean for played in (subject.mended.before, subject.mended.after)]
     was, now = (f"{plain(one, 3)}\u202f%" for one in totals)
-    yield f"On the {tested(subject)} {now} of the torques' spread is left, instead of {was}."
+    yield f"On the {subject.found.roles.tested} {now} of the torques' spread is left, instead of {was}."
     acted = [number for number in subject.found.findings[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
@@ -167,11 +167,6 @@ def mode(subject: Subject) -> str:
         "All parameters were fitted together with the effects. What they can stand for cannot be seen so; a parameter"
         " set that is known beforehand (--prior) would show it."
     )
-
-
-def tested(subject: Subject) -> str:
-    """The runs that test, by whether anything looked at them before."""
-    return "untouched runs" if subject.found.roles.untouched else "runs that were fitted"
 
 
 def _named(found: Sequence[Finding]) -> str:

@@ -18,7 +18,9 @@ def render(subject: Subject) -> Markup | None:
         return None
     diffs = {"robot file": mended.file_difference, "groupings": mended.groupings_difference}
     panels = {name: _diff(text) if text else element("p", "Nothing changed.") for name, text in diffs.items()}
-    where = element("p", "The code of the new model is in ", element("code", mended.generated.name), ", regenerated.")
+    where = element(
+        "p", "The code of the new model is in ", element("code", mended.generated.as_posix()), ", regenerated."
+    )
     return join(choice("difference", "Difference of", panels), where)
 
 

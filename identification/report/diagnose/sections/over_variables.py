@@ -21,8 +21,9 @@ _DIRECTIONS = {-1: ("moving backward", COLOURS[1]), 0: ("before", COLOURS[0]), 1
 def render(subject: Subject) -> Markup:
     text = (
         "Means of the residual in bins, of the runs that are fitted and that validate. Full lines are the model before,"
-        " dotted ones the model with the findings; the grey band is two standard deviations of what noise would do to a"
-        " mean. The share tells how much of the residual's variance the variable orders, beyond chance."
+        " dotted ones the model with the findings; bands are two standard deviations of what noise would do to a mean,"
+        " one for each direction where two are shown. The share tells how much of the residual's variance the variable"
+        " orders, beyond chance."
     )
     before, after = subject.found.before.views, subject.found.after.views
     leading = subject.found.before.variable
@@ -48,8 +49,10 @@ def _panels(subject: Subject, joint: int, before: Sequence[View], after: Sequenc
 
 def _chart(subject: Subject, joint: int, before: Sequence[View], after: Sequence[View]) -> Markup:
     first = before[0]
-    widest = max(before, key=lambda one: len(one.centre))
-    data: list[Trace] = band(numbers(widest.centre), numbers(-widest.band), numbers(widest.band), MEASURED)
+    data: list[Trace] = []
+    for one in before:
+        colour = _DIRECTIONS[one.direction][1] if one.direction else MEASURED
+        data += band(numbers(one.centre), numbers(-one.band), numbers(one.band), colour)
     for one in before:
         name, colour = _DIRECTIONS[one.direction]
         data.append(line(numbers(one.centre), numbers(one.mean), name, colour, line={"width": 2.2}))

@@ -44,4 +44,4 @@ def _cards(subject: Subject) -> Iterator[Markup]:
         number = max(subject.tried, key=lambda k: subject.tried[k].before.rms - subject.tried[k].after.rms)
         one = subject.tried[number]
         change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
-        yield card(change, f"left on joint {number}", f"{words.tested(subject)}, of the spread")
+        yield card(change, f"left on joint {number}", f"{subject.found.roles.tested}, of the spread")

@@ -10,8 +10,8 @@ from identification.filtering import derivative
 from identification.report.chart import ESTIMATED, MEASURED, Trace, axis, chart, line
 from identification.report.choice import choice
 from identification.report.identify.subject import ShownRun, Subject
+from identification.report.series import Numbers, points_each, resolved
 from identification.report.series import line as thinned
-from identification.report.series import points_each
 
 TITLE = "Before and after filtering"
 ORDER = 100
@@ -61,7 +61,7 @@ def _panel(subject: Subject, run: ShownRun, joint: int, number: int) -> Markup:
     )
 
 
-def _range(filtered: Array, raw: Array) -> dict[str, list[float]]:
+def _range(filtered: Array, raw: Array) -> dict[str, Numbers]:
     """What keeps the filtered signal readable where the raw one is far larger."""
     if not len(filtered):
         return {}
@@ -69,4 +69,4 @@ def _range(filtered: Array, raw: Array) -> dict[str, list[float]]:
     room = _ROOM * (high - low)
     if not room or (raw.min() > low - room and raw.max() < high + room):
         return {}
-    return {"range": [float(f"{low - room:.4g}"), float(f"{high + room:.4g}")]}
+    return {"range": resolved(np.array([low - room, high + room]), 4)}

@@ -34,11 +34,14 @@ def render(subject: Subject) -> Markup:
 def _quality(subject: Subject) -> Iterator[str]:
     residual = subject.residuals[ALL]
     fitted, held_out = residual["train"], residual["test"]
+    empty = held_out is not None and not held_out["total"]["rows"]
+    held_out = None if empty else held_out
     left = fitted["total"]["relative_to_mean_percent"]
     count = sum(not run.held_out for run in subject.runs)
     yield f"The model leaves {plain(left, 3)}\u202f% of the torques unexplained on the {plural(count, 'run')} fitted"
     if held_out is None:
-        yield "(‖e‖ / ‖Y − mean Y‖, all joints). No run was held out, so nothing tells how it carries over."
+        why = "No row that was held out counts" if empty else "No run was held out"
+        yield f"(‖e‖ / ‖Y − mean Y‖, all joints). {why}, so nothing tells how it carries over."
         judged = fitted
     else:
         yield f"and {plain(held_out['total']['relative_to_mean_percent'], 3)}\u202f% on what was held out"
@@ -76,7 +79,7 @@ def _parameters(subject: Subject) -> Iterator[str]:
         if one["identifiable"] and not one["fixed"] and one["value"]
     }
     yield f"{len(all_) - len(hidden) - len(fixed)} of {plural(len(all_), 'base parameter')} are identified;"
-    yield f"{len(subject.found.essential.sought)} are essential."
+    yield f"{sum(one['essential'] for one in all_.values())} are essential."
     if fixed:
         yield f"{listed(fixed)} {'was' if len(fixed) == 1 else 'were'} given and not identified."
     if hidden:

@@ -28,7 +28,7 @@ def render(subject: Subject) -> Markup | None:
         " (speed and its sign, acceleration, an eccentric encoder) cannot explain of q − qs, over what it cannot"
         " explain of the torque: the slope is 1/k."
     )
-    panels = {f"{found.robot.moving[k].number}": _panel(found, k) for k in found.rows}
+    panels = {f"{found.robot.moving[k].number}": _panel(found, k) for k, rows in found.rows.items() if len(rows.twist)}
     return join(element("p", text), choice("joint", "Joint", panels))
 
 
@@ -37,7 +37,7 @@ def _panel(found: LinkEncoders, k: int) -> list[Markup]:
     number = joint.number
     length, torque = ("m", "N") if joint.sigma == PRISMATIC else ("rad", "N m")
     latency, stiffness = found.latency[f"latency{number}"], found.stiffness[f"k{number}"]
-    means = rows.constants @ (rows.constants.T @ rows.twist / rows.constants.sum(axis=0))
+    means = rows.constants @ (rows.constants.T @ rows.twist / np.maximum(rows.constants.sum(axis=0), 1))
     twist, left = rows.beside_motion()
     upward = axis(f"q{number} − qs{number}", length)
     over_speed = slope_chart(
@@ -59,7 +59,8 @@ def _panel(found: LinkEncoders, k: int) -> list[Markup]:
 
 
 def _by_run(found: LinkEncoders, k: int, x: Array, y: Array) -> list[Pair]:
-    """Numbers (N each) of joint ``k`` (from 0), taken apart by the run that they are of."""
+    """Numbers (N each) of joint ``k`` (from 0), taken apart by the run that they are of; none of runs without rows."""
     number = found.robot.moving[k].number
     names = [run.name for run, _ in found.runs if f"qs{number}" in run.others]
-    return [(name, x[own > 0], y[own > 0]) for name, own in zip(names, found.rows[k].constants.T, strict=True)]
+    each = zip(names, found.rows[k].constants.T > 0, strict=True)
+    return [(name, x[own], y[own]) for name, own in each if own.any()]

@@ -9,7 +9,7 @@ from generator.robot.description import PRISMATIC
 from identification.locked_output import LockedOutput
 from identification.report.chart import ESTIMATED, MEASURED, axis, chart, line
 from identification.report.choice import choice
-from identification.report.series import numbers, some
+from identification.report.series import numbers, resolved, some
 from identification.report.stiffness.subject import Subject
 
 TITLE = "Torque over the motor's angle"
@@ -28,7 +28,7 @@ def render(subject: Subject) -> Markup | None:
     panels = {}
     for (run, _), rows in zip(found.runs, found.rows, strict=True):
         at = some(len(rows), _POINTS)
-        q, Y = numbers(rows[at, 3]), numbers(rows[at, -1])
+        q, Y = resolved(rows[at, 3]), numbers(rows[at, -1])
         estimated = numbers(np.asarray(rows[at, :-1] @ chi))
         curves = [
             line(q, Y, "measured", f"{MEASURED}/45", line={"width": 4}),

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from benchmarks.diagnosis_study.intervals import share
+from benchmarks.diagnosis_study.pages.intervals import share
+from benchmarks.diagnosis_study.pages.summary import MODES, TITLES, Result, Row, of
 from benchmarks.diagnosis_study.runner import BASELINES
 from benchmarks.diagnosis_study.study import STUDY
-from benchmarks.diagnosis_study.summary import MODES, TITLES, Result, Row, of
 
 
 def rows_of_simpler_ways(results: Sequence[Result]) -> list[Row]:

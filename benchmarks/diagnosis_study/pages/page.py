@@ -7,49 +7,56 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any
 
-from benchmarks.diagnosis_study import summary
-from benchmarks.diagnosis_study.power_curve import power_curve
+from benchmarks.diagnosis_study.pages import summary
+from benchmarks.diagnosis_study.pages.power_curve import power_curve
+from benchmarks.diagnosis_study.pages.simpler_ways import rows_of_simpler_ways
 from benchmarks.diagnosis_study.runner import MISMATCH
-from benchmarks.diagnosis_study.simpler_ways import rows_of_simpler_ways
 from benchmarks.diagnosis_study.sizing import INVISIBLE, LIMIT
 from benchmarks.diagnosis_study.study import STUDY
 from benchmarks.table import table
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 JSON, PAGE = ROOT / "benchmarks" / "diagnosis.json", ROOT / "docs" / "diagnosis_study.md"
 PICTURE = ROOT / "docs" / "images" / "diagnosis_power.svg"
 _POWER = "Share of cases in which an effect is named, over its size"
 
 
-def tables(results: Sequence[summary.Result]) -> dict[str, Any]:
-    """All that the page shows, for JSON."""
+def tables(results: Sequence[summary.Result], every: Sequence[summary.Result]) -> dict[str, Any]:
+    """All that the page shows, for JSON: ``results`` of the code as it is, and ``every`` case as last answered."""
     return {
         "counts": summary.counts(results),
         "cells": summary.rows_of_cells(results),
-        "apart": summary.rows_apart(results),
-        "laws": summary.rows_of_laws(results),
-        "numbers": summary.rows_of_numbers(results),
-        "baselines": rows_of_simpler_ways(results),
-        "limits": summary.detection_limits(results),
+        "every": {"scored": summary.counts(every)["scored"], "codes": len({one["code"] for one in every})},
+        "every cell": summary.rows_of_cells(every),
+        "apart": summary.rows_apart(every),
+        "laws": summary.rows_of_laws(every),
+        "numbers": summary.rows_of_numbers(every),
+        "baselines": rows_of_simpler_ways(every),
+        "limits": summary.detection_limits(every),
         "power": {
             law: [{"size": size, "hits": one.hits, "count": one.count} for size, one in curve]
-            for law, curve in summary.power(results).items()
+            for law, curve in summary.power(every).items()
         },
     }
 
 
 def page(found: Mapping[str, Any]) -> str:
     """The page in Markdown."""
-    counts = found["counts"]
+    counts, every = found["counts"], found["every"]
     parts = [
         "# How well the diagnosis does",
         _INTRODUCTION,
-        f"The tables are of {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
+        "## What was asked, and what came out",
+        f"One study of one state of the code: {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
         f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
         "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
         "once, with the same code, it does not make again. Where the cases are few the intervals are wide.",
-        "## What was asked, and what came out",
         table(found["cells"]),
+        "## Every case that was ever drawn",
+        f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
+        "state that was asked about it answered: a study goes through the draws from the first on, whatever came out "
+        "before. The diagnosis was worked on between them. All tables from here on are of these cases.",
+        table(found["every cell"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",
         "What counts as right is in `benchmarks/diagnosis_study/study.json`. `named instead`: what was first where the "
@@ -79,10 +86,10 @@ def _filled(text: str) -> str:
     return "\n\n".join(fill(part, 120, break_long_words=False, break_on_hyphens=False) for part in text.split("\n\n"))
 
 
-def write(results: Sequence[summary.Result], found: Mapping[str, Any]) -> None:
+def write(every: Sequence[summary.Result], found: Mapping[str, Any]) -> None:
     """Page, and picture where there is a power curve."""
     PAGE.write_text(page(found), encoding="utf-8")
-    curves = summary.power(results)
+    curves = summary.power(every)
     if curves:
         PICTURE.write_text(power_curve(_POWER, curves), encoding="utf-8")
 

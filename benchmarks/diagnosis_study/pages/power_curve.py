@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import log
 
-from benchmarks.diagnosis_study.intervals import Share
+from benchmarks.diagnosis_study.pages.intervals import Share
 from generator.review.markup import Markup, element
 from generator.review.svg import pixel, points, svg, text
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from benchmarks.diagnosis_study.case import FREE, KNOWN
 from benchmarks.diagnosis_study.drawing import SIZES
-from benchmarks.diagnosis_study.intervals import Share, share
+from benchmarks.diagnosis_study.pages.intervals import Share, share
 from benchmarks.diagnosis_study.runner import MISMATCH
 from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
