@@ -20,8 +20,12 @@ class Done:
 
 
 def compiler() -> list[str]:
-    """The C compiler's command: the environment variable CC, or ``cc``."""
-    return shlex.split(os.environ.get("CC", "")) or ["cc"]
+    """The C compiler's command: the environment variable CC, or ``cc``; raises InputError for what is no command."""
+    told = os.environ.get("CC", "")
+    try:
+        return shlex.split(told) or ["cc"]
+    except ValueError as error:
+        raise InputError(Place("CC"), f"{told!r} is no command ({error})", "a C compiler; set CC") from None
 
 
 def run(command: Sequence[str]) -> Done:
@@ -30,4 +34,6 @@ def run(command: Sequence[str]) -> Done:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     except FileNotFoundError:
         raise InputError(Place(command[0]), "there is no such program", "a C compiler; set CC") from None
+    except OSError as error:
+        raise InputError(Place(command[0]), f"it cannot be run ({error.strerror})", "a C compiler; set CC") from None
     return Done(done.returncode, done.stdout)

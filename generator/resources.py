@@ -46,7 +46,7 @@ def find_robot(name_or_path: str) -> Path:
     """
     path = Path(name_or_path)
     if path.suffix in _EXTENSIONS or "/" in name_or_path or os.sep in name_or_path:
-        if not path.exists():
+        if not os.path.exists(path):
             raise InputError(Place(name_or_path), "there is no such file", "the path of a robot file")
         return path
     known = {robot.stem: robot for robot in robots()}

@@ -299,6 +299,10 @@ def any_effect(draw: Random, effect: Effect, joint: Joint, others: Sequence[int]
     return EffectUse(effect.id, (joint.number,), values)
 
 
+#: Dry friction that with an offset is another one's, and friction that tells them apart: of even and of odd joints.
+_APART = ("asymmetric_coulomb", "load_friction")
+
+
 def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, ...]:
     """Effects that a joint of ``robot`` has not yet, balancers apart, each with probability ``often``."""
     there = {(use.effect, number) for use in robot.effects for number in use.joints}
@@ -312,6 +316,7 @@ def more_effects(draw: Random, robot: Robot, often: float) -> tuple[EffectUse, .
         and (effect.id, joint.number) not in there
         and not effect.observables
         and (_may_turn_with_another(robot) or not any(shape.joint for shape in effect.shapes))
+        and (effect.id not in _APART or joint.number % 2 == _APART.index(effect.id))
         and draw.random() < often
     )
 

@@ -256,6 +256,7 @@ OPTIONS = {
         ("-O3", "-march=native"),
         ("-O1", "-D{}_BATCH_SCALAR"),
         ("-O1", "-D{}_USE_LIBM"),
+        ("-O2", "-funsafe-math-optimizations"),
         ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
         ("-O2", "-D{}_STREAM_BYTES=0"),
         ("-O2", "-march=native", "-D{}_USE_FLOAT"),

@@ -297,6 +297,17 @@ def test_a_missing_compiler_is_named(
     monkeypatch.setenv("CC", "no-such-compiler")
     done = command("generate", pendulum, "--out", tmp_path, "--self-test", capsys=capsys)
     assert refused(done) == "error: no-such-compiler:1:1: there is no such program, expected a C compiler; set CC"
+    folder, open_quote = f"{tmp_path}:1:1: it cannot be run", 'CC:1:1: "gcc \'x" is no command'
+    for told, problem in ((f"{tmp_path}", folder), ("gcc 'x", open_quote)):
+        monkeypatch.setenv("CC", told)
+        done = command("generate", pendulum, "--out", tmp_path, "--self-test", capsys=capsys)
+        assert refused(done).startswith(f"error: {problem} (")
+
+
+def test_a_name_that_is_too_long_is_no_file(capsys: pytest.CaptureFixture[str]) -> None:
+    name = f"{'a' * 300}.yaml"
+    expected = f"error: {name}:1:1: there is no such file, expected the path of a robot file"
+    assert refused(command("check", name, capsys=capsys)) == expected
 
 
 def test_generate_works_from_any_folder_and_with_a_relative_path(pendulum: Path) -> None:

@@ -242,6 +242,12 @@ def test_friction_of_the_lowest_speeds_is_no_other_friction(
     assert all(name not in {part for _, part in base.terms[1:]} for base in model.grouping.base)
 
 
+def test_a_default_may_be_told_too(tmp_path: Path) -> None:
+    """It is at the bound that other values keep off."""
+    (friction,) = arm(tmp_path, "load_friction", "rotor: 0 kg m2").effects
+    assert friction.site.values == {"rotor": 0}
+
+
 def test_friction_without_a_torque_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"arm.yaml:\d+:\d+: the torque of Fst1 vanishes at every speed from 1e-9 on"):
         arm(tmp_path, "stribeck_friction", "vs: 1e-12 rad/s")

@@ -130,6 +130,11 @@ def test_parameters_by_set_name_value_and_default(made: Made) -> None:
     before = robot.inverse_dynamics(*(np.ones(made.module.NQ) for _ in range(3)))
     robot.update({names[0]: 7.0})
     assert (robot.inverse_dynamics(*(np.ones(made.module.NQ) for _ in range(3))) != before).any()
+    with pytest.raises(ValueError, match="no parameter"):
+        robot.update({names[0]: 9.0, "no_such_parameter": 1.0})
+    with pytest.raises(ValueError, match="could not convert"):
+        robot.update({names[0]: 9.0, names[1]: "much"})
+    assert robot.parameters[0] == 7.0
     for wrong in ("no such set", {"no_such_parameter": 1.0}, np.zeros(len(names) + 1)):
         with pytest.raises(ValueError, match="parameters"):
             Robot(wrong)
@@ -174,6 +179,10 @@ def test_many_samples_go_where_they_are_asked_to_go(made: Made, robot: Any) -> N
     robot.observation_matrix(*signals, out=tall[:, :size].T, layout="columns")
     assert (tall[:, size:] == -7.0).all()
     assert (robot.observation_matrix(*signals, layout="columns") == tall[:, :size].T).all()
+    if made.module.NQ == 1:
+        # Of one row the distance to the next says nothing.
+        single = np.lib.stride_tricks.as_strided(np.zeros(width), (1, width), (3, 8))
+        assert (robot.observation_matrix(*(one[:1] for one in signals), out=single) == padded[:1, :width]).all()
 
 
 def test_a_plant_moves_as_the_direct_model_says(made: Made, robot: Any) -> None:
@@ -238,7 +247,7 @@ def test_a_controller_is_a_cascade(made: Made, robot: Any) -> None:
 
 def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> None:
     n, Plant = made.module.NQ, made.module.Plant
-    one = np.zeros(n)
+    one, held, same = np.zeros(n), np.zeros((4, n)), np.zeros((4, n))
     for message, call in (
         ("^kind is 'soft', expected one of rigid", lambda: Plant(robot, "soft", one)),
         ("^q has shape", lambda: Plant(robot, "rigid", np.zeros(n + 1))),
@@ -247,6 +256,9 @@ def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> N
         ("^width is not positive", lambda: Plant(robot, "rigid", one, width=0.0)),
         ("^tau has shape", lambda: Plant(robot, "rigid", one).advance(1e-3, np.zeros(n + 1))),
         ("^tau has shape", lambda: Plant(robot, "rigid", one).run(1e-3, np.zeros((4, n + 1)))),
+        ("^time is nan", lambda: Plant(robot, "rigid", one).advance(np.nan, one)),
+        ("^time is -1", lambda: Plant(robot, "rigid", one).advance(-1, one)),
+        ("^out shares memory with qd", lambda: Plant(robot, "rigid", one).run(1e-3, held, out=(same, same))),
     ):
         with pytest.raises(ValueError, match=message):
             call()
@@ -265,6 +277,8 @@ def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
     one, huge = np.zeros(n), np.zeros((100, n + 1))
     frozen = np.zeros(n)
     frozen.flags.writeable = False
+    crooked = np.zeros(8 * n + 4, np.uint8)[4:].view(float)
+    matrix = np.zeros(8 * q.size * made.module.NBASE + 4, np.uint8)[4:].view(float).reshape(q.size, -1)
     mistakes: list[tuple[type[Exception], str, Any]] = [
         (ValueError, "^q has shape", lambda: robot.gravity(np.zeros(n + 1))),
         (TypeError, "^q is no array of numbers", lambda: robot.gravity("text")),
@@ -272,6 +286,9 @@ def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
         (TypeError, "^out has elements of float32", lambda: robot.gravity(one, out=np.zeros(n, np.float32))),
         (ValueError, "^out has shape", lambda: robot.gravity(one, out=np.zeros(n + 1))),
         (ValueError, "^out is read-only", lambda: robot.gravity(one, out=frozen)),
+        (ValueError, "^out is not aligned", lambda: robot.gravity(one, out=crooked)),
+        (ValueError, "^out is not aligned", lambda: robot.observation_matrix(q, qd, qdd, out=matrix)),
+        (TypeError, "^out is a list", lambda: robot.observation_matrix(q, qd, qdd, out=[0.0], layout="columns")),
         (TypeError, "^qd has elements of float32", lambda: robot.inverse_dynamics(q, qd.astype(np.float32), qdd)),
         (TypeError, "^qd is a list", lambda: robot.inverse_dynamics(q, qd.tolist(), qdd)),
         (ValueError, "^qdd has shape", lambda: robot.inverse_dynamics(q, qd, huge)),

@@ -5,10 +5,12 @@ from __future__ import annotations
 import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
 from math import pi
+from pathlib import Path
 
 import pytest
 import sympy
 
+from generator.effects.library import effects_of
 from generator.review import laws
 from generator.review.decimals import decimal, rounded, scientific
 from generator.review.formula import (
@@ -20,6 +22,7 @@ from generator.review.mathml import math
 from generator.review.plain import plain
 from generator.review.tex import tex
 from generator.review.trigonometry import without_half_angles
+from generator.robot.readers import read
 from tests.reviewed import value
 from tests.subject import Subject
 
@@ -110,6 +113,30 @@ def test_half_angles_become_sines_and_cosines(squares: tuple[int, int, int]) -> 
     for at in (0.3, 1.1, -2.0):
         numbers = {x: at, d2: 0.7}
         assert float(result.subs(numbers)) == pytest.approx(float(expression.subs(numbers)), abs=1e-12)
+
+
+def test_joints_with_one_law_have_the_same_numbers_in_it(tmp_path: Path) -> None:
+    """An exponent, another joint or a rotor of nothing stands in a law as it is."""
+    (tmp_path / "arm.yaml").write_text(
+        "name: arm\ngravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\njoints:\n"
+        "  - {j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}\n"
+        "  - {j: 2, sigma: 0, alpha: pi/2, d: 0, theta: q2, r: 0}\n"
+        "  - {j: 3, sigma: 0, alpha: 0, d: 0.4 m, theta: q3, r: 0}\n"
+        "effects:\n"
+        "  - {effect: power_friction, joints: [1, 3], values: {v: 1 rad/s, exponent: 2}}\n"
+        "  - {effect: power_friction, joint: 2, values: {v: 2 rad/s, exponent: 3}}\n"
+        "  - {effect: load_friction, joint: 1}\n"
+        "  - {effect: load_friction, joint: 2, values: {rotor: 3 kg m2}}\n"
+        "  - {effect: load_friction, joint: 3, values: {rotor: 4 kg m2}}\n"
+    )
+    groups = laws.alike(effects_of(read(tmp_path / "arm.yaml")))
+    joints = [(group[0].effect.id, [one.joint.number for one in group]) for group in groups]
+    assert sorted(joints) == [
+        ("load_friction", [1]),
+        ("load_friction", [2, 3]),
+        ("power_friction", [1, 3]),
+        ("power_friction", [2]),
+    ]
 
 
 def test_laws_mean_what_the_effects_do(arm: Subject) -> None:

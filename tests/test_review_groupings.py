@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from math import floor, log10, pi
 
 import numpy as np
@@ -14,7 +15,10 @@ from generator.review.formula import (
 )
 from generator.review.groupings import equations
 from generator.review.tex import escape
+from generator.robot.description import REVOLUTE
 from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.model import Model
+from tests.chains import joint, robot
 from tests.reviewed import block, files, listed, model, parsed, state, value
 from tests.subject import Subject
 
@@ -170,6 +174,11 @@ def test_latex_is_balanced_and_complete(arm: Subject) -> None:
         assert all(line.count("&") == 1 for line in lines)
         starts = [line for line in lines if "&=" in line]
         assert len(starts) == len(equations(arm.model.grouping))
+
+
+def test_labels_are_text_in_latex() -> None:
+    named = robot("labelled", (replace(joint(1, REVOLUTE), label="a_b"),))
+    assert r"1 (a\_b) &" in files(Model(named))["groupings.tex"]
 
 
 def test_latex_takes_text_literally() -> None:

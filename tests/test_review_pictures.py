@@ -18,9 +18,10 @@ from generator.review.picture.arm import draw
 from generator.review.picture.skeleton import place, skeleton
 from generator.review.plain import plain
 from generator.review.plot import Curve, plot
-from generator.robot.description import PRISMATIC
+from generator.robot.description import PRISMATIC, REVOLUTE
 from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
+from tests import chains
 from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
 from tests.reviewed import SVG, files, model, page
@@ -109,6 +110,15 @@ def test_the_arm_is_drawn_within_its_limits(arm: Subject) -> None:
     for joint, position in zip(arm.robot.moving, drawing.q, strict=True):
         assert joint.lower is None or position >= float(joint.lower) - 1e-9
         assert joint.upper is None or position <= float(joint.upper) + 1e-9
+
+
+@pytest.mark.parametrize("ends", [(180, 360), (-350, -170)])
+def test_limits_far_from_zero_are_kept(ends: tuple[int, int]) -> None:
+    lower, upper = (sympy.Rational(one, 180) * sympy.pi for one in ends)
+    far = replace(chains.joint(2, REVOLUTE, sympy.pi / 2, sympy.Rational(1, 2)), lower=lower, upper=upper)
+    assert (
+        float(lower) - 1e-9 <= draw(chains.robot("far", (chains.joint(1, REVOLUTE), far))).q[1] <= float(upper) + 1e-9
+    )
 
 
 def test_the_arm_shows_its_joints_lengths_and_frames(robot_arm: Subject) -> None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -115,7 +116,7 @@ def _values(model: Model, function: Function, chosen: str | None) -> Values:
         raise InputError(command_line(_COMMAND), "--parameters is missing", choice)
     if chosen in sets:
         return sets[chosen].values
-    if not Path(chosen).exists():
+    if not os.path.exists(chosen):
         raise InputError(place, f"there is no parameter set and no file {chosen!r}", choice)
     return parameter_file.read(Path(chosen))
 

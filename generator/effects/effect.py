@@ -203,3 +203,8 @@ class Effect:
     def loads(self) -> bool:
         """Whether its torque is a part of the load of the drive: what stores energy, as weight does, and offsets."""
         return self.potential_energy is not None or not self.needs
+
+
+def accelerates(column: Column) -> bool:
+    """Whether the torque of a parameter depends on accelerations."""
+    return any(symbol.name.startswith("qdd") for torque in column.values() for symbol in torque.free_symbols)

@@ -244,9 +244,11 @@ def _check_others(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) ->
 
 
 def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> None:
-    if shape.lower is not None and not value > shape.lower:
+    if value == shape.default:
+        return
+    if shape.lower is not None and not float(value) > shape.lower:
         raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
-    if shape.upper is not None and not value < shape.upper:
+    if shape.upper is not None and not float(value) < shape.upper:
         raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {unit}")
 
 

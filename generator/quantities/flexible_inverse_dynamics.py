@@ -18,7 +18,8 @@ def _outputs(model: Model) -> tuple[Signal, Signal]:
 QUANTITY = Quantity(
     name="flexible_inverse_dynamics",
     summary="Motor torques and spring torques of the robot with elastic drive trains.",
-    details="Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a, qd_a).",
+    details="Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a, qd_a). "
+    "Of a joint with backlash q_e counts as far as it winds the spring.",
     inputs=signals.together(signals.flexible_q, signals.flexible_qd, signals.flexible_qdd),
     outputs=_outputs,
     build=lambda model: model.flexible.inverse_dynamics(),

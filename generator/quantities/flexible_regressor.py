@@ -24,7 +24,8 @@ def _build(model: Model) -> tuple[Array]:
 QUANTITY = Quantity(
     name="flexible_regressor",
     summary="Regressor of the link side's base parameters and of Iam, Fvm, Fcm, Offm, k of each elastic joint.",
-    details="Report eq. 10 to 13; both blocks are linear in the parameters.",
+    details="Report eq. 10 to 13; both blocks are linear in the parameters. "
+    "Of a joint with backlash q_e counts as far as it winds the spring.",
     inputs=signals.together(signals.flexible_q, signals.flexible_qd, signals.flexible_qdd),
     outputs=_signal,
     build=_build,

@@ -89,7 +89,12 @@ def tex(model: Model, texts: Document) -> Document:
         alone=tuple(latex.tex(Name(name)) for name in alone(model.grouping)),
         without_effect=tuple(latex.tex(Name(name)) for name in without_effect(model.grouping)),
         geometry=tuple(
-            (row.label, str(row.joint.antecedent), str(row.joint.sigma), *(latex.tex(cell) for _, cell in row.cells))
+            (
+                latex.escape(row.label),
+                str(row.joint.antecedent),
+                str(row.joint.sigma),
+                *(latex.tex(cell) for _, cell in row.cells),
+            )
             for row in rows(model.robot)
         ),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import sympy
@@ -83,14 +84,24 @@ def _symbols(instance: Instance, site: Site, index: str) -> dict[sympy.Symbol, s
     return {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
 
 
+def numbers(instance: Instance) -> dict[str, sympy.Expr]:
+    """Values that stand in the law as numbers: zeros, and pure numbers such as an exponent."""
+    pure = {shape.name for shape in instance.effect.shapes if shape.unit == "1"}
+    return {name: value for name, value in instance.site.values.items() if name in pure or value == 0}
+
+
+def alike(instances: Iterable[Instance]) -> list[list[Instance]]:
+    """Instances in groups whose law is the same."""
+    groups: dict[tuple[object, ...], list[Instance]] = {}
+    for instance in instances:
+        groups.setdefault((instance.effect.id, *sorted(numbers(instance).items())), []).append(instance)
+    return list(groups.values())
+
+
 def _by_name(instance: Instance) -> Site:
-    """The effect's site with its values as symbols; zeros and pure numbers such as an exponent stay numbers."""
-    kept = {shape.name for shape in instance.effect.shapes if shape.unit == "1"}
-    values = {
-        name: value if name in kept or value == 0 else sympy.Symbol(name, real=True)
-        for name, value in instance.site.values.items()
-    }
-    return replace(instance.site, values=values)
+    """The effect's site with its values as symbols, but for those that are ``numbers``."""
+    values = {name: sympy.Symbol(name, real=True) for name in instance.site.values}
+    return replace(instance.site, values=values | numbers(instance))
 
 
 def _indexed(stem: str, index: str) -> str:

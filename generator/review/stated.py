@@ -30,7 +30,8 @@ def base(robot: Robot) -> tuple[str, ...]:
 def effects(model: Model) -> Table:
     """Each effect, the joints that have it with the same values, and those values with their units."""
     joints: dict[tuple[str, str], list[int]] = {}
-    for instance in model.effects:
+    shaped = [one for one in model.motor_effects if one.site.values != {s.name: s.default for s in one.effect.shapes}]
+    for instance in (*model.effects, *shaped):
         joints.setdefault((instance.effect.id, values(instance)), []).append(instance.joint.number)
     rows = tuple((effect, ranges(sorted(numbers)), told) for (effect, told), numbers in joints.items())
     return (("effect", "joints", "values"), *rows) if rows else ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import sys
 
 from generator.errors import InputError
 from generator.robot.document import Text
@@ -29,6 +30,26 @@ signbit sin sinh size_t sqrt stdio stdint stdbool stddef stdlib string strlen ta
 float64_t NULL NAN INFINITY EOF EXIT_SUCCESS EXIT_FAILURE HUGE_VAL j0 j1 jn y0 y1 yn"""
 
 _PYTHON = """casadi numpy np math sympy"""
+
+#: Headers that a robot's own would hide from the C library, and modules from Python.
+_HIDDEN = {
+    *[
+        "ctype",
+        "features",
+        "fenv",
+        "inttypes",
+        "limits",
+        "locale",
+        "setjmp",
+        "stdarg",
+        "tgmath",
+        "time",
+        "wchar",
+        "wctype",
+        "cffi",
+    ]
+}
+_HIDDEN |= sys.stdlib_module_names
 
 #: Targets that CMake makes by itself, and a library that the robot's own links.
 _CMAKE = "all clean depend edit_cache help install m package rebuild_cache test"
@@ -67,4 +88,6 @@ def robot_name(text: Text) -> str:
     name = identifier(text, "robot name")
     if name in _CMAKE.split():
         raise InputError(text.place, f"robot name {name!r} is a target of CMake", "another name")
+    if name in _HIDDEN:
+        raise InputError(text.place, f"robot name {name!r} is a header of C or a module of Python", "another name")
     return name

@@ -11,6 +11,7 @@ from typing import TypeAlias
 import numpy as np
 import sympy
 
+from generator.effects.effect import accelerates
 from generator.effects.library import Instance, effects_of, motor_side, states_of, undefined
 from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping
@@ -326,6 +327,8 @@ def _absorbed(robot: Robot, exact: Grouping, others: Sequence[str]) -> Grouping:
     """The grouping with effects in it, at the robot's lengths as numbers."""
     lengths = tuple(replace(one, symbolic=False) for one in robot.lengths)
     numeric = Model(replace(robot, lengths=lengths))
-    by_load = any("load" in one.effect.needs for one in numeric.effects)
-    rubbing = [name for one in numeric.effects if by_load and not one.effect.loads for name in one.names]
+    by_load = {one.joint.number for one in numeric.effects if "load" in one.effect.needs}
+    beside = [one for one in numeric.effects if one.joint.number in by_load and not one.effect.loads]
+    columns = [pair for one in beside for pair in zip(one.names, one.columns(), strict=True)]
+    rubbing = [name for name, column in columns if not accelerates(column)]
     return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}), rubbing)

@@ -164,6 +164,15 @@ def test_an_order_that_is_no_whole_number_is_another_effect(order: float, named:
     assert all(choice.evidence.variant.shape["order"] == order for choice in found)
 
 
+def test_a_ripple_that_is_not_as_strong_everywhere_keeps_its_whole_order() -> None:
+    """Far above the noise whatever its law lacks tells of an order beside it, by a part that no order would make."""
+    data = Data(23)
+    q = data.draw.uniform(-0.7, 0.7, size=(RUNS, COUNT))
+    (found,) = search(data.bank(30.0 * np.cos(60 * q + 0.3) + 0.75 * q * np.sin(60 * q + 0.3), [rippling(q, (60.0,))]))
+    assert found.evidence.variant.shape["order"] == 60.0
+    assert search(data.bank(30.0 * np.cos(60.15 * q + 0.3), [rippling(q, (60.0,))])) == []
+
+
 def rippling(q: Array, points: tuple[float, ...]) -> Hypothesis:
     """Cosine and sine of a whole order of positions q (RUNS x COUNT)."""
     shape = ShapeRange("order", "1", 1.0, max(points), points=points, whole=True, exact=True)

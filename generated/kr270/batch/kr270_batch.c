@@ -142,8 +142,10 @@ INLINE real lanes_sum(lanes x)
  * Sines and cosines: computed here for all lanes at once, or by <math.h> where arithmetic is not that of the type itself
  * and where KR270_USE_LIBM is defined. Samples with positions out of reach are left to the functions for one sample.
  */
-#if (defined(__FAST_MATH__) || (FLT_EVAL_METHOD != 0)) && !defined(KR270_USE_LIBM)
+#if !defined(KR270_USE_LIBM)
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (FLT_EVAL_METHOD != 0)
 #define KR270_USE_LIBM
+#endif
 #endif
 
 #ifdef KR270_USE_LIBM
@@ -1197,7 +1199,7 @@ static void write(real *restrict to, const real *restrict from, size_t count, in
 {
     size_t i = 0;
 #ifdef STREAM
-    if (past_caches) {
+    if (past_caches && ((uintptr_t)to % sizeof(real) == 0U)) {
         i = least(((0U - (size_t)(uintptr_t)to) % 64U) / sizeof(real), count);
         if (i > 0) {
             memcpy(to, from, i * sizeof(real));

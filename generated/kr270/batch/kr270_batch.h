@@ -8,7 +8,7 @@
  * matrices of the base parameters, and their Gram matrices and triangular factors without the matrix itself.
  *
  * Samples  q, qd, qdd and tau hold n samples one after the other, KR270_NQ numbers each: joint j of sample k is
- *          [k*KR270_NQ + j], as logs come. Every sample must be finite. Arrays need no alignment and may not overlap.
+ *          [k*KR270_NQ + j], as logs come. Every sample must be finite. Arrays are aligned as numbers are and may not overlap.
  * Memory   All of it is the caller's; nothing is allocated, and no state is kept.
  * Threads  Compiled with OpenMP (-fopenmp) the work is shared among OMP_NUM_THREADS threads; the results are the same to
  *          the bit for every number of threads. Each thread needs 256 KiB of stack.

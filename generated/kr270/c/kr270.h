@@ -724,7 +724,8 @@ void kr270_flexible_direct_dynamics_smooth(
 /**
  * Motor torques and spring torques of the robot with elastic drive trains.
  *
- * Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a, qd_a).
+ * Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a, qd_a). Of
+ * a joint with backlash q_e counts as far as it winds the spring.
  *
  * @param[in] prepared from kr270_prepare()
  * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]
@@ -740,7 +741,8 @@ void kr270_flexible_inverse_dynamics(
 /**
  * Regressor of the link side's base parameters and of Iam, Fvm, Fcm, Offm, k of each elastic joint.
  *
- * Report eq. 10 to 13; both blocks are linear in the parameters.
+ * Report eq. 10 to 13; both blocks are linear in the parameters. Of a joint with backlash q_e
+ * counts as far as it winds the spring.
  *
  * @param[in] prepared not read here, may be NULL
  * @param[in] q (12) [q_m; q_e]: motors, then elongations [rad]

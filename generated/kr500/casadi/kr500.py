@@ -3207,7 +3207,7 @@ def _build_flexible_inverse_dynamics():
     """Motor torques and spring torques of the robot with elastic drive trains.
 
     Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a,
-    qd_a).
+    qd_a). Of a joint with backlash q_e counts as far as it winds the spring.
 
     Inputs:
         parameters: (95) parameters, in the order of PARAMETERS [SI]
@@ -3477,7 +3477,8 @@ def _build_flexible_regressor():
     """Regressor of the link side's base parameters and of Iam, Fvm, Fcm, Offm, k of each elastic
     joint.
 
-    Report eq. 10 to 13; both blocks are linear in the parameters.
+    Report eq. 10 to 13; both blocks are linear in the parameters. Of a joint with backlash q_e
+    counts as far as it winds the spring.
 
     Inputs:
         q: (12) [q_m; q_e]: motors, then elongations [rad]

@@ -320,7 +320,7 @@ _WORK = 305168
 
 def _signal(value, shape, name):
     """An input of one state as a buffer."""
-    if type(value) is _array and value.dtype is _double and value.shape == shape:
+    if type(value) is _array and value.dtype is _double and value.shape == shape and value.flags.aligned:
         try:
             return _buffer(value)
         except ValueError:
@@ -357,6 +357,8 @@ def _check(array, shape, name):
         raise ValueError(f"{name} has shape {array.shape}, expected ({wanted})")
     if not array.flags.c_contiguous:
         raise ValueError(f"{name} is not contiguous, row by row; numpy.ascontiguousarray copies it")
+    if not array.flags.aligned:
+        raise ValueError(f"{name} is not aligned as numbers are; numpy.array copies it")
 
 
 def _samples(**signals):
@@ -428,9 +430,11 @@ class Robot:
 
     def update(self, values):
         """Gives parameters new values, by name. Raises ValueError for a name that is not in PARAMETERS."""
-        for name, value in values.items():
+        for name in values.keys():
             if name not in _PLACES:
                 raise ValueError(f"parameters: there is no parameter {name!r}")
+        # All or none: what is no number is refused before any is set.
+        for name, value in {name: float(value) for name, value in values.items()}.items():
             self._params.value[_PLACES[name]] = value
         _lib.kr500_prepare(self._params, self._prepared)
 
@@ -708,7 +712,7 @@ class Robot:
         """Motor torques and spring torques of the robot with elastic drive trains.
 
         Report eq. 8 to 10: tau_mdi = Iam qdd_m + tau_fm - k q_e, tau_e = M(q_a) qdd_a + H(q_a,
-        qd_a).
+        qd_a). Of a joint with backlash q_e counts as far as it winds the spring.
 
         Inputs:
             q: (12) [q_m; q_e]: motors, then elongations [rad]
@@ -735,7 +739,8 @@ class Robot:
         """Regressor of the link side's base parameters and of Iam, Fvm, Fcm, Offm, k of each
         elastic joint.
 
-        Report eq. 10 to 13; both blocks are linear in the parameters.
+        Report eq. 10 to 13; both blocks are linear in the parameters. Of a joint with backlash
+        q_e counts as far as it winds the spring.
 
         Inputs:
             q: (12) [q_m; q_e]: motors, then elongations [rad]
@@ -1290,13 +1295,13 @@ class Robot:
             call, memory = _lib.kr500_observation_matrix_rows, W
         else:
             stride = _lib.kr500_observation_stride(rows)
-            memory = _matrix(None if out is None else out.T, (NBASE, rows), stride)
+            memory = _matrix(getattr(out, "T", out), (NBASE, rows), stride)
             call, W = _lib.kr500_observation_matrix_columns, memory.T
         _apart(W, q=q, qd=qd, qdd=qdd)
         if rows:
             call(
                 self._prepared, chosen, n, _buffer(q), _buffer(qd), _buffer(qdd), _address(memory),
-                memory.strides[0] // 8,
+                _distance(memory),
             )
         return W if out is None else out
 
@@ -1391,6 +1396,8 @@ class Plant:
             tau: (6) motor torques, on the joint side [N m, N]
             tau_ext: (6) torques of the surroundings on the links, positive with q [N m, N], or None
         """
+        if not 0 <= time < np.inf:
+            raise ValueError(f"time is {time}, expected a finite one that is not negative")
         others = _ffi.NULL if tau_ext is None else _signal(tau_ext, (NQ,), "tau_ext")
         self._advance(self.robot._prepared, self._integration, time, _signal(tau, (NQ,), "tau"), others, self._state)
 
@@ -1408,7 +1415,7 @@ class Plant:
         n = _samples(tau=tau)
         size = self._q.size
         q, qd = _several(out, ((n, size), (n, size)))
-        _apart(q, tau=tau)
+        _apart(q, qd=qd, tau=tau)
         _apart(qd, tau=tau)
         done = self._simulate(
             self.robot._prepared,
@@ -1506,11 +1513,19 @@ def _matrix(out, shape, stride):
         raise TypeError(f"out has elements of {out.dtype}, expected float64")
     if out.shape != shape:
         raise ValueError(f"out has not the shape of the result, {shape} in the layout's order, but {out.shape}")
-    if out.size and (shape[1] > 1 and out.strides[1] != 8 or out.strides[0] < 8 * shape[1] or out.strides[0] % 8):
+    apart = out.strides[0] >= 8 * shape[1] and out.strides[0] % 8 == 0
+    if out.size and (shape[1] > 1 and out.strides[1] != 8 or shape[0] > 1 and not apart):
         raise ValueError("out is not contiguous along the layout's rows or columns")
+    if not out.flags.aligned:
+        raise ValueError("out is not aligned as numbers are")
     if not out.flags.writeable:
         raise ValueError("out is read-only")
     return out
+
+
+def _distance(matrix):
+    """Numbers from one of the rows to the next."""
+    return matrix.strides[0] // 8 if len(matrix) > 1 else matrix.shape[1]
 
 
 def _address(array):

@@ -69,8 +69,11 @@ def _candidates(joint: Joint, arm: Skeleton) -> Array:
         lower = 0.0 if joint.lower is None else float(joint.lower)
         upper = lower + 1.5 * arm.size if joint.upper is None else float(joint.upper)
         return np.array([lower + 0.6 * (upper - lower)])
-    lower = -_TURN if joint.lower is None else max(float(joint.lower), -_TURN)
-    upper = _TURN if joint.upper is None else min(float(joint.upper), _TURN)
+    lowest, highest = (None if end is None else float(end) for end in (joint.lower, joint.upper))
+    lower = -_TURN if lowest is None else max(lowest, -_TURN)
+    upper = _TURN if highest is None else min(highest, _TURN)
+    if lower > upper:
+        return np.array([lower if lower > 0 else upper])
     first, last = int(np.ceil(lower / _STEP - 1e-9)), int(np.floor(upper / _STEP + 1e-9))
     grid = np.asarray(np.arange(first, last + 1) * _STEP, dtype=float)
     values: Array = grid if len(grid) else np.array([(lower + upper) / 2])

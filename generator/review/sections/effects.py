@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from generator.effects.library import Instance
 from generator.review.formula import Name
-from generator.review.laws import observables, rates, torque
+from generator.review.laws import alike, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
@@ -18,11 +18,8 @@ ORDER = 80
 def render(model: Model) -> Markup | None:
     if not model.effects:
         return None
-    by_effect: dict[str, list[Instance]] = {}
-    for instance in model.effects:
-        by_effect.setdefault(instance.effect.id, []).append(instance)
     intro = element("p", "Each adds its torque to that of the rigid bodies, on the side of the inverse dynamic model.")
-    return join(intro, element("div", [_effect(instances) for instances in by_effect.values()], class_="effects"))
+    return join(intro, element("div", [_effect(instances) for instances in alike(model.effects)], class_="effects"))
 
 
 def _effect(instances: list[Instance]) -> Markup:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -45,9 +46,9 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
 
     Raises InputError, saying what was ``expected``, for what cannot be read as such a text.
     """
-    if path.is_dir():
+    if os.path.isdir(path):
         raise InputError(Place(file), "this is a folder", expected)
-    if path.exists() and not path.is_file():
+    if os.path.exists(path) and not os.path.isfile(path):
         raise InputError(Place(file), "this is not a regular file", expected)
     try:
         if (size := path.stat().st_size) > _MAX_BYTES:

@@ -130,7 +130,7 @@ def _limits(entry: Entry | None, name: str, sigma: int) -> tuple[sympy.Expr | No
         raise InputError(entry.key, f"limits on fixed {name}", "limits on moving joints only")
     what, unit = f"limits of {name}", "m" if sigma == PRISMATIC else "rad"
     lower, upper = (fields.quantity(item, what, unit).value for item in fields.items(entry.value, what, 2, "limits"))
-    if not lower < upper:
+    if not float(lower) < float(upper):
         raise InputError(entry.value.place, f"{what} are not in order", "the lower, then the higher limit")
     return lower, upper
 
@@ -141,7 +141,7 @@ def _limit(entry: Entry | None, what: str, sigma: int, units: tuple[str, str]) -
     if sigma == FIXED:
         raise InputError(entry.key, f"{what}, which is fixed", "limits on moving joints only")
     value = fields.quantity(entry.value, what, units[sigma == PRISMATIC]).value
-    if not value > 0:
+    if not float(value) > 0:
         raise InputError(entry.value.place, f"{what} is {float(value):g}", "a positive limit, which holds either way")
     return value
 

@@ -34,6 +34,7 @@ from identification.sampling import Sampled
 
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
+_FITTED = "nothing was added to the model: before and after differ by the fit of its parameters near the prior alone"
 _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
 
 
@@ -95,8 +96,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     left_out = {j for one in found.findings if one not in written for j in one.amplitude}
     stated_aside = [one.evidence for one in aside if one in additions]
     told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes]
-    if prior is not None and written:
-        told += _gain(*without, found.roles.tested)
+    if prior is not None:
+        told += _gain(*without, found.roles.tested) if written else [_FITTED]
     told += objections(untouched(bank, *without), found.roles.tested, elastic, left_out)
     return Mended(
         text=text,

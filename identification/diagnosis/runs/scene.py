@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.effects.effect import Column
+from generator.effects.effect import accelerates
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from identification.corrections import heated, warming_up
@@ -172,7 +172,7 @@ class Scene:
             name
             for one in self.regressors.model.effects
             for name, column in zip(one.names, one.columns(), strict=True)
-            if one.effect.loads or ("load" not in one.effect.needs and _accelerates(column))
+            if one.effect.loads or ("load" not in one.effect.needs and accelerates(column))
         }
         load = self.torque_of(self._made_of(self._of_bodies | loading), self.motion)
         return load if self.beside is None else load + self.beside.load(self._alone(self.motion))
@@ -184,8 +184,3 @@ class Scene:
     def derivative(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, as the motion's speeds are."""
         return flat_derivative(x, self.period)
-
-
-def _accelerates(column: Column) -> bool:
-    """Whether the torque of a parameter depends on accelerations."""
-    return any(symbol.name.startswith("qdd") for torque in column.values() for symbol in torque.free_symbols)

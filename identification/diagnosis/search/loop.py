@@ -23,6 +23,7 @@ from identification.diagnosis.noise.rounding import rounding
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search import doubling
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.weighing import Weighing
@@ -120,19 +121,22 @@ def search(
         choices = [] if dry else Selection(weighing).search(chosen)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
+        before, acting, old = acting, Acting.found(bank, chosen, solution), values
         values = bank.values(solution)
-        before, acting = acting, Acting.found(bank, chosen, solution)
         depends = acting.again or (regressors.reads_load and bool(acting.variants))
         if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
         if swinging(chosen) and turn + 1 < _PASSES:
             progress("settling how drive trains swing")
             chosen, values, acting = settled(weighing, chosen)
+        elif doubling.doubling(acting) and turn + 1 < _PASSES:
+            progress("settling how large a gain is")
+            chosen, values, acting = doubling.settled(weighing, chosen, old)
     return Search(
         bank=bank,
         weighing=weighing,
         choices=tuple(choices),
-        values=values,
+        values=bank.values(solution),
         covariance=covariance,
         offered=tuple(offered),
         train=tuple(train),

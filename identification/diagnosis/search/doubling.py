@@ -1,0 +1,53 @@
+"""Gains that double a torque, beside the model that they scale: both found by turns, without any other candidate.
+
+The column of a gain is the model's torque by the values before. What those have too much the new ones have too little,
+times the gain's error: where that is about 1 or more, searches alone swing about the truth and end anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from identification.diagnosis.columns.acting import Acting
+from identification.diagnosis.columns.bank import Bank, Variant
+from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.weighing import Weighing
+
+#: Relative error of a torque from which it counts, turns at most, and its change that is none.
+_DOUBLES, _TURNS, _NEAR = 0.5, 15, 0.003
+
+
+def doubling(acting: Acting) -> bool:
+    """Whether a gain that acts about doubles its torque."""
+    return max(_gains(acting), default=0.0) >= _DOUBLES
+
+
+def settled(
+    weighing: Weighing, chosen: Sequence[Variant], values: Mapping[str, float]
+) -> tuple[list[Variant], dict[str, float], Acting]:
+    """What was ``chosen`` beside columns by ``values`` of the base parameters, these values by name when turns change
+    them no more, and what acts.
+    """
+    old = dict(values)
+    last: tuple[float, ...] = ()
+    for _ in range(_TURNS):
+        bank, (solution, _) = weighing.bank, weighing.fitted(chosen)
+        acting, new = Acting.found(bank, chosen, solution), bank.values(solution)
+        gains = _gains(acting)
+        if len(gains) == len(last) and all(abs(x - y) < _NEAR for x, y in zip(gains, last, strict=True)):
+            break
+        last = gains
+        # Half way between what is too much and what is too little.
+        old = {name: (x + old.get(name, x)) / 2 for name, x in new.items()}
+        again = Bank(bank.runs, [Scene(one.sampled, one.regressors, old, acting) for one in bank.scenes])
+        made = [(one, again.add(one.hypothesis, one.shape)) for one in chosen]
+        there = [there.only(one.used) for one, there in made if there is not None]
+        if len(there) < len(chosen):
+            break
+        again.whiten(bank.colours)
+        weighing, chosen = weighing.along(again), there
+    return list(chosen), old, acting
+
+
+def _gains(acting: Acting) -> tuple[float, ...]:
+    return tuple(x for name, x in acting.coefficients.items() if name.startswith("torque_gain_error"))

@@ -1,0 +1,39 @@
+"""A gain that doubles a torque is found beside known parameters as it is, whatever the first fit made of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
+from tests.recorded import Recorded
+
+#: What is known, wrong by about what is said of it.
+KNOWN = """\
+parameters:
+  known:
+    values:
+      ZZ1: {value: 9.1, unit: kg m2, relative_std: 2}
+      MX1: {value: 10.9, unit: kg m, relative_std: 2}
+      MY1: {value: 0.6, unit: kg m, relative_std: 5}
+      Fv1: {value: 13.7, unit: N m s/rad, relative_std: 5}
+      Fc1: {value: 9.2, unit: N m, relative_std: 5}
+      Off1: {value: 1.5, unit: N m, relative_std: 5}
+"""
+
+
+@pytest.mark.parametrize("error", [0.6, 1.2, 1.7])
+def test_a_gain_that_doubles_a_torque_is_found_beside_what_is_known(error: float, tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 3, ARM + KNOWN)
+    for source in sources:
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+        Recorded({"t": t, "q1": q, "tau1": (1 + error) * tau}).save(Path(source))
+    found = diagnosis_of(sources, regressors, "known")
+    (gain,) = found.findings
+    assert gain.hypothesis.effect == "torque_gain"
+    told = gain.parameters["torque_gain_error1"]
+    assert told.value is not None
+    assert abs(told.value - error) < 3 * told.std < 0.1
+    assert found.search.values["MX1"] == pytest.approx(TRUTH["MX1"], rel=0.02)
