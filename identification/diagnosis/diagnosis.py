@@ -15,7 +15,7 @@ from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.search.loop import Search, search
 from identification.diagnosis.search.scaling import taken_up
-from identification.diagnosis.verdict import few_rows, odd_run, remarks
+from identification.diagnosis.verdict import few_rows, odd_run, remarks, trembling
 from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, note
 from identification.diagnosis.verdict.finding import Finding, findings
@@ -109,6 +109,7 @@ def diagnose(
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),
         *(odd_run.notes(found) if left.lacks else ()),
+        *trembling.notes(found, {one.joint for one in left.lacks}),
     ]
     return Diagnosis(
         robot=robot,

@@ -1,0 +1,42 @@
+"""Positions in steps so coarse that a drive which trembles over them makes torques of its own.
+
+The link moves by less than a step, so that no position shows it, and where the loop has no noise of its own it does so
+in every period alike: what is left looks like something that the model lacks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from math import sqrt
+
+import numpy as np
+
+from generator.review.words import listed
+from identification.diagnosis.noise.noise_floor import noise_floor
+from identification.diagnosis.noise.rounding import deviations, rounding
+from identification.diagnosis.search.loop import Search
+from identification.residuals import rms
+
+#: Part of the noise that the steps of positions make, from which a drive may tremble by as much as the noise.
+_COARSE = 0.1
+
+
+def notes(found: Search, joints: Collection[int]) -> list[str]:
+    """What is to be told of ``joints`` (numbers) that keep something unexplained, if their positions are coarse."""
+    bank = found.bank
+    repeating = [(run, scene) for run, scene in zip(bank.runs, bank.scenes, strict=True) if run.times]
+    coarse = []
+    for k, joint in enumerate(bank.robot.moving):
+        if joint.number not in joints or not repeating:
+            continue
+        step = sqrt(12) * max(float(deviations(run.sampled.run, bank.robot)[k]) for run, _ in repeating)
+        torques = [rounding(run, scene)[k] / sqrt(run.times) for run, scene in repeating]
+        part = rms(np.concatenate(torques)) / noise_floor(bank, k, repeating[0][0].rate)
+        if part > _COARSE:
+            coarse.append(f"{step:.2g} {joint.position_unit} on joint {joint.number} ({part:.2g} of the noise)")
+    if not coarse:
+        return []
+    return [
+        f"positions come in steps whose rounding alone makes torques: {listed(coarse)}; drives that tremble over them "
+        "make larger ones, which repeat with the motion and look like something missing"
+    ]
