@@ -29,13 +29,17 @@ class NotGrouped(Exception):
 
 
 def absorbed(
-    grouping: Grouping, effects: Sequence[str], w: Mapping[str, NDArray[np.float64]], apart: Collection[str] = ()
+    grouping: Grouping,
+    effects: Sequence[str],
+    w: Mapping[str, NDArray[np.float64]],
+    loading: Collection[str] = (),
+    rubbing: Collection[str] = (),
 ) -> Grouping:
     """The grouping with those of the parameters ``effects`` grouped that the others, and those before them, make too.
 
-    ``w`` holds the column of each standard parameter over random states. Parameters ``apart`` are not to be grouped
-    with others: a load that a friction reads is made of either. Raises NotGrouped where they would be, and for a torque
-    that is zero at all states.
+    ``w`` holds the column of each standard parameter over random states. Parameters ``loading`` are part of a load that
+    a friction reads, and are not grouped with ``rubbing`` ones, which are not. Raises NotGrouped where they would be,
+    and for a torque that is zero at all states.
     """
     heads = [base.head for base in grouping.base]
     kept = [head for head in heads if head not in effects]
@@ -55,7 +59,8 @@ def absorbed(
             span = np.column_stack([span, rest / np.linalg.norm(rest)])
         else:
             coefficients = _coefficients(w, name, kept)
-            mixed = [one for one, x in coefficients.items() if x and (one in apart) is not (name in apart)]
+            pairs = {one: {name, one} for one, x in coefficients.items() if x}
+            mixed = [one for one, pair in pairs.items() if pair & {*loading} and pair & {*rubbing}]
             if mixed:
                 problem = f"the torque of {name} is one that {' and '.join(mixed)} make too, and friction by the load"
                 raise NotGrouped(name, f"{problem} tells them apart", "one of these effects alone")

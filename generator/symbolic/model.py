@@ -327,8 +327,15 @@ def _absorbed(robot: Robot, exact: Grouping, others: Sequence[str]) -> Grouping:
     """The grouping with effects in it, at the robot's lengths as numbers."""
     lengths = tuple(replace(one, symbolic=False) for one in robot.lengths)
     numeric = Model(replace(robot, lengths=lengths))
-    by_load = {one.joint.number for one in numeric.effects if "load" in one.effect.needs}
-    beside = [one for one in numeric.effects if one.joint.number in by_load and not one.effect.loads]
-    columns = [pair for one in beside for pair in zip(one.names, one.columns(), strict=True)]
-    rubbing = [name for name, column in columns if not accelerates(column)]
-    return absorbed(exact, others, numeric.sampled_columns(numeric.standard_columns, {}), rubbing)
+    columns = numeric.standard_columns
+    pairs = [
+        pair for one in numeric.effects if not one.effect.loads for pair in zip(one.names, one.columns(), strict=True)
+    ]
+    rubbing = {name for name, column in pairs if not accelerates(column)}
+    read = {k for k, joint in enumerate(robot.moving) if _reads_load(numeric.effects, joint.number)}
+    loading = {name for name, column in columns.items() if name not in rubbing and read & column.keys()}
+    return absorbed(exact, others, numeric.sampled_columns(columns, {}), loading, rubbing)
+
+
+def _reads_load(effects: Sequence[Instance], number: int) -> bool:
+    return any("load" in one.effect.needs for one in effects if one.joint.number == number)

@@ -24,7 +24,9 @@ parameters:
 """
 
 
-@pytest.mark.parametrize("error", [0.6, 1.2, 1.7])
+@pytest.mark.parametrize(
+    "error", [pytest.param(0.6, marks=pytest.mark.long), pytest.param(1.2, marks=pytest.mark.long), 1.7]
+)
 def test_a_gain_that_doubles_a_torque_is_found_beside_what_is_known(error: float, tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 3, ARM + KNOWN)
     for source in sources:

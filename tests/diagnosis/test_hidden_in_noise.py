@@ -27,13 +27,11 @@ def found(q: Array, left: Array) -> Any:
         dof=len(q),
         alone=(0,),
         robot=SimpleNamespace(numbers=range(1, len(q) + 1)),
-        base=("ZZ1R",),
-        variants=(),
         runs=[SimpleNamespace(rate=RATE, kept=kept, decimated=lambda x: x)],
         scenes=[SimpleNamespace(motion=SimpleNamespace(q=q, qd=qd))],
         residual=lambda r, k, weights, white=True: residual[k][kept[k]] if white else residual[k],
         whitened=lambda r, k, rows: rows[:, kept[k]],
-        raw=lambda r, k: ([0], residual[k : k + 1], residual[k], kept[k]),
+        counts=lambda k: (int(kept[k].sum()), 1),
     )
     return SimpleNamespace(bank=bank)
 

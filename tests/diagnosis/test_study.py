@@ -183,7 +183,8 @@ def test_what_never_acts_need_not_be_called_unexplained() -> None:
     unseen = record("outside", [], stop, NOTHING)
     unseen["truth"]["hidden"][0]["invisible"] = True
     unseen["score"] = scored(unseen["truth"], answer(verdict=NOTHING)).record()
-    text = page(tables([unseen, record("outside", [], stop, UNEXPLAINED)]))
+    results = [{**one, "code": "abc"} for one in (unseen, record("outside", [], stop, UNEXPLAINED))]
+    text = page(tables(results, results))
     assert f"| outside the library | free fit | nothing firmly named | {Share(2, 2)} |" in text
     assert f"| outside the library | free fit | called unexplained | {Share(1, 1)} |" in text
 

@@ -51,6 +51,6 @@ def notes(bank: Bank, aside: Collection[int] = ()) -> list[str]:
     if not loud:
         return []
     return [
-        f"more of the torques' spread than is usual counts as noise, {listed(loud)}: it repeats with no period and "
+        f"more of the torques' spread counts as noise than is usual, {listed(loud)}: it repeats with no period and "
         "follows from no column of the search"
     ]
