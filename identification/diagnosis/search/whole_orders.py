@@ -24,9 +24,9 @@ _ODDS = 10.0
 UNSURE = 50.0
 #: Largest difference from a whole number by which columns are differentiated, and the part of them that it changes.
 _BESIDE, _CHANGED = 0.02, 0.1
-#: Part of what a ripple explains that an order beside its own may explain more, since no law is exact: ripples are not
-#: as strong all along a run.
-_IMPERFECT = 0.001
+#: Part of what a ripple explains that an order beside its own explains by chance, since no law is exact: a ripple is
+#: not as strong all along a run.
+_IMPERFECT = 3e-5
 #: What of the rank another whole number must gain.
 _GAIN = 0.5
 
@@ -39,21 +39,24 @@ class _Order:
     std: float
     drop: float
 
-    def odds(self, lacking: float) -> float:
-        """Of the whole number, whose law may leave what is ``lacking``, against all within half of one from it."""
+    def odds(self, wider: float) -> float:
+        """Of the whole number against all that lies within half of one from it; noise alone would leave a variance of
+        the order that is less by the factor ``wider``.
+        """
         if not self.std:
             return inf
-        lower, upper = ((side - self.step) / self.std for side in (-0.5, 0.5))
+        std = self.std * sqrt(wider)
+        lower, upper = ((side - self.step) / std for side in (-0.5, 0.5))
         within = (erf(upper / sqrt(2)) - erf(lower / sqrt(2))) / 2
-        return _ODDS * exp(-max(self.drop - lacking, 0.0) / 2) / (self.std * sqrt(2 * pi) * within) if within else 0.0
+        return _ODDS * exp(-self.drop / wider / 2) / (std * sqrt(2 * pi) * within) if within else 0.0
 
 
 def odds(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> float:
     """Of the whole orders of a variant beside ``others``; infinite where it has none."""
     found = [_beside(weighing, variant, one, others) for one in _exact(variant)]
     known = [one for one in found if one is not None]
-    lacking = _IMPERFECT * weighing.of(variant, others).drop if known else 0.0
-    return min((one.odds(lacking) for one in known), default=inf)
+    wider = 1 + _IMPERFECT * weighing.of(variant, others).drop if known else 1.0
+    return min((one.odds(wider) for one in known), default=inf)
 
 
 def nearest(weighing: Weighing, variant: Variant, others: Sequence[Variant]) -> Variant:
