@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from identification.diagnosis.columns.acting import Acting
-from identification.diagnosis.columns.bank import Bank, Variant
-from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.columns.bank import Variant
+from identification.diagnosis.search.settling import fitted, made_anew
 from identification.diagnosis.search.weighing import Weighing
 
 #: Relative error of a torque from which it counts, turns at most, and its change that is none.
@@ -31,21 +31,17 @@ def settled(
     old = dict(values)
     last: tuple[float, ...] = ()
     for _ in range(_TURNS):
-        bank, (solution, _) = weighing.bank, weighing.fitted(chosen)
-        acting, new = Acting.found(bank, chosen, solution), bank.values(solution)
+        new, acting = fitted(weighing, chosen)
         gains = _gains(acting)
         if len(gains) == len(last) and all(abs(x - y) < _NEAR for x, y in zip(gains, last, strict=True)):
             break
         last = gains
         # Half way between what is too much and what is too little.
         old = {name: (x + old.get(name, x)) / 2 for name, x in new.items()}
-        again = Bank(bank.runs, [Scene(one.sampled, one.regressors, old, acting) for one in bank.scenes])
-        made = [(one, again.add(one.hypothesis, one.shape)) for one in chosen]
-        there = [there.only(one.used) for one, there in made if there is not None]
-        if len(there) < len(chosen):
+        again = made_anew(weighing, chosen, old, acting)
+        if again is None:
             break
-        again.whiten(bank.colours)
-        weighing, chosen = weighing.along(again), there
+        weighing, chosen = again
     return list(chosen), old, acting
 
 
