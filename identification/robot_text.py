@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -120,7 +121,7 @@ def _indented(lines: str, root: Any) -> str:
 
 def _find(text: str, path: Path) -> Any:
     """The node at ``path``; None without one."""
-    node: Any = YAML(typ="safe", pure=True).compose(text)
+    node = _root(text)
     for step in path:
         if isinstance(step, int):
             node = node.value[step]
@@ -129,6 +130,12 @@ def _find(text: str, path: Path) -> Any:
         if node is None:
             return None
     return node
+
+
+@lru_cache(maxsize=1)
+def _root(text: str) -> Any:
+    """The whole file; of the text that was asked for last it is kept."""
+    return YAML(typ="safe", pure=True).compose(text)
 
 
 def _end(text: str, node: Any) -> int:

@@ -13,8 +13,9 @@ from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hy
 from identification.diagnosis.noise.torque_band import end
 from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_fitted, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.runs.swings import DAMPING, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.residuals import rms
+from identification.side_by_side import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -40,18 +41,19 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """
     if not scenes or np.isfinite(end(scenes)):
         return []
-    found = []
-    for k, joint in enumerate(scenes[0].robot.moving):
-        if not _has_gap(scenes[0].robot, joint.number) and not watched(scenes, k):
-            side = liveliest(scenes, k)
-            found += [] if side is None or not _changes_sign(side) else [_hypothesis(joint, side, scenes)]
-    return found
+    sides = [
+        (joint, side)
+        for k, joint in enumerate(scenes[0].robot.moving)
+        if not _has_gap(scenes[0].robot, joint.number) and not watched(scenes, k)
+        if (side := liveliest(scenes, k)) is not None and _changes_sign(side)
+    ]
+    swinging = side_by_side(lambda one: _swinging(*one, scenes), sides)
+    return [_hypothesis(*one, *seen) for one, seen in zip(sides, swinging, strict=True)]
 
 
-def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypothesis:
+def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[list[ShapeRange], Alike]:
+    """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
     sides = LinkSides(side)
-    softest, stiffest = stiffnesses(side)
-    narrow, wide = _gaps(side)
     lightest = min(float(np.min(sides.along(scene, side.rotor).inertia)) for scene in scenes)
     grouped = side.rotor > 0 and lightest > 0 and not rotor_is_fitted(side.scene, side.k)
     rotor = [_rotor(side.rotor, lightest, joint.inertia_unit)] if grouped else []
@@ -59,17 +61,23 @@ def _hypothesis(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> Hypoth
     found = alike(
         [sides.along(side.scene, part * one.high) for one in untold for part in _PARTS] or [side],
         [
-            np.geomspace(softest, stiffest, _STEPS),
+            np.geomspace(*stiffnesses(side), _STEPS),
             np.geomspace(*DAMPING, _DAMPINGS),
-            np.geomspace(narrow, wide, _GAPS),
+            np.geomspace(*_gaps(side), _GAPS),
         ],
     )
+    return rotor, found
+
+
+def _hypothesis(joint: Joint, side: LinkSide, rotor: Sequence[ShapeRange], found: Alike) -> Hypothesis:
+    softest, stiffest = stiffnesses(side)
+    narrow, wide = _gaps(side)
     return Hypothesis(
         "backlash",
         "backlash",
         joint.number,
         (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
-        partial(_columns, sides),
+        partial(_columns, LinkSides(side)),
         shapes=(
             *rotor,
             ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),

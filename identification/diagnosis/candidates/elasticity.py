@@ -14,7 +14,8 @@ from identification.diagnosis.noise.torque_band import end
 from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.stated_elasticity import stated
-from identification.diagnosis.runs.swings import DAMPING, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
+from identification.side_by_side import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -37,18 +38,23 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """
     if not scenes or np.isfinite(end(scenes)):
         return []
-    found = []
     known = [one.k for one in stated(scenes[0].robot)]
-    for k, joint in enumerate(scenes[0].robot.moving):
-        if k not in known and not watched(scenes, k):
-            side = liveliest(scenes, k)
-            found += [] if side is None else [_hypothesis(joint, side)]
-    return found
+    sides = [
+        (joint, side)
+        for k, joint in enumerate(scenes[0].robot.moving)
+        if k not in known and not watched(scenes, k)
+        if (side := liveliest(scenes, k)) is not None
+    ]
+    swinging = side_by_side(_alike, [side for _, side in sides])
+    return [_hypothesis(*one, found) for one, found in zip(sides, swinging, strict=True)]
 
 
-def _hypothesis(joint: Joint, side: LinkSide) -> Hypothesis:
+def _alike(side: LinkSide) -> Alike:
+    return alike([side], [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
+
+
+def _hypothesis(joint: Joint, side: LinkSide, found: Alike) -> Hypothesis:
     low, high = stiffnesses(side)
-    found = alike([side], [np.geomspace(low, high, _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
     # The stiffest swings too fast to be seen and shows its deflection alone.
     starts = {(stiffness, damping) for _, stiffness, damping, _ in found} | {(high, found[0][2])}
     told = rotor_is_told(side.scene, side.k)

@@ -143,6 +143,7 @@ def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], u
             tries=tries,
             recorded="warmth" in effect.needs and by_heat(scenes[0].robot, k),
             usual=usual,
+            of_motion="load" not in effect.needs,
         )
     ]
 

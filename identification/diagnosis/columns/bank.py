@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,19 +18,19 @@ from generator.robot.description import Robot
 from identification.diagnosis.columns import stated_load
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, Key
 from identification.diagnosis.columns.normal_equations import bounded, lowered
+from identification.diagnosis.columns.torques import Torques, torques
 from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
+from identification.side_by_side import side_by_side
 
 Array = NDArray[np.float64]
 
-#: Part of a column's largest value on any joint below which it is zero on a joint.
-_NOTHING = 1e-9
-#: Part of the largest torque that is none, per unit of a coefficient.
-_ROUNDING = 1e-12
-#: Torque per unit from which a motion has run away.
-_ENDLESS = 1e30
+#: What tells columns apart: effect, joint, shape.
+_Made: TypeAlias = tuple[object, ...]
+#: Columns that are made once.
+Lasting: TypeAlias = dict[_Made, Torques]
 
 
 @dataclass(frozen=True)
@@ -114,13 +115,15 @@ class Bank:
     another fit than that of the columns tells, by the column's number.
     """
 
-    def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene]) -> None:
+    def __init__(self, runs: Sequence[Prepared], scenes: Sequence[Scene], lasting: Lasting | None = None) -> None:
+        """``lasting`` are columns of the motion alone, which banks of the same runs share."""
         self.runs, self.scenes = tuple(runs), tuple(scenes)
         regressors = scenes[0].regressors
         self.base: tuple[str, ...] = (*regressors.names, *stated_elasticity.names(self.robot))
         self.variants: list[Variant] = []
-        self._made: dict[tuple[object, ...], Variant | None] = {}
-        self._offered: set[tuple[object, ...]] = set()
+        self._made: dict[_Made, Variant | None] = {}
+        self._offered: set[_Made] = set()
+        self._lasting: Lasting = {} if lasting is None else lasting
         self.nowhere: dict[tuple[str, int], Hypothesis] = {}
         self.preset: dict[int, float] = {}
         self.count = len(self.base)
@@ -167,45 +170,58 @@ class Bank:
         rows = np.sum([self.rows(r) for r in range(len(self.runs))], axis=0)
         return tuple(np.flatnonzero(rows).tolist())
 
+    def offer(self, hypotheses: Sequence[Hypothesis]) -> None:
+        """Columns of ``hypotheses`` with every shape that is tried first, made side by side."""
+
+        def every(one: Hypothesis) -> list[Torques | None]:
+            return [self._torques(one, shape) for shape in one.variants]
+
+        for one, found in zip(hypotheses, side_by_side(every, hypotheses), strict=True):
+            for shape, each in zip(one.variants, found, strict=True):
+                if (key := _key(one, shape)) not in self._made:
+                    self._made[key] = self._placed(one, shape, each, True)
+                self.add(one, shape)
+
     def add(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool = True) -> Variant | None:
         """Columns of a hypothesis with a shape, which is one of the ``variants`` if ``offered``; None where that is
         impossible along a run or acts nowhere. What there is already is not made again.
         """
-        key = (hypothesis.effect, hypothesis.joint, *sorted(shape.items()))
+        key = _key(hypothesis, shape)
         if key not in self._made:
-            self._made[key] = self._columns(hypothesis, shape, offered)
+            self._made[key] = self._placed(hypothesis, shape, self._torques(hypothesis, shape), offered)
         variant = self._made[key]
         if offered and variant is not None and key not in self._offered:
             self._offered.add(key)
             self.variants.append(variant)
         return variant
 
-    def _columns(self, hypothesis: Hypothesis, shape: Mapping[str, float], offered: bool) -> Variant | None:
-        per_run = []
-        for scene in self.scenes:
-            columns = made(hypothesis, scene, shape)
-            if columns is None:
-                return None
-            per_run.append(columns)
-        largest = max(np.abs(columns).max(initial=0.0) for columns in per_run)
-        if largest <= _ROUNDING * max(float(np.abs(run.tau).max(initial=0.0)) for run in self.runs):
+    def _torques(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Torques | None:
+        known = self._lasting.get(_key(hypothesis, shape))
+        return known or torques(hypothesis, shape, self.runs, self.scenes)
+
+    def _placed(
+        self, hypothesis: Hypothesis, shape: Mapping[str, float], found: Torques | None, offered: bool
+    ) -> Variant | None:
+        """Columns with the rows that were ``found``."""
+        if found is None:
+            return None
+        if hypothesis.of_motion:
+            self._lasting[_key(hypothesis, shape)] = found
+        if not found.joints:
             if offered:
                 self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
             return None
-        acts = [
-            j for j in range(self.dof) if max(np.abs(columns[:, j]).max() for columns in per_run) > _NOTHING * largest
-        ]
         numbers = tuple(range(self.count, self.count + len(hypothesis.coefficients)))
         self.count += len(numbers)
         for number, one in zip(numbers, hypothesis.coefficients, strict=True):
             if (value := hypothesis.preset_value(one.name)) is not None:
                 self.preset[number] = value
-        for r, (run, columns) in enumerate(zip(self.runs, per_run, strict=True)):
+        for r, per_joint in enumerate(found.rows):
             if self._colours:
                 self.grams[r] = _grown(self.grams[r], len(numbers))
-            for j in acts:
-                self._extend(r, j, numbers, run.decimated(columns[:, j]))
-        return Variant(hypothesis, dict(shape), numbers, tuple(acts), tuple(range(len(numbers))))
+            for j, rows in zip(found.joints, per_joint, strict=True):
+                self._extend(r, j, numbers, rows)
+        return Variant(hypothesis, dict(shape), numbers, found.joints, tuple(range(len(numbers))))
 
     def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:
         one = self._joints[run][joint]
@@ -293,12 +309,8 @@ class Bank:
         return gram
 
 
-def made(hypothesis: Hypothesis, scene: Scene, shape: Mapping[str, float]) -> Array | None:
-    """Columns (k x n x N) of a hypothesis with a shape along a scene; None where the motion makes that impossible."""
-    # It shows in numbers that are not finite.
-    with np.errstate(all="ignore"):
-        columns = hypothesis.columns(scene, shape)
-    return columns if np.all(np.abs(columns) < _ENDLESS) else None
+def _key(hypothesis: Hypothesis, shape: Mapping[str, float]) -> _Made:
+    return hypothesis.effect, hypothesis.joint, *sorted(shape.items())
 
 
 def base_rows(decimated: Callable[[Array], Array], scene: Scene) -> list[dict[int, Array]]:

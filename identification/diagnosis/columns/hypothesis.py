@@ -124,7 +124,8 @@ class Hypothesis:
     ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
     coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
     coefficient by name which shape value, to which power, is the same by another way. ``usual`` is false of a balancer
-    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for.
+    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for. Columns
+    ``of_motion`` are the same whatever the model's values.
     """
 
     effect: str
@@ -151,6 +152,7 @@ class Hypothesis:
     twice: Mapping[str, tuple[str, int]] = field(default_factory=dict)
     usual: bool = True
     stated: bool = False
+    of_motion: bool = False
     jumps: tuple[Jump, ...] = ()
 
     @property

@@ -14,7 +14,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from identification.diagnosis.columns.bank import Bank, Variant, base_rows, made
+from identification.diagnosis.columns.bank import Bank, Variant, base_rows
+from identification.diagnosis.columns.torques import made
 from identification.diagnosis.noise import rounding
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.perturbation import moved

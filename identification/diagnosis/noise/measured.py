@@ -21,6 +21,7 @@ from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
 from identification.diagnosis.noise.errors_in_variables import Redrawn
 from identification.diagnosis.noise.may_act import Rows, allowed, with_maps, with_noise, without_record
+from identification.side_by_side import side_by_side
 
 Array = NDArray[np.float64]
 _Scalar = TypeVar("_Scalar", np.float64, np.bool_)
@@ -50,9 +51,11 @@ def colours(
     run, rows (m x rows) of what may act beside all hypotheses, if there are any. Runs whose positions are noisy are
     ``redrawn``, by number.
     """
-    every = [
-        _of_joint(bank, k, [one[k] for one in rounded], maps[k] if maps else (), redrawn or {}) for k in range(bank.dof)
-    ]
+
+    def of_joint(k: int) -> list[Colour]:
+        return _of_joint(bank, k, [one[k] for one in rounded], maps[k] if maps else (), redrawn or {})
+
+    every = side_by_side(of_joint, range(bank.dof))
     return [[colours[r] for colours in every] for r in range(len(bank.runs))]
 
 

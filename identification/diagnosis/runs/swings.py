@@ -8,6 +8,7 @@ model leaves of the joint's torque.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
+#: Drive trains as rotor's inertia, stiffness, damping ratio, gap.
+Alike: TypeAlias = list[tuple[float, ...]]
 
 #: Time [s] that is played, of the run in which the joint is fastest, and the most samples.
 _PLAYED, _SAMPLES = 12.0, 12000
@@ -56,7 +59,7 @@ def stiffnesses(side: LinkSide) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> list[tuple[float, ...]]:
+def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> Alike:
     """The rotor of one of the link's ``sides``, stiffness, damping and gap, each from its grid in geometric steps, that
     are most like the log, then between the steps: once by all that the rows show and once by what is slow in it.
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.columns.acting import Acting
-from identification.diagnosis.columns.bank import Bank, Variant, columns_of
+from identification.diagnosis.columns.bank import Bank, Lasting, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.maps import maps
 from identification.diagnosis.columns.normal_equations import Normal, Prior
@@ -105,12 +105,12 @@ def search(
     free, prior = prior is None, _with_drive_trains(prior, regressors)
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
-    acting = Acting()
+    acting, lasting = Acting(), Lasting()
     for turn in range(_PASSES):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
         scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
-        bank = Bank(clear, scenes)
+        bank = Bank(clear, scenes, lasting)
         offered = _offered(bank, train)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
         progress("measuring the noise")
@@ -159,9 +159,7 @@ def _with_drive_trains(prior: Prior | None, regressors: Regressors) -> Prior | N
 def _offered(bank: Bank, train: Sequence[int]) -> Sequence[Hypothesis]:
     """What the runs number ``train`` may show, its columns now in the bank."""
     offered = hypotheses([bank.scenes[r] for r in train])
-    for one in offered:
-        for shape in one.variants:
-            bank.add(one, shape)
+    bank.offer(offered)
     return offered
 
 
