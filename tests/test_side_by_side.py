@@ -1,0 +1,69 @@
+"""Work shared by processes: the results are those of one process, whatever becomes of the others."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError, Place
+from identification.side_by_side import side_by_side
+
+HERE = os.getpid()
+
+
+def two_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 8])
+def test_results_are_in_the_order_of_what_they_are_of(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    two_cores(monkeypatch)
+    more = 3.0
+    found = side_by_side(lambda x: np.full(2, x + more), range(count))
+    assert [x.tolist() for x in found] == [[k + 3.0] * 2 for k in range(count)]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are forked on Linux alone")
+def test_the_work_is_shared_by_as_many_processes_as_there_are_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    two_cores(monkeypatch)
+    owners = side_by_side(lambda _: os.getpid(), range(6))
+    assert owners[::2] == [HERE] * 3
+    assert len(set(owners[1::2])) == 1
+    assert owners[1] != HERE
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0})
+    assert set(side_by_side(lambda _: os.getpid(), range(6))) == {HERE}
+
+
+def test_what_is_shared_does_not_share_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    two_cores(monkeypatch)
+    assert side_by_side(lambda x: side_by_side(lambda y: x * y, range(3)), range(4)) == [
+        [0, x, 2 * x] for x in range(4)
+    ]
+
+
+@pytest.mark.parametrize("bad", [0, 1])
+def test_an_error_is_raised_as_in_one_process(monkeypatch: pytest.MonkeyPatch, bad: int) -> None:
+    two_cores(monkeypatch)
+
+    def function(x: int) -> int:
+        if x == bad:
+            raise InputError(Place("run.csv", 3, 1), "a bad row", "a good one")
+        return x
+
+    with pytest.raises(InputError, match="a bad row"):
+        side_by_side(function, range(4))
+
+
+def test_what_a_process_that_dies_had_to_do_is_done_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    two_cores(monkeypatch)
+
+    def function(x: int) -> int:
+        if x == 3 and os.getpid() != HERE:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return x
+
+    assert side_by_side(function, range(6)) == list(range(6))
