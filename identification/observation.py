@@ -120,17 +120,17 @@ class Regressors:
     def base(self, motion: Motion) -> list[Array]:
         """Per joint, torque per unit of each parameter of ``structure`` (columns x N)."""
         sizes = [len(row) for row in self.structure]
-        packed = self._blocks("regressor_packed", motion, sum(sizes))
+        packed = self._blocks("regressor_packed", motion, sum(sizes), self.values)
         return np.split(packed, np.cumsum(sizes)[:-1])
 
     def payload(self, motion: Motion) -> list[Array]:
         """Per joint, torque per unit of XX XY XZ YY YZ ZZ MX MY MZ M of a body in the tool frame (10 x N)."""
-        flat = self._blocks("payload_regressor", motion, self.model.dof * len(INERTIAL))
+        flat = self._blocks("payload_regressor", motion, self.model.dof * len(INERTIAL), self.values)
         return list(flat.reshape(self.model.dof, len(INERTIAL), -1))
 
     def torques(self, parameters: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""
-        return self._evaluated("inverse_dynamics", motion, parameters).T
+        return self._blocks("inverse_dynamics", motion, self.model.dof, parameters)
 
     def inertia(self, parameters: Mapping[str, float], q: Array) -> Array:
         """M (N x n x n) at positions ``q`` (n x N) for values of the base parameters by name, absent ones zero."""
@@ -149,12 +149,12 @@ class Regressors:
                         found.add((coordinate[joint], _weights(jump.args[0], coordinate)))
         return tuple(sorted(found))
 
-    def _blocks(self, name: str, motion: Motion, rows: int) -> Array:
-        """Outputs of a generated function (rows x N)."""
+    def _blocks(self, name: str, motion: Motion, rows: int, parameters: Mapping[str, float]) -> Array:
+        """Outputs of a generated function (rows x N), given what it reads."""
         result = np.empty((rows, motion.samples))
         for start in range(0, motion.samples, _BLOCK):
             part = motion.part(start, start + _BLOCK)
-            values = self._evaluated(name, part, self.values)
+            values = self._evaluated(name, part, parameters)
             result[:, start : start + part.samples] = values.reshape(part.samples, rows).T
         return result
 
