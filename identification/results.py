@@ -228,4 +228,4 @@ def _marked(value: Any) -> Any:
         return [_marked(one) for one in value]
     if isinstance(value, float) and value == math.inf:
         return _MARK
-    return value
+    return None if isinstance(value, float) and not math.isfinite(value) else value

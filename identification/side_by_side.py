@@ -5,7 +5,8 @@ from __future__ import annotations
 import multiprocessing
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
@@ -22,35 +23,46 @@ def side_by_side(function: Callable[[_Item], _Result], items: Sequence[_Item]) -
     processes = min(_cores(), len(items))
     if processes < 2:
         return [function(one) for one in items]
-    context = multiprocessing.get_context("fork")
-    started = []
-    for first in range(1, processes):
-        ours, theirs = context.Pipe(duplex=False)
-        process = context.Process(target=_send, args=(theirs, function, items[first::processes]), daemon=True)
-        process.start()
-        theirs.close()
-        started.append((first, ours, process))
     result: list[_Result | None] = [None] * len(items)
-    result[::processes] = [function(one) for one in items[::processes]]
-    for first, ours, process in started:
-        try:
-            share = ours.recv()
-        except EOFError:
-            share = [function(one) for one in items[first::processes]]
-        process.join()
-        ours.close()
-        result[first::processes] = share
+    with ExitStack() as stack:
+        others = [stack.enter_context(_working(function, items[k::processes])) for k in range(1, processes)]
+        result[::processes] = [function(one) for one in items[::processes]]
+        for k, other in enumerate(others, 1):
+            try:
+                result[k::processes] = other.recv()
+            except TimeoutError:
+                raise
+            except (EOFError, OSError):
+                result[k::processes] = [function(one) for one in items[k::processes]]
     return result  # type: ignore[return-value]
 
 
+@contextmanager
+def _working(function: Callable[[_Item], _Result], items: Sequence[_Item]) -> Iterator[Connection]:
+    """A process that works on ``items``, and from where its results come; it ends with this."""
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=_send, args=(here, there, function, items), daemon=True)
+    process.start()
+    there.close()
+    try:
+        yield here
+    finally:
+        here.close()
+        process.terminate()
+        process.join()
+
+
 def _cores() -> int:
-    """Processes that may run at once: one in a process that is started by another one's sharing."""
-    if sys.platform != "linux" or multiprocessing.current_process().daemon:
+    """Processes that may run at once: one where this is itself one of several that share work."""
+    if sys.platform != "linux" or multiprocessing.parent_process() is not None:
         return 1
     return len(os.sched_getaffinity(0))
 
 
-def _send(there: Connection, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
+def _send(here: Connection, there: Connection, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
+    # Who waits may be gone: then sending fails.
+    here.close()
     try:
         there.send([function(one) for one in items])
     except Exception:

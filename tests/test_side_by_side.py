@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing.connection import Connection
 
 import numpy as np
 import pytest
@@ -36,6 +39,43 @@ def test_the_work_is_shared_by_as_many_processes_as_there_are_cores(monkeypatch:
     assert owners[1] != HERE
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0})
     assert set(side_by_side(lambda _: os.getpid(), range(6))) == {HERE}
+
+
+@pytest.mark.parametrize("bad", [0, 3])
+def test_no_process_is_left(monkeypatch: pytest.MonkeyPatch, bad: int) -> None:
+    """Not one that is still at work, nor one whose results nobody waits for."""
+    two_cores(monkeypatch)
+
+    def function(x: int) -> bytes:
+        if x == bad:
+            raise ValueError(x)
+        return bytes(1_000_000)
+
+    with pytest.raises(ValueError, match=str(bad)):
+        side_by_side(function, range(4))
+    assert not multiprocessing.active_children()
+
+
+def test_a_process_that_dies_while_it_sends_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    two_cores(monkeypatch)
+
+    def half_sent(there: Connection, x: object) -> None:
+        os.write(there.fileno(), b"\0\0\1\0rest")
+        os._exit(1)
+
+    monkeypatch.setattr(Connection, "send", half_sent)
+    assert side_by_side(lambda x: x, range(4)) == [0, 1, 2, 3]
+
+
+def in_a_process_of_a_pool(x: int) -> list[int]:
+    os.sched_getaffinity = lambda _: {0, 1}
+    return side_by_side(lambda _: os.getpid(), range(2 + x))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are forked on Linux alone")
+def test_processes_that_share_work_already_do_not_share_it_again() -> None:
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        assert len(set(pool.submit(in_a_process_of_a_pool, 2).result())) == 1
 
 
 def test_what_is_shared_does_not_share_again(monkeypatch: pytest.MonkeyPatch) -> None:

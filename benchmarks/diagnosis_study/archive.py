@@ -32,9 +32,9 @@ def restore(folder: Path, archive: Path = ARCHIVE) -> None:
 
 def store(code: str, results: Iterable[Mapping[str, Any]], archive: Path = ARCHIVE) -> None:
     """The archive with all results of a code, without the whole answers, in the place of what earlier codes said of the
-    same cases. Of earlier codes' cases those that were scored stay.
+    same cases. Of earlier codes' cases those stay that were asked about: scored, or broken off.
     """
-    records = {_name(one): one for one in archived(archive) if one["code"] != code and "score" in one}
+    records = {_name(one): one for one in archived(archive) if one["code"] != code and "skipped" not in one}
     records |= {_name(one): {"code": code, **_short(one)} for one in results}
     text = "".join(json.dumps(records[name], separators=(",", ":")) + "\n" for name in sorted(records))
     archive.write_text(text, encoding="utf-8")

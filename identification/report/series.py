@@ -59,8 +59,9 @@ def numbers(values: Iterable[float | None], digits: int = 5) -> Numbers:
 
 def resolved(values: Array, digits: int = 5) -> Numbers:
     """Numbers with so many significant digits of their range, however far from zero they are."""
-    span = np.ptp(values) if len(values) else 0.0
-    more = math.ceil(math.log10(np.abs(values).max() / span)) if span else 0
+    finite = values[np.isfinite(values)]
+    span = np.ptp(finite) if finite.size else 0.0
+    more = math.ceil(math.log10(np.abs(finite).max() / span)) if span else 0
     return numbers(values, min(digits + max(more, 0), _EXACT))
 
 

@@ -69,7 +69,7 @@ def case(folder: Path, hidden: str) -> Case:
 
 
 def recorded(
-    folder: Path, hidden: Sequence[Hidden], arm: str = ARM, truth: Mapping[str, float] = TRUTH
+    folder: Path, hidden: Sequence[Hidden], arm: str = ARM, truth: Mapping[str, float] = TRUTH, noise: float = NOISE
 ) -> tuple[Regressors, list[str]]:
     """The arm, and a run file for each torque that its file does not know."""
     (folder / "arm.yaml").write_text(arm)
@@ -79,7 +79,7 @@ def recorded(
     for seed, one in enumerate(hidden, 1):
         t, motion = fourier(robot, 40.0, 100.0, seed)
         tau = regressors.torques(truth, motion)[0] + one(motion.q[0], motion.qd[0])
-        tau += lfilter([1], [1, -STAYS], NOISE * draw.normal(size=len(t)))
+        tau += lfilter([1], [1, -STAYS], noise * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
     return regressors, sources
 

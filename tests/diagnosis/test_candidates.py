@@ -259,11 +259,15 @@ def test_gains_of_other_conventions_are_possible(known_robots: Callable[[str], K
     """Peak current for rms, one motor of two; a robot file takes every gain that may be found."""
     scene, _, _ = played(known_robots(HEAVY), Effect("offset", 1, 0.0), WAY)
     (one,) = offered([scene], "torque_gain", 2)
+    (first,) = one.coefficients
+    (one,) = offered([replace(scene, beside=Found({"torque_gain_error2": -0.4}))], "torque_gain", 2)
     (error,) = one.coefficients
     assert error.lower is not None
     assert error.upper is not None
     for recorded in (0.5, 2.0):
         assert error.lower < recorded - 1 < error.upper
+    # A model that was fitted to the recorded torque is as much too small.
+    assert first.lower == pytest.approx(error.lower / (1 + error.lower))
     for bound in (error.lower, error.upper):
         found = Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 1 / (1 + bound)})
         repaired(find_robot("kr500").read_text(encoding="utf-8"), "kr500.yaml", [found])

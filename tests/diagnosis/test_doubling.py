@@ -1,4 +1,6 @@
-"""A gain that doubles a torque is found beside known parameters as it is, whatever the first fit made of them."""
+"""A gain is found beside known parameters as it is, whatever the first fit made of them: one that doubles a torque or
+halves it, and one that runs without noise show to the end.
+"""
 
 from __future__ import annotations
 
@@ -25,10 +27,19 @@ parameters:
 
 
 @pytest.mark.parametrize(
-    "error", [pytest.param(0.6, marks=pytest.mark.long), pytest.param(1.2, marks=pytest.mark.long), 1.7]
+    ("error", "noise"),
+    [
+        pytest.param(0.6, 0.4, marks=pytest.mark.long),
+        pytest.param(1.2, 0.4, marks=pytest.mark.long),
+        (1.7, 0.4),
+        pytest.param(-0.45, 1.6, marks=pytest.mark.long),
+        (-0.6, 0.4),
+        pytest.param(0.45, 0.1, marks=pytest.mark.long),
+        (-0.3, 0.1),
+    ],
 )
-def test_a_gain_that_doubles_a_torque_is_found_beside_what_is_known(error: float, tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [torque("")] * 3, ARM + KNOWN)
+def test_a_gain_is_found_beside_what_is_known(error: float, noise: float, tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 3, ARM + KNOWN, noise=noise)
     for source in sources:
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
         Recorded({"t": t, "q1": q, "tau1": (1 + error) * tau}).save(Path(source))

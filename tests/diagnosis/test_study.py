@@ -5,6 +5,7 @@ own measures of size, drawing and scoring.
 from __future__ import annotations
 
 import json
+import re
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -225,7 +226,7 @@ def test_the_page_says_what_the_results_say() -> None:
     assert f"| one effect, 3 x noise | free fit | right effect and joint first | {Share(3, 4)} |" in text
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 2)} |" in text
-    assert found["every"] == {"scored": 7, "codes": 2}
+    assert found["every"] == {"scored": 7, "out of reach": 1, "failed": 1, "scored apart": 0, "codes": 2}
     assert "| dahl_friction |" in text
     assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}
     assert "| stribeck | 1 | 12 |" in text
@@ -252,14 +253,18 @@ def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> No
 
 
 def test_the_archive_keeps_the_last_answer_to_each_case(tmp_path: Path) -> None:
-    """Of earlier codes only scored cases."""
+    """Of earlier codes not the draws that were out of reach; what broke off is no less an answer."""
     archive = tmp_path / "cases.jsonl"
     one, other = (Case("null", "three_axis", FREE, seed).record() for seed in (1, 2))
     store("abc", [{"case": one, "score": {}}, {"case": other, "skipped": "no size"}], archive)
     store("def", [{"case": other, "failed": "exit status 1"}], archive)
     assert [(kept["code"], kept["case"]["seed"]) for kept in archived(archive)] == [("abc", 1), ("def", 2)]
     store("ghi", [{"case": one, "score": {"named": []}}], archive)
-    assert archived(archive) == [{"code": "ghi", "case": json.loads(json.dumps(one)), "score": {"named": []}}]
+    again, broken = archived(archive)
+    assert again == {"code": "ghi", "case": json.loads(json.dumps(one)), "score": {"named": []}}
+    assert (broken["code"], broken["failed"]) == ("def", "exit status 1")
+    store("jkl", [{"case": one, "skipped": "no size"}], archive)
+    assert [(kept["code"], kept["case"]["seed"]) for kept in archived(archive)] == [("jkl", 1), ("def", 2)]
 
 
 def test_the_power_curve_is_drawn() -> None:
@@ -267,6 +272,15 @@ def test_the_power_curve_is_drawn() -> None:
     curve = power_curve("Power", {"stribeck": [(float(size), Share(k, 4)) for k, size in enumerate(sizes)]})
     assert curve.startswith("<svg")
     assert curve.count('class="band"') == 5
+
+
+def test_names_of_curves_stand_beside_their_ends() -> None:
+    ends = {"low": 0, "high": 4, "highest": 4, "middle": 2}
+    curve = power_curve("Power", {name: [(0.1, Share(0, 4)), (10.0, Share(hits, 4))] for name, hits in ends.items()})
+    at = {name: float(re.findall(rf'y="([\d.]+)"[^>]*>{name}<', curve)[0]) for name in ends}
+    assert sorted(at, key=lambda name: at[name]) == ["high", "highest", "middle", "low"]
+    assert max(at.values()) < 310
+    assert at["high"] < 60
 
 
 def test_an_effect_is_invisible_where_it_adds_nothing() -> None:

@@ -9,17 +9,19 @@ from typing import Any
 import numpy as np
 import pytest
 
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding, _doubted, _swinging
+from identification.diagnosis.verdict.unexplained import _loose
 from identification.outcome import Value
 
 
-def finding(effect: str, kind: str, std: float) -> Finding:
+def finding(effect: str, kind: str, std: float, size: float = 5.0) -> Finding:
     """On joint 2, whose torque reaches joint 1."""
     hypothesis = Hypothesis(
         effect, effect, 2, (Coefficient("c", "rad"),), lambda scene, shape: np.zeros((1, 2, 1)), kind=kind
     )
-    evidence: Any = SimpleNamespace(score=100.0, size=5.0)
+    evidence: Any = SimpleNamespace(score=100.0, size=size)
     return Finding(
         hypothesis=hypothesis,
         status=FIRM,
@@ -55,6 +57,24 @@ def test_values_that_are_not_told_one_by_one_are_not_firm_without_repetition(
 ) -> None:
     one = replace(finding("warm_friction", EFFECT, 1e-5), apart=apart)
     assert _doubted(one, 0.0, (), repeats).status == status
+
+
+@pytest.mark.parametrize(("left", "status"), [(0.5, FIRM), (0.7, TENTATIVE)])
+def test_much_of_what_was_explained_is_left(left: float, status: str) -> None:
+    assert _swinging(finding("backlash", ELASTIC, 1e-5, size=2.0), {2: left}).status == status
+
+
+@pytest.mark.parametrize(
+    ("effect", "size", "loose"),
+    [("backlash", 5.5e-4, [1, 2]), ("backlash", 8e-4, []), ("backlash", 0.0, []), ("joint_elasticity", 5.5e-4, [])],
+)
+def test_a_gap_that_is_told_alike_twice_lets_a_link_bounce(effect: str, size: float, loose: list[int]) -> None:
+    """By the time of a fall it is 5e-4 rad."""
+    one = replace(finding(effect, ELASTIC, 1e-5).hypothesis, twice={"c": ("gap", 1)})
+    variant = Variant(one, {"gap": 5e-4}, (7,), (0, 1), (0,))
+    bank = SimpleNamespace(robot=SimpleNamespace(numbers=(1, 2)))
+    found: Any = SimpleNamespace(weights={7: size}, bank=bank, variants=[variant])
+    assert _loose(found) == loose
 
 
 def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:

@@ -28,5 +28,5 @@ def test_coarse_steps_are_told_of_joints_that_keep_something(step: float, tmp_pa
     assert found.verdict == UNEXPLAINED
     told = [note for note in found.notes if note.startswith("positions come in steps")]
     assert len(told) == bool(step)
-    assert all("0.0002 rad on joint 1 (" in note for note in told)
+    assert all("in steps, 0.0002 rad on joint 1, whose rounding" in note for note in told)
     assert trembling.notes(found.search, ()) == []

@@ -72,6 +72,16 @@ def test_events_of_other_joints_are_told() -> None:
     assert of_lacks([pulse], Unexplained((pulse,), located(seen(pulse), [pulse])), False) == said[1:]
 
 
+def test_what_a_link_leaves_that_bounces_is_told_apart_from_what_is_little() -> None:
+    other = replace(SIGNIFICANT, joint=1, size=0.3)
+    little, bounced = of_lacks([SIGNIFICANT, other], Unexplained((), None, bouncing=(2,)), True)
+    assert "little beside what was explained there: 0.3 times the noise on joint 1;" in little
+    assert bounced.endswith(
+        "bounces in a gap, in an order that the smallest error changes: 0.4 times the noise on joint 2"
+    )
+    assert of_lacks([SIGNIFICANT], Unexplained((), None), False) == []
+
+
 def finding(variable: str) -> Any:
     return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2), variable=variable)
 

@@ -42,7 +42,7 @@ def power_curve(title: str, curves: Mapping[str, Sequence[tuple[float, Share]]])
         drawn.append(text(_LEFT - 6, y + 4, f"{percent}", kind="tick", anchor="end"))
     for size in sizes:
         drawn.append(text(place(size, 0)[0], _HEIGHT - _BOTTOM + 17, f"{size:g}", kind="tick"))
-    last = 0.0
+    names = []
     for k, (name, curve) in enumerate(curves.items()):
         color = _COLORS[k % len(_COLORS)]
         line = [place(size, one.hits / one.count) for size, one in curve]
@@ -52,6 +52,9 @@ def power_curve(title: str, curves: Mapping[str, Sequence[tuple[float, Share]]])
             drawn.append(
                 element("path", class_="band", stroke=color, d=f"M {pixel(x + 2 * k)} {pixel(low)} V {pixel(high)}")
             )
-        last = max(line[-1][1] + 4, last + 16)
-        drawn.append(text(line[-1][0] + 12, last, name, kind="name", anchor="start", style=f"fill: {color}"))
+        names.append((line[-1], name, color))
+    last = 0.0
+    for (x, y), name, color in sorted(names, key=lambda one: one[0][1]):
+        last = max(y + 4, last + 16)
+        drawn.append(text(x + 12, last, name, kind="name", anchor="start", style=f"fill: {color}"))
     return svg(_WIDTH, _HEIGHT, title, title, *drawn)

@@ -18,11 +18,15 @@ def rows_of_simpler_ways(results: Sequence[Result]) -> list[Row]:
         cases = [one for mode in MODES for one in of(results, cell, mode) if "baselines" in one]
         if not cases:
             continue
-        ways = {"the diagnosis": [_pairs(one["score"]["named"]) for one in cases]}
-        for way in cases[0]["baselines"]:
-            ways[way] = [[(name, int(joint)) for name, joint in one["baselines"][way]] for one in cases]
-        for way, named in ways.items():
-            truths = [one["truth"]["hidden"] for one in cases]
+        ways = {"the diagnosis": [(one, _pairs(one["score"]["named"])) for one in cases]}
+        for way in dict.fromkeys(way for one in cases for way in one["baselines"]):
+            ways[way] = [
+                (one, [(name, int(joint)) for name, joint in one["baselines"][way]])
+                for one in cases
+                if way in one["baselines"]
+            ]
+        for way, asked in ways.items():
+            truths, named = [one["truth"]["hidden"] for one, _ in asked], [names for _, names in asked]
             named_any = share([bool(names) for names in named])
             row: Row = {"cell": TITLES[cell], "way": way, "named something": str(named_any)}
             row["names a case"] = f"{sum(map(len, named)) / len(named):.1f}"

@@ -127,7 +127,7 @@ def detection_limits(results: Sequence[Result]) -> list[Row]:
 
 
 def counts(results: Sequence[Result]) -> dict[str, int]:
-    """Cases scored, left out since no size would do, broken off, and nulls scored apart."""
+    """Cases scored, left out since no size would do, broken off, and scored apart."""
     return {
         "scored": sum("score" in one for one in results),
         "out of reach": sum("skipped" in one for one in results),

@@ -16,9 +16,11 @@ from identification.drive_train import supplied
 
 Array = NDArray[np.float64]
 
-#: Relative errors of a torque: with them ``torque_gain`` stays within what a robot file may say; and the size up to
+#: Relative errors e of a torque: with them ``torque_gain`` stays within what a robot file may say; and the size up to
 #: which a free fit, whose parameters take up most of a gain, tells one from what a joint lacks otherwise.
 _LEAST, _LARGEST, _BELIEVED = -0.65, 1.9, 0.6
+#: What e looks like beside a model whose torque was fitted to the recorded one, and is 1 + e times the true one.
+_FITTED = _LEAST / (1 + _LEAST)
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -32,7 +34,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             "torque_gain",
             "error of the torque's gain",
             joint.number,
-            (Coefficient(f"torque_gain_error{joint.number}", "1", _LEAST, _LARGEST, believed=_BELIEVED),),
+            (_coefficient(f"torque_gain_error{joint.number}", scenes),),
             partial(_columns, k),
             kind=SIGNAL,
             joints=(joint.number,),
@@ -50,6 +52,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         for k, joint in enumerate(robot.moving)
         if not (stated and stated[k] != 1)
     ]
+
+
+def _coefficient(name: str, scenes: Sequence[Scene]) -> Coefficient:
+    least = _LEAST if any(scene.found(name) for scene in scenes) else _FITTED
+    return Coefficient(name, "1", least, _LARGEST, believed=_BELIEVED)
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:

@@ -26,6 +26,8 @@ _LEFT = 1e-4
 _KNOWN_LEFT, _MOSTLY = 1e-6, 0.5
 #: Part of a precision that is rounding.
 _ROUNDING = 1e-10
+#: Standard deviations beyond which a value that is known is contradicted.
+FAR = 5.0
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,13 @@ class Prior:
     def only(self, kept: NDArray[np.int64]) -> Prior:
         """Of some of the parameters by number, the others being as they are known."""
         return Prior(self.mean[kept], self.precision[np.ix_(kept, kept)])
+
+    def far(self, values: Array, covariance: Array) -> Array:
+        """How far values (p) with a covariance (p x p) are from the known ones, in standard deviations of both (p);
+        zero where nothing is known.
+        """
+        variance = np.where(self.known, np.diag(inverse(self.precision)) + np.diag(covariance), np.inf)
+        return np.asarray(np.abs(values - self.mean) / np.sqrt(variance))
 
     def products(self, rows: Sequence[int], columns: Sequence[int], torque: int) -> Array:
         """The prior's part of products of columns by number, that of the torque being ``torque``."""

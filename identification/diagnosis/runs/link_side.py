@@ -74,7 +74,9 @@ class LinkSide:
         return result
 
     def with_rotor(self, rotor: float) -> LinkSide:
-        """The same with another share of the whole inertia on the motor's side."""
+        """The same with another share of the whole inertia on the motor's side, where nothing tells it."""
+        if rotor_is_fitted(self.scene, self.k):
+            return replace(self, rotor=rotor)
         load = self.load - (rotor - self.rotor) * self.scene.motion.qdd[self.k]
         by_acceleration = self.by_acceleration.copy()
         by_acceleration[self.k] -= rotor - self.rotor
@@ -138,13 +140,13 @@ class LinkSides:
     """Those of one coordinate along several scenes, which are found once: the ``first`` is."""
 
     def __init__(self, first: LinkSide) -> None:
-        self._k = first.k
+        self._k, self._rotor = first.k, first.rotor
         self._made = {id(first.scene): first}
 
     def along(self, scene: Scene, rotor: float) -> LinkSide:
         """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
         # A scene that is kept by its link side keeps its identity.
-        made = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, rotor))
+        made = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, self._rotor))
         return made if made.rotor == rotor else made.with_rotor(rotor)
 
 

@@ -1,4 +1,5 @@
-"""Gains that double a torque, beside the model that they scale: both found by turns, without any other candidate.
+"""Gains that double a torque or halve it, beside the model that they scale: both found by turns, without any other
+candidate.
 
 The column of a gain is the model's torque by the values before. What those have too much the new ones have too little,
 times the gain's error: where that is about 1 or more, searches alone swing about the truth and end anywhere.
@@ -18,8 +19,8 @@ _DOUBLES, _TURNS, _NEAR = 0.5, 15, 0.003
 
 
 def doubling(acting: Acting) -> bool:
-    """Whether a gain that acts about doubles its torque."""
-    return max(_gains(acting), default=0.0) >= _DOUBLES
+    """Whether a gain that acts about doubles its torque, or takes half of it."""
+    return max(map(abs, _gains(acting)), default=0.0) >= _DOUBLES
 
 
 def settled(

@@ -17,7 +17,7 @@ from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis, Key
-from identification.diagnosis.columns.normal_equations import Normal, Places, Prior, inverse, told_apart
+from identification.diagnosis.columns.normal_equations import FAR, Normal, Places, Prior, inverse, told_apart
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.evidence import Evidence
@@ -33,6 +33,9 @@ _Found = tuple[float, Variant, Array]
 _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
+#: Part of a column's square that a fit which knows nothing beforehand leaves of it, below which what is known shows it
+#: alone; and the standard deviations by which the validation's drop may then be less than promised.
+_UNSEEN, _CHANCE = 0.01, 2.0
 #: Least whole size beside the noise of common and of other effects; and least part of what is unexplained above it, of
 #: common ones, of others that are likely, and of the rest.
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
@@ -209,7 +212,7 @@ class Weighing:
         one = replace(one, validation=validation)
         # While much is missing, the missing rest decides what a part of it does to another run.
         promised /= 1 + unexplained / self.normal.rows
-        if validation < max(_VALIDATED, _TRANSFERRED * promised):
+        if validation < self._asked_of_others(variant, others, promised):
             return replace(one, why_not="does not help on a run that was not fitted")
         if one.whole < (_FLOOR if common(variant) else _RARE_FLOOR):
             return replace(one, why_not="smaller than what is named")
@@ -221,6 +224,30 @@ class Weighing:
         if _at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         return replace(one, passes=True)
+
+    def _asked_of_others(self, variant: Variant, others: Sequence[Variant], promised: float) -> float:
+        """The least drop of the sum of squares of what was not fitted, of a variant beside ``others``.
+
+        What only the prior tells from the base parameters the fitted runs may show to the end: however much a run that
+        was not fitted holds of it, it adds little, with a standard deviation of twice the root of what is promised.
+        """
+        if _TRANSFERRED * promised < _VALIDATED and self._by_prior(variant, others):
+            return min(_VALIDATED, promised - _CHANCE * 2 * float(np.sqrt(max(promised, 0.0))))
+        return max(_VALIDATED, _TRANSFERRED * promised)
+
+    def _by_prior(self, variant: Variant, others: Sequence[Variant]) -> bool:
+        """Whether a fit that knows nothing beforehand takes up what a variant makes, and it tells why the runs
+        contradict more values that are known than it has coefficients, and makes them contradict no other.
+        """
+        if self._free or self._prior is None:
+            return False
+        at, p = np.array(variant.columns), self.normal.base
+        left = np.diag(replace(self.normal, prior=None).part(variant.columns, ()))[:-1]
+        if np.any(left > _UNSEEN * np.diag(self.normal.gram)[at]):
+            return False
+        solutions = [self.normal.solution(columns_of(each)) for each in (others, [*others, variant])]
+        before, after = (self._prior.far(x[:p], covariance[:p, :p]) > FAR for x, covariance in solutions)
+        return bool(np.sum(before & ~after) > len(variant.columns) and not np.any(after & ~before))
 
     def _sizes(self, drop: float, variant: Variant, x: Array, others: Sequence[Variant]) -> dict[int, float]:
         """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as

@@ -13,11 +13,11 @@ import numpy as np
 from generator.effects.library import effects_of
 from generator.review.decimals import scientific
 from generator.review.words import listed
-from identification.diagnosis.columns.normal_equations import Prior, inverse
+from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search.loop import Search
 
-#: Standard deviations of what was known beyond which a value is another one, and how many are told by name.
-_FAR, _NAMED = 5.0, 6
+#: How many values are told by name.
+_NAMED = 6
 #: Torque of a difference that is little, in parts of the noise's rms.
 _LITTLE = 0.2
 
@@ -48,16 +48,16 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     if prior is None:
         return ()
     names = found.bank.base[: len(prior.mean)]
-    before, after = np.diag(inverse(prior.precision)), np.diag(found.covariance)[: len(names)]
+    before = np.diag(inverse(prior.precision))
     values = np.array([found.values[name] for name in names])
-    far = np.abs(values - prior.mean) / np.sqrt(np.where(prior.known, before + after, np.inf))
+    far = prior.far(values, found.covariance[: len(names), : len(names)])
     effects = {name for one in effects_of(found.bank.robot) for name in one.names}
     return tuple(
         Contradicted(
             names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects
         )
         for i in np.argsort(-far).tolist()
-        if far[i] > _FAR
+        if far[i] > FAR
     )
 
 

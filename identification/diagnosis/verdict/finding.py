@@ -48,9 +48,9 @@ _APERIODIC, _SHORT = 0.5, 1.0
 #: Size, in parts of the noise's rms, below which a torque of the position is any; what is left on its joint, in those
 #: parts too, and standard deviation of its values, in parts of them, from which it is.
 _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
-#: What is left of a swinging joint, in parts of the noise's rms, from which its law is not sure; and the standard
-#: deviation of a gap, in parts of it, from which there may be none.
-_SWUNG, _GAP = 1.0, 0.25
+#: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
+#: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
+_SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -293,7 +293,7 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
 
 def _swinging(one: Finding, left: Mapping[int, float]) -> Finding:
     """Tentative where a drive train explains how a link swings and far more than noise is ``left`` all the same on a
-    joint that its torque reaches; and where its gap is hardly more than none.
+    joint that its torque reaches, or much of what was explained; and where its gap is hardly more than none.
     """
     if one.hypothesis.kind != ELASTIC:
         return one
@@ -302,7 +302,7 @@ def _swinging(one: Finding, left: Mapping[int, float]) -> Finding:
         title, experiment = "elasticity of the drive train without a gap", "motion in which the load changes its sign"
         other = _unnamed("joint_elasticity", title, one.joints, one.evidence, experiment)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
-    if any(left.get(number, 0.0) > _SWUNG for number in one.amplitude):
+    if any(left.get(number, 0.0) > min(_SWUNG, _SWUNG_OF * one.evidence.size) for number in one.amplitude):
         return replace(one, status=TENTATIVE)
     return one
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
@@ -93,7 +93,7 @@ def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]
         ]
         follows = [f"what is left on joint {one.joint} follows {one.follows}" for one in left.lacks if one.follows]
         return list(dict.fromkeys([*events, *follows]))
-    return _hardly(lacks) + (_little([one for one in lacks if one.joint not in left.bouncing]) if named else [])
+    return [*_hardly(lacks), *(_little(lacks, left.bouncing) if named else ())]
 
 
 def _hardly(lacks: Sequence[Lack]) -> list[str]:
@@ -106,12 +106,19 @@ def _hardly(lacks: Sequence[Lack]) -> list[str]:
     return [f"more than chance is left, {listed(where)}: too small to be told from noise without a motion that repeats"]
 
 
-def _little(lacks: Sequence[Lack]) -> list[str]:
-    """What is told of joints of ``lacks`` that keep more than noise, though little beside what was explained there."""
-    sizes = [f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.told]
-    if not sizes:
-        return []
-    return [
-        f"more than noise is left, little beside what was explained there: {listed(sizes)}; a diagnosis of the new "
-        "robot file may show what it is"
-    ]
+def _little(lacks: Sequence[Lack], bouncing: Collection[int]) -> Iterator[str]:
+    """What is told of joints of ``lacks`` that keep more than noise, though little beside what was explained there, or
+    no more than a link that is ``bouncing`` leaves.
+    """
+    sizes = {one.joint: f"{one.size:.2g} times the noise on joint {one.joint}" for one in lacks if one.told}
+    little, bounced = ([text for joint, text in sizes.items() if (joint in bouncing) == does] for does in (False, True))
+    if little:
+        yield (
+            f"more than noise is left, little beside what was explained there: {listed(little)}; a diagnosis of the "
+            "new robot file may show what it is"
+        )
+    if bounced:
+        yield (
+            "more than noise is left where a link bounces in a gap, in an order that the smallest error changes: "
+            f"{listed(bounced)}"
+        )

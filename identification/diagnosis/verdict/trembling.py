@@ -25,18 +25,24 @@ def notes(found: Search, joints: Collection[int]) -> list[str]:
     """What is to be told of ``joints`` (numbers) that keep something unexplained, if their positions are coarse."""
     bank = found.bank
     repeating = [(run, scene) for run, scene in zip(bank.runs, bank.scenes, strict=True) if run.times]
+    if not repeating:
+        return []
+    steps = sqrt(12) * np.max([deviations(run.sampled.run, bank.robot) for run, _ in repeating], axis=0)
     coarse = []
     for k, joint in enumerate(bank.robot.moving):
-        if joint.number not in joints or not repeating:
-            continue
-        step = sqrt(12) * max(float(deviations(run.sampled.run, bank.robot)[k]) for run, _ in repeating)
-        torques = [rounding(run, scene)[k] / sqrt(run.times) for run, scene in repeating]
-        part = rms(np.concatenate(torques)) / noise_floor(bank, k, repeating[0][0].rate)
-        if part > _COARSE:
-            coarse.append(f"{step:.2g} {joint.position_unit} on joint {joint.number} ({part:.2g} of the noise)")
+        if joint.number in joints:
+            torques = [rounding(run, scene)[k] / sqrt(run.times) for run, scene in repeating]
+            part = rms(np.concatenate(torques)) / noise_floor(bank, k, repeating[0][0].rate)
+            if part > _COARSE:
+                coarse.append(f"{part:.2g} of the noise on joint {joint.number}")
     if not coarse:
         return []
+    told = [
+        f"{step:.2g} {joint.position_unit} on joint {joint.number}"
+        for step, joint in zip(steps.tolist(), bank.robot.moving, strict=True)
+        if step
+    ]
     return [
-        f"positions come in steps whose rounding alone makes torques: {listed(coarse)}; drives that tremble over them "
-        "make larger ones, which repeat with the motion and look like something missing"
+        f"positions come in steps, {listed(told)}, whose rounding alone makes torques, {listed(coarse)}; drives that "
+        "tremble over them make larger ones, which repeat with the motion and look like something missing"
     ]

@@ -25,8 +25,11 @@ from identification.residuals import rms
 #: Why something stays unexplained where a residual does not say so.
 VALUES, AMPLITUDES = "values", "amplitudes"
 
-#: What may stay unexplained, in parts of what was explained on the joint.
-_PART = 0.3
+#: What may stay unexplained, in parts of what was explained on the joint: of any law, and where a link bounces in a
+#: gap, which the smallest error changes.
+_PART, _BOUNCED = 0.3, 0.7
+#: Factor by which the size of a torque and the time of a fall may differ about a gap.
+_SAME = 1.3
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,8 @@ class Unexplained:
     """Joints that lack something (``lacks``), and ``where`` that is most, None where it was not asked.
 
     ``reason`` is what alone says so: other ``VALUES`` than are known, or ``AMPLITUDES`` that do not hold; else empty.
-    ``bouncing`` are the joints, by number, whose backlash the file states. ``notes`` tell what else speaks for it.
+    ``bouncing`` are the joints, by number, that feel a link bounce in a gap of the file or of a finding. ``notes`` tell
+    what else speaks for it.
     """
 
     lacks: tuple[Lack, ...]
@@ -69,7 +73,9 @@ def unexplained(
     beside large residuals too; and parameters that have ``other`` values than are known.
     """
     bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
-    large = [one for one in last.lack if _large(one, explained[one.joint], bounces.get(one.joint, 0.0))]
+    stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
+    stays |= {number: _BOUNCED * explained[number] for number in _loose(found)}
+    large = [one for one in last.lack if _large(one, stays[one.joint])]
     overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
     nothing = not (large or overlooked or doubtful or found.choices)
@@ -90,7 +96,7 @@ def unexplained(
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
     told = (*overlooked.values(), *crossing.values(), *rippling.values())
-    return Unexplained(tuple(lacks), where, reason, tuple(bounces), told)
+    return Unexplained(tuple(lacks), where, reason, (*bounces, *_loose(found)), told)
 
 
 def _bounces(found: Search) -> dict[int, float]:
@@ -103,6 +109,19 @@ def _bounces(found: Search) -> dict[int, float]:
             numbers = [bank.base.index(name) for name in names_of_backlash(one.number)]
             weights = {number: found.weights[number] for number in numbers}
             result[one.number] = rms(bank.left(one.k, {}) - bank.left(one.k, weights))
+    return result
+
+
+def _loose(found: Search) -> list[int]:
+    """Numbers of the joints that the torque of a backlash reaches which was found, its gap told alike twice."""
+    weights, numbers = found.weights, found.bank.robot.numbers
+    result = []
+    for one in found.variants:
+        for c, number in zip(one.coefficients, one.columns, strict=True):
+            if one.hypothesis.effect == "backlash" and c.name in one.hypothesis.twice:
+                shape, power = one.hypothesis.twice[c.name]
+                if abs(np.log(max(weights[number], 1e-300) / one.shape[shape] ** power)) < np.log(_SAME):
+                    result += [numbers[k] for k in one.joints]
     return result
 
 
@@ -121,11 +140,11 @@ def _taken_back(found: Search, gone: Sequence[Choice]) -> dict[int, float]:
     return {numbers[k]: 0.0 for one in gone for k in one.evidence.variant.joints}
 
 
-def _large(lack: Lack, explained: float, bounces: float) -> bool:
-    """Whether what a joint's model lacks is more than noise, and not small beside what was ``explained`` there, or
-    beside what the file explains by a link that ``bounces``.
+def _large(lack: Lack, stays: float) -> bool:
+    """Whether what a joint's model lacks is more than noise, and more than ``stays`` beside what was explained there,
+    or what the file explains by a link that bounces.
     """
-    return lack.burst is not None or (lack.told and lack.size > _PART * float(np.hypot(explained, bounces)))
+    return lack.burst is not None or (lack.told and lack.size > stays)
 
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:
