@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -61,7 +62,8 @@ def _cores() -> int:
 
 
 def _send(here: Connection, there: Connection, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
-    # Who waits may be gone: then sending fails.
+    # An interruption is of whoever waits, who ends this; where that one is gone, sending fails.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     here.close()
     try:
         there.send([function(one) for one in items])

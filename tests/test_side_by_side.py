@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing.connection import Connection
@@ -14,6 +15,7 @@ import pytest
 
 from generator.errors import InputError, Place
 from identification.side_by_side import side_by_side
+from tests.commands import ROOT
 
 HERE = os.getpid()
 
@@ -65,6 +67,34 @@ def test_a_process_that_dies_while_it_sends_is_replaced(monkeypatch: pytest.Monk
 
     monkeypatch.setattr(Connection, "send", half_sent)
     assert side_by_side(lambda x: x, range(4)) == [0, 1, 2, 3]
+
+
+INTERRUPTED = """
+import os, sys, time
+from identification.side_by_side import side_by_side
+os.sched_getaffinity = lambda _: {0, 1}
+def function(x):
+    print("at work", flush=True)
+    time.sleep(60)
+try:
+    side_by_side(function, range(2))
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are forked on Linux alone")
+def test_an_interruption_ends_all_processes_without_a_word() -> None:
+    command = [sys.executable, "-c", INTERRUPTED]
+    with subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        assert process.stdout is not None
+        assert [process.stdout.readline() for _ in range(2)] == ["at work\n"] * 2
+        os.killpg(process.pid, signal.SIGINT)
+        # Both ends of the pipes are closed: no process holds them any more.
+        _, said = process.communicate(timeout=20)
+    assert (process.returncode, said) == (130, "")
 
 
 def in_a_process_of_a_pool(x: int) -> list[int]:
