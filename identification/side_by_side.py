@@ -32,6 +32,7 @@ def side_by_side(function: Callable[[_Item], _Result], items: Sequence[_Item]) -
             try:
                 result[k::processes] = other.recv()
             except TimeoutError:
+                # An OSError as well, which a signal's handler may raise.
                 raise
             except (EOFError, OSError):
                 result[k::processes] = [function(one) for one in items[k::processes]]

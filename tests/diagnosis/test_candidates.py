@@ -258,10 +258,12 @@ def test_a_joint_that_stands_still_has_no_law_of_its_own(known_robots: Callable[
 def test_gains_of_other_conventions_are_possible(known_robots: Callable[[str], Known]) -> None:
     """Peak current for rms, one motor of two; a robot file takes every gain that may be found."""
     scene, _, _ = played(known_robots(HEAVY), Effect("offset", 1, 0.0), WAY)
-    (one,) = offered([scene], "torque_gain", 2)
-    (first,) = one.coefficients
-    (one,) = offered([replace(scene, beside=Found({"torque_gain_error2": -0.4}))], "torque_gain", 2)
-    (error,) = one.coefficients
+    unsettled = replace(scene, settled=False)
+    acting = replace(unsettled, beside=Found({"torque_gain_error2": -0.4}))
+    (first,), (error,), (again,) = (
+        one.coefficients for each in (unsettled, scene, acting) for one in offered([each], "torque_gain", 2)
+    )
+    assert again == error
     assert error.lower is not None
     assert error.upper is not None
     for recorded in (0.5, 2.0):

@@ -26,7 +26,7 @@ def tables(results: Sequence[summary.Result], every: Sequence[summary.Result]) -
     return {
         "counts": summary.counts(results),
         "cells": summary.rows_of_cells(results),
-        "every": {**summary.counts(every), "codes": len({one["code"] for one in every})},
+        "every": {"scored": summary.counts(every)["scored"], "codes": len({one["code"] for one in every})},
         "every cell": summary.rows_of_cells(every),
         "apart": summary.rows_apart(every),
         "laws": summary.rows_of_laws(every),
@@ -55,8 +55,7 @@ def page(found: Mapping[str, Any]) -> str:
         "## Every case that was ever drawn",
         f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
         "state that was asked about it answered: a study goes through the draws from the first on, whatever came out "
-        f"before; {every['failed']} broke off there. The diagnosis was worked on between them. All tables from here on "
-        "are of these cases.",
+        "before. The diagnosis was worked on between them. All tables from here on are of these cases.",
         table(found["every cell"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",

@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 #: Relative errors e of a torque: with them ``torque_gain`` stays within what a robot file may say; and the size up to
 #: which a free fit, whose parameters take up most of a gain, tells one from what a joint lacks otherwise.
 _LEAST, _LARGEST, _BELIEVED = -0.65, 1.9, 0.6
-#: What e looks like beside a model whose torque was fitted to the recorded one, and is 1 + e times the true one.
+#: What e looks like beside known values and a model whose torque was fitted to the recorded one: 1 + e times the true
+#: one.
 _FITTED = _LEAST / (1 + _LEAST)
 
 
@@ -55,7 +56,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _coefficient(name: str, scenes: Sequence[Scene]) -> Coefficient:
-    least = _LEAST if any(scene.found(name) for scene in scenes) else _FITTED
+    least = _LEAST if any(scene.settled or scene.found(name) for scene in scenes) else _FITTED
     return Coefficient(name, "1", least, _LARGEST, believed=_BELIEVED)
 
 

@@ -74,7 +74,9 @@ class LinkSide:
         return result
 
     def with_rotor(self, rotor: float) -> LinkSide:
-        """The same with another share of the whole inertia on the motor's side, where nothing tells it."""
+        """The same with another share of the whole inertia on the motor's side, unless that is a base parameter of its
+        own.
+        """
         if rotor_is_fitted(self.scene, self.k):
             return replace(self, rotor=rotor)
         load = self.load - (rotor - self.rotor) * self.scene.motion.qdd[self.k]

@@ -43,13 +43,15 @@ class Beside(Protocol):
 class Scene:
     """A run of N samples at the recorded rate, and the model with ``values`` of its base parameters by name [SI].
 
-    The model carries the payload that the run's sidecar tells; ``beside`` is what an earlier search has found.
+    The model carries the payload that the run's sidecar tells; ``beside`` is what an earlier search has found. The
+    values are ``settled`` where they are no first fit, which something missing pulls away from what is known.
     """
 
     sampled: Sampled
     regressors: Regressors
     values: Mapping[str, float]
     beside: Beside | None = None
+    settled: bool = True
 
     @property
     def robot(self) -> Robot:

@@ -2,7 +2,8 @@
 candidate.
 
 The column of a gain is the model's torque by the values before. What those have too much the new ones have too little,
-times the gain's error: where that is about 1 or more, searches alone swing about the truth and end anywhere.
+times the gain's error: where that is about 1 or more, searches alone swing about the truth and end anywhere; where the
+torque is about halved they creep towards it.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ def settled(
     for _ in range(_TURNS):
         new, acting = fitted(weighing, chosen)
         gains = _gains(acting)
-        if len(gains) == len(last) and all(abs(x - y) < _NEAR for x, y in zip(gains, last, strict=True)):
+        still = len(gains) == len(last) and all(abs(x - y) < _NEAR for x, y in zip(gains, last, strict=True))
+        if still and all(abs(x - old.get(name, x)) <= _NEAR * abs(x) for name, x in new.items()):
             break
         last = gains
         # Half way between what is too much and what is too little.

@@ -109,7 +109,8 @@ def search(
     for turn in range(_PASSES):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
-        scenes = [Scene(run.sampled, regressors, values, acting) for run in clear]
+        near = free or turn + 1 == _PASSES
+        scenes = [Scene(run.sampled, regressors, values, acting, near) for run in clear]
         bank = Bank(clear, scenes, lasting)
         offered = _offered(bank, train)
         chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]

@@ -1,8 +1,9 @@
 """What speaks for a hypothesis beside others: its drop of the sum of squares, chance, and a run that was not fitted.
 
 A hypothesis may be taken when all of this holds: its drop is beyond chance for all that was tried; it lowers the sum of
-squares of a run that was not fitted; it is not tiny beside the noise, nor beside what is still unexplained; its shape
-is not at the end of what was tried, and its coefficients are within their physical bounds.
+squares of a run that was not fitted, or tells why the runs contradict what is known; it is not tiny beside the noise,
+nor beside what is still unexplained; its shape is not at the end of what was tried, and its coefficients are within
+their physical bounds.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis, Key
-from identification.diagnosis.columns.normal_equations import FAR, Normal, Places, Prior, inverse, told_apart
+from identification.diagnosis.columns.normal_equations import FAR, Normal, Places, Prior, after, inverse, told_apart
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.evidence import Evidence
@@ -34,8 +35,9 @@ _ALPHA = 1e-3
 #: Least drop of the validation's sum of squares, and its least part of what the fit promises.
 _VALIDATED, _TRANSFERRED = 6.0, 0.25
 #: Part of a column's square that a fit which knows nothing beforehand leaves of it, below which what is known shows it
-#: alone; and the standard deviations by which the validation's drop may then be less than promised.
-_UNSEEN, _CHANCE = 0.01, 2.0
+#: alone; the standard deviations by which the validation's drop may then be less than promised; and those within which
+#: runs agree with a known value that they contradicted.
+_UNSEEN, _CHANCE, _AGREED = 0.01, 2.0, 2.5
 #: Least whole size beside the noise of common and of other effects; and least part of what is unexplained above it, of
 #: common ones, of others that are likely, and of the rest.
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
@@ -232,7 +234,7 @@ class Weighing:
         was not fitted holds of it, it adds little, with a standard deviation of twice the root of what is promised.
         """
         if _TRANSFERRED * promised < _VALIDATED and self._by_prior(variant, others):
-            return min(_VALIDATED, promised - _CHANCE * 2 * float(np.sqrt(max(promised, 0.0))))
+            return promised - _CHANCE * 2 * float(np.sqrt(max(promised, 0.0)))
         return max(_VALIDATED, _TRANSFERRED * promised)
 
     def _by_prior(self, variant: Variant, others: Sequence[Variant]) -> bool:
@@ -241,13 +243,20 @@ class Weighing:
         """
         if self._free or self._prior is None:
             return False
-        at, p = np.array(variant.columns), self.normal.base
-        left = np.diag(replace(self.normal, prior=None).part(variant.columns, ()))[:-1]
-        if np.any(left > _UNSEEN * np.diag(self.normal.gram)[at]):
+        p, G = self.normal.base, self.normal.gram
+        at = np.array([*range(p), *variant.columns])
+        left = np.diag(after(G[np.ix_(at, at)], p))
+        if np.any(left > _UNSEEN * np.diag(G)[at[p:]]):
             return False
         solutions = [self.normal.solution(columns_of(each)) for each in (others, [*others, variant])]
-        before, after = (self._prior.far(x[:p], covariance[:p, :p]) > FAR for x, covariance in solutions)
-        return bool(np.sum(before & ~after) > len(variant.columns) and not np.any(after & ~before))
+        far, near = (self._prior.far(x[:p], covariance[:p, :p])[self._parameters] for x, covariance in solutions)
+        told = int(np.sum((far > FAR) & (near < _AGREED)))
+        return told > len(variant.columns) + variant.hypothesis.free and not np.any((near > FAR) & (far < FAR))
+
+    @property
+    def _parameters(self) -> slice:
+        """Places of the base parameters, after which come values of the file's elastic drive trains."""
+        return slice(len(self.bank.scenes[0].regressors.names))
 
     def _sizes(self, drop: float, variant: Variant, x: Array, others: Sequence[Variant]) -> dict[int, float]:
         """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as

@@ -223,7 +223,7 @@ def findings(
     moving = found.bank.robot.moving
     remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
     told = [_doubted(one, rest, several, found.repeats) for one, rest in zip(result, remains, strict=True)]
-    told = _beside_any_torque([_swinging(one, left) for one in told])
+    told = _beside_any_torque([_swinging(one, left, rest) for one, rest in zip(told, remains, strict=True)])
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
@@ -291,9 +291,10 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
     return one
 
 
-def _swinging(one: Finding, left: Mapping[int, float]) -> Finding:
+def _swinging(one: Finding, left: Mapping[int, float], remains: float) -> Finding:
     """Tentative where a drive train explains how a link swings and far more than noise is ``left`` all the same on a
-    joint that its torque reaches, or much of what was explained; and where its gap is hardly more than none.
+    joint that its torque reaches, or much ``remains`` where it is largest, in parts of it; and where its gap is hardly
+    more than none.
     """
     if one.hypothesis.kind != ELASTIC:
         return one
@@ -302,7 +303,7 @@ def _swinging(one: Finding, left: Mapping[int, float]) -> Finding:
         title, experiment = "elasticity of the drive train without a gap", "motion in which the load changes its sign"
         other = _unnamed("joint_elasticity", title, one.joints, one.evidence, experiment)
         return replace(one, status=TENTATIVE, alternatives=(*one.alternatives, other))
-    if any(left.get(number, 0.0) > min(_SWUNG, _SWUNG_OF * one.evidence.size) for number in one.amplitude):
+    if remains > _SWUNG_OF or any(left.get(number, 0.0) > _SWUNG for number in one.amplitude):
         return replace(one, status=TENTATIVE)
     return one
 

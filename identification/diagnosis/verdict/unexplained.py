@@ -28,8 +28,9 @@ VALUES, AMPLITUDES = "values", "amplitudes"
 #: What may stay unexplained, in parts of what was explained on the joint: of any law, and where a link bounces in a
 #: gap, which the smallest error changes.
 _PART, _BOUNCED = 0.3, 0.7
-#: Factor by which the size of a torque and the time of a fall may differ about a gap.
-_SAME = 1.3
+#: Factor by which the size of a torque and the time of a fall may differ about a gap; and the part of a backlash's size
+#: on the joint where it is largest, beside the noise, that another joint feels.
+_SAME, _FELT = 1.3, 0.1
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ def unexplained(
     """
     bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
     stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
-    stays |= {number: _BOUNCED * explained[number] for number in _loose(found)}
+    stays |= {number: max(stays[number], _BOUNCED * explained[number]) for number in _loose(found)}
     large = [one for one in last.lack if _large(one, stays[one.joint])]
     overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
@@ -113,15 +114,16 @@ def _bounces(found: Search) -> dict[int, float]:
 
 
 def _loose(found: Search) -> list[int]:
-    """Numbers of the joints that the torque of a backlash reaches which was found, its gap told alike twice."""
+    """Numbers of the joints that feel a backlash which was found, its gap told alike twice."""
     weights, numbers = found.weights, found.bank.robot.numbers
     result = []
-    for one in found.variants:
+    for choice in found.choices:
+        one, sizes = choice.evidence.variant, choice.evidence.sizes
         for c, number in zip(one.coefficients, one.columns, strict=True):
             if one.hypothesis.effect == "backlash" and c.name in one.hypothesis.twice:
                 shape, power = one.hypothesis.twice[c.name]
                 if abs(np.log(max(weights[number], 1e-300) / one.shape[shape] ** power)) < np.log(_SAME):
-                    result += [numbers[k] for k in one.joints]
+                    result += [numbers[k] for k, size in sizes.items() if size > _FELT * max(sizes.values())]
     return result
 
 
