@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
@@ -45,14 +45,17 @@ def _working(function: Callable[[_Item], _Result], items: Sequence[_Item]) -> It
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=_send, args=(here, there, function, items), daemon=True)
-    process.start()
+    # Where there is no room for another process nothing comes from it.
+    with suppress(OSError):
+        process.start()
     there.close()
     try:
         yield here
     finally:
         here.close()
-        process.terminate()
-        process.join()
+        if process.pid is not None:
+            process.terminate()
+            process.join()
 
 
 def _cores() -> int:

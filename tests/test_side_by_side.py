@@ -69,6 +69,16 @@ def test_a_process_that_dies_while_it_sends_is_replaced(monkeypatch: pytest.Monk
     assert side_by_side(lambda x: x, range(4)) == [0, 1, 2, 3]
 
 
+def test_where_no_process_can_be_started_all_is_done_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    two_cores(monkeypatch)
+
+    def refused() -> int:
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(os, "fork", refused, raising=False)
+    assert side_by_side(lambda x: (x, os.getpid()), range(4)) == [(x, HERE) for x in range(4)]
+
+
 INTERRUPTED = """
 import os, sys, time
 from identification.side_by_side import side_by_side
