@@ -84,7 +84,7 @@ import os, sys, time
 from identification.side_by_side import side_by_side
 os.sched_getaffinity = lambda _: {0, 1}
 def function(x):
-    print("at work", flush=True)
+    os.write(1, b"at work\\n")
     time.sleep(60)
 try:
     side_by_side(function, range(2))
