@@ -73,9 +73,9 @@ def unexplained(
     ``disagreeing``; where nothing was found what noise may hide, friction of two variables, and ripples, which are told
     beside large residuals too; and parameters that have ``other`` values than are known.
     """
-    bounces, explained = _bounces(found), _explained(found) | _taken_back(found, gone)
+    bounces, loose, explained = _bounces(found), _loose(found), _explained(found) | _taken_back(found, gone)
     stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
-    stays |= {number: max(stays[number], _BOUNCED * explained[number]) for number in _loose(found)}
+    stays |= {number: max(stays[number], _BOUNCED * explained[number]) for number in loose}
     large = [one for one in last.lack if _large(one, stays[one.joint])]
     overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
@@ -97,7 +97,7 @@ def unexplained(
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
     told = (*overlooked.values(), *crossing.values(), *rippling.values())
-    return Unexplained(tuple(lacks), where, reason, (*bounces, *_loose(found)), told)
+    return Unexplained(tuple(lacks), where, reason, (*bounces, *loose), told)
 
 
 def _bounces(found: Search) -> dict[int, float]:
