@@ -8,7 +8,7 @@ CC ?= cc
 VENV := .venv
 IN_VENV := PATH="$(CURDIR)/$(VENV)/bin:$$PATH" CC="$(CC)"
 COUNTERPOISE := $(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m generator
-# Tests run in as many processes as there are cores: threads of BLAS beside them only wait for each other.
+# Tests run in two processes: threads of BLAS beside them only wait for each other.
 PYTEST := $(IN_VENV) OPENBLAS_NUM_THREADS=1 "$(CURDIR)/$(VENV)/bin/python" -m pytest
 UV := uv==0.13.8
 LOCKING := --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-find-links \

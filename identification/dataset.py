@@ -28,6 +28,7 @@ from identification.signals import (
     joint_torques,
     measured,
     numbered,
+    overlooked,
 )
 from identification.timing import Clock, clock, jitters
 
@@ -164,6 +165,7 @@ def _recorded(source: str, recording: Recording, robot: Robot, efforts: Sequence
     if unusable is not None and effort.stem != "tau":
         unusable = driven(robot, unusable)
     told = [*cut_off.told(cut, effort, where), *stale_rows.slower(effort, where), *of_positions, *of_efforts]
+    told += overlooked(recording, robot)
     run = Run(
         source,
         where(None, "t"),

@@ -23,40 +23,64 @@ Rates = Callable[[Array, Array, Array], Array]
 #: Part of a state's decay that a step may hold, and steps a sample at most: what decays faster has no past.
 _DECAY, _STEPS = 0.25, 16
 #: Change of the states between two guesses that ends the iteration, and guesses at most.
-_SAME, _GUESSES = 1e-9, 100
+_SAME, _GUESSES = 1e-9, 30
 #: States are of the order of one: rates are not linearised beyond.
 _FAR = 10.0
 #: Difference of states that slopes are taken over.
 _APART = 1e-6
+#: Speed in parts of its rms below which a joint stood before its record began.
+_RESTED = 0.01
 
 
-def integrated(rates: Rates, q: Array, qd: Array, period: float, states: int) -> Array:
-    """The ``states`` (s x N) from zero along positions and speeds (n x N) [rad, m; rad/s, m/s].
+def beginning(qd: Array) -> Array:
+    """States at the beginning of a record of speeds (... x N) [rad/s, m/s], each that of a long motion the same way: 1
+    or -1. Nobody knows how a joint came to rest that stands: 0.
+    """
+    size = np.sqrt(np.mean(qd**2, axis=-1))
+    return np.where(np.abs(qd[..., 0]) > _RESTED * size, np.sign(qd[..., 0]), 0.0)
+
+
+def integrated(rates: Rates, q: Array, qd: Array, period: float, start: Array) -> Array:
+    """The states (s x N) from ``start`` (s) along positions and speeds (n x N) [rad, m; rad/s, m/s].
 
     ``period`` [s] is that of the samples. A rate may depend on its own state alone, not on another one.
-
-    Raises ArithmeticError where the states do not settle.
     """
-    count = q.shape[-1]
+    count, states = q.shape[-1], len(start)
     if count < 2:
-        return np.zeros((states, count))
+        return np.repeat(start[:, None], count, axis=-1)
     steps = _steps(rates, q.T, qd.T, period, states)
     t, fine = np.arange(count), np.arange((count - 1) * steps) / steps + 0.5 / steps
     middle_q, middle_qd = (np.stack([np.interp(fine, t, row) for row in x], axis=-1) for x in (q, qd))
     h = period / steps
-    z = np.zeros((len(fine) + 1, states))
+    z = np.tile(start, (len(fine) + 1, 1))
     for _ in range(_GUESSES):
         about = np.clip((z[1:] + z[:-1]) / 2, -_FAR, _FAR)
         rate, slope = _linearised(rates, middle_q, middle_qd, about)
         x = h * slope
-        small = np.abs(x) < 1e-9
-        phi = np.where(small, 1.0, np.expm1(x) / np.where(small, 1.0, x))
-        new = _recursion(np.exp(x), h * phi * (rate - slope * about))
+        new = _recursion(np.exp(x), h * _phi(x) * (rate - slope * about), start)
         change = np.abs(new - z).max()
         z = new
         if change < _SAME:
             return z[::steps].T.copy()
-    raise ArithmeticError("states inside effects do not settle")
+    return _one_by_one(rates, middle_q, middle_qd, h, start)[::steps].T.copy()
+
+
+def _one_by_one(rates: Rates, q: Array, qd: Array, h: float, start: Array) -> Array:
+    """The states ((N + 1) x s), each step linearised where it begins: slow, and certain of an end. About a state of
+    zero a power of it below one has no slope, and guesses of the whole course jump for ever.
+    """
+    z = np.empty((len(q) + 1, len(start)))
+    z[0] = start
+    for i in range(len(q)):
+        rate, slope = _linearised(rates, q[i : i + 1], qd[i : i + 1], z[i : i + 1])
+        z[i + 1] = z[i] + h * (_phi(h * slope) * rate)[0]
+    return z
+
+
+def _phi(x: Array) -> Array:
+    """(e^x - 1)/x."""
+    small = np.abs(x) < 1e-9
+    return np.where(small, 1.0, np.expm1(x) / np.where(small, 1.0, x))
 
 
 def _steps(rates: Rates, q: Array, qd: Array, period: float, states: int) -> int:
@@ -71,10 +95,10 @@ def _linearised(rates: Rates, q: Array, qd: Array, z: Array) -> tuple[Array, Arr
     return rates(q, qd, z), (above - below) / (2 * _APART)
 
 
-def _recursion(a: Array, b: Array) -> Array:
-    """z[0] = 0, z[i + 1] = a[i] z[i] + b[i], each column for itself ((N + 1) x s)."""
+def _recursion(a: Array, b: Array, start: Array) -> Array:
+    """z[0] = start, z[i + 1] = a[i] z[i] + b[i], each column for itself ((N + 1) x s)."""
     columns = []
-    for factors, summands in zip(a.T.tolist(), b.T.tolist(), strict=True):
+    for factors, summands, first in zip(a.T.tolist(), b.T.tolist(), start.tolist(), strict=True):
         pairs = zip(factors, summands, strict=True)
-        columns.append(list(accumulate(pairs, lambda z, one: one[0] * z + one[1], initial=0.0)))
+        columns.append(list(accumulate(pairs, lambda z, one: one[0] * z + one[1], initial=first)))
     return np.array(columns).T

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
 
 from generator import expressions
+from generator.cli.given_once import given_once
 from generator.errors import InputError, Place
 from generator.robot.fields import nearest
 from generator.symbolic.bodies import INERTIAL
@@ -18,9 +19,10 @@ BODIES = "bodies"
 def fixed(requests: Sequence[str], prior: Mapping[str, float] | None, model: Model, place: Place) -> dict[str, float]:
     """Values by name for ``NAME=VALUE`` [SI], ``NAME``, a pattern such as ``Fv*``, or ``bodies``.
 
-    What has no value of its own takes that of ``prior``. Raises InputError for a name that the robot does not have and
-    for a name without value where there is no prior.
+    What has no value of its own takes that of ``prior``. Raises InputError for a name that the robot does not have, for
+    one given twice, and for a name without value where there is no prior.
     """
+    given_once(requests, place)
     names = [parameter.name for parameter in model.base_parameters]
     result: dict[str, float] = {}
     for request in requests:

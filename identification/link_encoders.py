@@ -93,7 +93,14 @@ def link_encoders(
 
     Raises InputError for runs that are too short, without link-side encoders, or in which no such joint moves.
     """
-    return of_runs(robot, [load(str(source), robot, recipe.columns) for source in sources], friction, recipe)
+    found = of_runs(robot, [load(str(source), robot, recipe.columns) for source in sources], friction, recipe)
+    place = found.runs[0][0].place
+    if not found.latency:
+        names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
+        raise InputError(place, "there are no columns of link-side encoders", names)
+    if not any(len(rows.twist) for rows in found.rows.values()):
+        raise InputError(place, "no joint with a link-side encoder moves", "rows above its standstill speed")
+    return found
 
 
 def of_runs(
@@ -118,11 +125,6 @@ def of_runs(
         mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
-    if not latency:
-        names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
-        raise InputError(runs[0].place, "there are no columns of link-side encoders", names)
-    if not any(len(rows.twist) for rows in kept.values()):
-        raise InputError(runs[0].place, "no joint with a link-side encoder moves", "rows above its standstill speed")
     found = tuple(zip(runs, filters, strict=True))
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 

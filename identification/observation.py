@@ -23,7 +23,7 @@ from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
-from identification.effect_states import integrated
+from identification.effect_states import beginning, integrated
 
 Array = NDArray[np.float64]
 #: The coordinate whose torque jumps, and (coordinate, weight) of the speeds whose sum's sign it follows.
@@ -96,12 +96,13 @@ class Regressors:
         return reads(self.model.effects, "load")
 
     def completed(self, motion: Motion, period: float) -> Motion:
-        """The motion, sampled every ``period`` [s], with the states inside effects, which start at zero."""
-        count = len(self.model.effect_states)
-        if not count:
+        """The motion, sampled every ``period`` [s], with the states inside effects."""
+        if not self.model.effect_states:
             return motion
+        numbers = self.model.robot.numbers
+        start = beginning(motion.qd)[[numbers.index(state.joint) for state in self.model.effect_states]]
         rates = self._generated.effect_rates
-        return replace(motion, states=integrated(rates, motion.q, motion.qd, period, count))
+        return replace(motion, states=integrated(rates, motion.q, motion.qd, period, start))
 
     @cached_property
     def names(self) -> tuple[str, ...]:

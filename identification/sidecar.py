@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from generator import expressions
+from generator.cli.given_once import given_once
 from generator.errors import InputError, Place
 from generator.robot import fields
 from generator.robot.document import Entry, Text
@@ -120,7 +121,10 @@ def _possible(stem: str, value: float, place: Place) -> float:
 
 
 def given(words: Sequence[str], place: Place) -> Payload:
-    """The payload of words such as ``M=150`` [SI] and ``name=L``; raises InputError for anything else."""
+    """The payload of words such as ``M=150`` [SI] and ``name=L``; raises InputError for anything else, and for a name
+    given twice.
+    """
+    given_once(words, place)
     known: dict[str, float] = {}
     name = _UNNAMED
     for word in words:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -42,6 +42,19 @@ def numbered(recording: Recording, robot: Robot) -> Recording:
     (number,) = robot.numbers
     plain = {f"{stem}{number}": columns[stem] for stem in (*POSITIONS, *EFFORTS) if stem in columns}
     return replace(recording, columns={**plain, **columns})
+
+
+def overlooked(recording: Recording, robot: Robot) -> Iterator[str]:
+    """Columns whose names are nearly those of what a run may hold beside, and does not: they are not used."""
+    numbered_names = (f"{stem}{number}" for stem in FURTHER for number in robot.numbers)
+    missing = {_plain(name): name for name in (*numbered_names, *WRENCH) if name not in recording.columns}
+    for name in recording.columns:
+        if not meant(name) and (wanted := missing.get(_plain(name))):
+            yield f"{recording.where(None, name)}: column {name} is not used; {wanted} would be"
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", "").lower()
 
 
 class NoColumns(InputError):

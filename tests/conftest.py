@@ -22,6 +22,17 @@ from tests.plant.robots import ROBOTS
 from tests.recorded import TRUTH, Recorded, recorded, two_links
 from tests.subject import Subject, subject
 
+
+def _on_cores_of_its_own() -> None:
+    """Of several processes that test, each has its share of the cores: what one shares among processes stays there."""
+    if "PYTEST_XDIST_WORKER" in os.environ and hasattr(os, "sched_setaffinity"):
+        number = int(os.environ["PYTEST_XDIST_WORKER"].removeprefix("gw"))
+        if cores := sorted(os.sched_getaffinity(0))[number :: int(os.environ["PYTEST_XDIST_WORKER_COUNT"])]:
+            os.sched_setaffinity(0, cores)
+
+
+_on_cores_of_its_own()
+
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
 CHAINS = {f"chain{seed}": seed for seed in range(6)}

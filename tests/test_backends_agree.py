@@ -43,7 +43,7 @@ class Emitted:
 
     @cached_property
     def library(self) -> CLibrary:
-        return CLibrary(self.arm.model, self.folder / "c", ("-O1",))
+        return CLibrary(self.arm.model, self.folder / "c", ("-O1" if self.name in SANITIZED else "-O0",))
 
     @cached_property
     def single(self) -> CLibrary:

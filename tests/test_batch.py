@@ -271,7 +271,7 @@ OPTIONS = {
 }
 
 
-@pytest.mark.parametrize("arm", ["scara", "pendulum"], indirect=True)
+@pytest.mark.parametrize("arm", ["scara", pytest.param("pendulum", marks=pytest.mark.long)], indirect=True)
 @pytest.mark.parametrize(
     ("compiler", "flags"),
     [(compiler, flags) for compiler, lists in OPTIONS.items() for flags in lists],

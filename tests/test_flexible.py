@@ -123,7 +123,7 @@ def test_reduced_structure_is_the_chain_with_a_joint_per_spring(elastic: Subject
 def test_any_subset_of_axes_may_be_elastic(count: int) -> None:
     robot = read(find_robot("kr500"))
     subsets = list(combinations(range(1, 7), count))
-    for flexible in Random(count).sample(subsets, 2):
+    for flexible in Random(count).sample(subsets, 1):
         check_against_chain(subject(replace(robot, flexible=flexible), names=QUANTITIES), 23)
 
 

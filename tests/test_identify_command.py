@@ -176,6 +176,8 @@ def test_sensitivity_to_the_filters(folder: Path, capsys: pytest.CaptureFixture[
 REFUSED = {
     ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
     ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
+    ("--fix", "Fc1=1", "Fc1=2"): "error: --fix:1:1: Fc1 is given twice, expected it once",
+    ("--payload", "M=1", "M=2"): "error: --payload:1:1: M is given twice, expected it once",
     ("--fix", "Fv1=x"): "error: --fix:1:1: 'x' is not a number, expected numbers, pi and + - * / ^ ( )",
     ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected one in ",
     ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",

@@ -16,7 +16,7 @@ from generator.resources import find_robot
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
-from identification.effect_states import integrated
+from identification.effect_states import beginning, integrated
 from identification.inverse_model import identify
 from identification.observation import Motion, Regressors
 
@@ -42,10 +42,11 @@ def rates_of(effect: str) -> object:
         return lambda q, qd, z: (qd - np.abs(qd) * z) / 2e-3
     if effect == "lugre":
         return lambda q, qd, z: (qd - np.abs(qd) * z / (1 + 0.4 * np.exp(-((qd / 0.1) ** 2)))) / 2e-2
-    return lambda q, qd, z: (qd - np.abs(z) ** 2 * (qd + np.abs(qd) * np.sign(z)) / 2) / 5e-3
+    exponent, xs = (0.6, 1e-2) if effect == "soft hysteresis" else (2, 5e-3)
+    return lambda q, qd, z: (qd - np.abs(z) ** exponent * (qd + np.abs(qd) * np.sign(z)) / 2) / xs
 
 
-@pytest.mark.parametrize("effect", ["dahl", "lugre", "hysteresis"])
+@pytest.mark.parametrize("effect", ["dahl", "lugre", "hysteresis", "soft hysteresis"])
 def test_states_are_those_of_an_implicit_integration(effect: str) -> None:
     """Against Radau's method with small tolerances, in a motion with slow reversals."""
     period, rates = 2e-3, rates_of(effect)
@@ -58,15 +59,23 @@ def test_states_are_those_of_an_implicit_integration(effect: str) -> None:
         return np.asarray(rates(None, np.array([[speed(np.array(at))]]), z[None]))[0]  # type: ignore[operator]
 
     expected = solve_ivp(rate, (0, t[-1]), [0.0], "Radau", t, rtol=1e-8, atol=1e-10, max_step=0.01).y[0]
-    found = integrated(rates, np.zeros((1, len(t))), speed(t)[None], period, 1)[0]  # type: ignore[arg-type]
+    found = integrated(rates, np.zeros((1, len(t))), speed(t)[None], period, np.zeros(1))[0]  # type: ignore[arg-type]
     assert np.sqrt(np.mean((found - expected) ** 2)) < 2e-3
     assert np.abs(found - expected).max() < 0.03
+
+
+def test_a_record_begins_as_the_joint_moved_before() -> None:
+    """Of one that stands nobody knows how it came to rest; what noise its speed has tells nothing."""
+    speed = np.sin(np.linspace(0, 20, 500))
+    noise = 1e-4 * np.random.default_rng(1).normal(size=500)
+    starts = beginning(np.stack([np.cos(speed), -np.cos(speed), speed + noise, np.zeros(500)]))
+    np.testing.assert_array_equal(starts, [1, -1, 0, 0])
 
 
 def test_bristles_bend_as_the_way_goes() -> None:
     """At constant speed Dahl's state is 1 - exp(-way/xs), however long a step is."""
     speed = np.full((1, 2001), 0.05)
-    z = integrated(rates_of("dahl"), speed, speed, 1e-2, 1)[0]  # type: ignore[arg-type]
+    z = integrated(rates_of("dahl"), speed, speed, 1e-2, np.zeros(1))[0]  # type: ignore[arg-type]
     np.testing.assert_allclose(z, 1 - np.exp(-0.05 * 1e-2 * np.arange(2001) / 2e-3), atol=1e-6)
 
 

@@ -162,5 +162,7 @@ def test_a_joint_that_crawls_is_refused_and_the_other_is_not(machine: Machine, t
     assert found.stiffness["k1"].value is not None
     assert found.stiffness["k2"].value is None
     assert np.isfinite(of_link_encoders(found)["condition"])
+    crawls = replace(slow, others={"qs2": crawling})
+    assert of_runs(machine.robot, [crawls], MOTORS).stiffness["k2"].value is None
     with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in a.csv"):
         link_encoders(machine.robot, [path, path])

@@ -26,7 +26,13 @@ effects:
 
 
 @pytest.mark.parametrize(
-    "names", [("WIDTH", "NBASE"), ("RIGID_SIZE", "METHOD_RK4"), ("CONTACT_FREE", "OBSERVATION_WORK"), ("TILE", "H")]
+    "names",
+    [
+        ("WIDTH", "NBASE"),
+        pytest.param(("RIGID_SIZE", "METHOD_RK4"), marks=pytest.mark.long),
+        pytest.param(("CONTACT_FREE", "OBSERVATION_WORK"), marks=pytest.mark.long),
+        ("TILE", "H"),
+    ],
 )
 def test_a_length_called_like_a_macro_compiles(names: tuple[str, str], tmp_path: Path) -> None:
     path = tmp_path / "names.yaml"

@@ -66,6 +66,15 @@ def test_further_columns_are_kept_and_unknown_ones_are_not(good: Recorded, robot
     assert sorted(load(str(more.save(tmp_path / "a.csv")), robot).others) == ["fz", "qs1", "temp2"]
 
 
+@pytest.mark.parametrize(("spelt", "meant"), [("temp_2", "temp2"), ("FZ", "fz"), ("QS_1", "qs1")])
+def test_a_column_that_is_nearly_a_known_one_is_told(
+    spelt: str, meant: str, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    path = good.with_columns(**{spelt: good.columns["q1"] + 1e-4}).save(tmp_path / "a.csv")
+    place = f"{path}:1:{len(','.join(good.columns)) + 2}"
+    assert load(str(path), robot).notes == (f"{place}: column {spelt} is not used; {meant} would be",)
+
+
 def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     foreign = Recorded({"time": good.columns["t"] * 1000, **good.without("t").columns})
     path = foreign.save(tmp_path / "a.csv")

@@ -80,9 +80,11 @@ def test_where_no_process_can_be_started_all_is_done_here(monkeypatch: pytest.Mo
 
 
 INTERRUPTED = """
-import os, sys, time
+import os, signal, sys, time
 from identification.side_by_side import side_by_side
 os.sched_getaffinity = lambda _: {0, 1}
+# Whoever began the tests may have it ignored, as shells do for what runs in the background.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 def function(x):
     os.write(1, b"at work\\n")
     time.sleep(60)

@@ -81,6 +81,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "macro": macro,
         "robot": model.robot,
         "version": VERSION,
+        "width": len(model.base_parameters),
         "title": paragraph(f"{prefix}: {model.robot.description}", LINE - 3),
         "constants": constants,
         "standard_constants": _constants(model.standard_parameters, f"{macro}_STD_", names),

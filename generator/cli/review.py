@@ -15,12 +15,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Prints the groupings in Markdown, on a terminal with its headings and lists set out."""
+    """Prints the groupings in Markdown."""
     from generator.backends import review
     from generator.derivation import derive
     from generator.robot.readers import read
 
     path = find_robot(arguments.robot)
     with stage("deriving the groupings"):
-        text = review.emit(derive(read(path)))["groupings.md"]
+        text = review.groupings(derive(read(path)))
     print(text, end="")

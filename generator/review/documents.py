@@ -10,7 +10,7 @@ from generator.review import tex as latex
 from generator.review.counts import Stage, ladder
 from generator.review.formula import Equation, Name, Sum
 from generator.review.geometry import length_value, limits, rows
-from generator.review.groupings import alone, equations, meaning, without_effect
+from generator.review.groupings import alone, equations, without_effect
 from generator.review.plain import plain
 from generator.robot.description import Robot
 from generator.robot.parameters import Parameter
@@ -66,7 +66,7 @@ def markdown(model: Model) -> Document:
         stated.elastic(model),
         stated.drives(model.robot),
         stated.signals(model.robot),
-        tuple((parameter.name, parameter.unit, meaning(parameter, model.grouping)) for parameter in model.parameters),
+        tuple((parameter.name, parameter.unit, parameter.meaning) for parameter in model.parameters),
         len(model.base_parameters),
         tuple((p.name, f"{float(model.constants[p.name]):g}", p.unit) for p in _built_in(model)),
     )

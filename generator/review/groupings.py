@@ -9,7 +9,6 @@ from itertools import groupby
 from generator.grouping.grouping import BaseParameter, Grouping
 from generator.review.decimals import rounded
 from generator.review.formula import ONE, Equation, Formula, Name, Negative, Number, polynomial, times, total
-from generator.robot.parameters import Parameter
 
 
 def symbolic(parameter: BaseParameter) -> Equation:
@@ -45,12 +44,6 @@ def alone(grouping: Grouping) -> tuple[str, ...]:
 def without_effect(grouping: Grouping) -> tuple[str, ...]:
     """The standard parameters that appear in no torque."""
     return tuple(gone.name for gone in grouping.eliminated if not gone.into)
-
-
-def meaning(parameter: Parameter, grouping: Grouping) -> str:
-    """What a parameter is, and whether others are grouped into it."""
-    grouped = any(base.name == parameter.name and not base.alone for base in grouping.base)
-    return f"{parameter.meaning}; with what is grouped into it" if grouped else parameter.meaning
 
 
 def _number(value: float) -> Formula:

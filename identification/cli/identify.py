@@ -125,9 +125,10 @@ def run(arguments: argparse.Namespace) -> None:
         folder = destination(arguments.out, robot.name, robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     options = _options(arguments, regressors)
+    weight = above(arguments.prior_weight, "--prior-weight", 0)
     with stage(f"identifying from {plural(len(arguments.data), 'run')}"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
-    found, consistent = _consistent(arguments, found) if arguments.consistent else (found, None)
+    found, consistent = _consistent(arguments, found, weight) if arguments.consistent else (found, None)
     found = found.noting(older_sets(found, consistent))
     variations: list[Variation] = []
     if arguments.sensitivity:
@@ -167,11 +168,12 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     )
 
 
-def _consistent(arguments: argparse.Namespace, found: Identification) -> tuple[Identification, ConsistentFit | None]:
+def _consistent(
+    arguments: argparse.Namespace, found: Identification, weight: float
+) -> tuple[Identification, ConsistentFit | None]:
     """The physically consistent parameters beside what was found, which tells why where there are none."""
     from identification.consistent_fit import consistent_fit, doubts
 
-    weight = above(arguments.prior_weight, "--prior-weight", 0)
     with stage("making the parameters physically consistent"):
         try:
             consistent = consistent_fit(found, _bodies(arguments.prior, found.robot), weight)

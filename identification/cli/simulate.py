@@ -15,6 +15,7 @@ import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from generator.cli.given_once import given_once
 from generator.cli.place import command_line
 from generator.cli.progress import bar, stage
 from generator.cli.shared_arguments import takes_robot
@@ -182,6 +183,7 @@ def _settings(arguments: argparse.Namespace) -> Settings:
     from identification.sidecar import given
     from identification.simulation.settings import Settings
 
+    given_once(arguments.set, command_line("--set"))
     return Settings(
         trajectory=arguments.trajectory,
         trajectory_settings=dict(map(_setting, arguments.set)),

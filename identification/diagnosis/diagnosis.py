@@ -41,7 +41,7 @@ class Diagnosis:
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
     ``contradicted`` are known parameters of which the runs say that they have other values. ``reason`` is that of
-    ``Unexplained``. ``runs`` are all runs in the order of ``roles`` (train, validate, test); ``search`` holds the
+    ``Unexplained``. ``runs`` are all runs in the order of ``roles`` (train, validate); ``search`` holds the
     columns of those that are fitted or validate; ``steps`` is how near to the noise each finding comes.
     ``residuals_before`` and ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs
     by the model of the search, all rows, as recorded.
@@ -105,6 +105,7 @@ def diagnose(
         *note(other),
         *remarks.of_elasticity(found),
         *remarks.of_motion(runs, bool(named) and not found.repeats),
+        *(() if dry else remarks.of_warmth(found)),
         *remarks.of_findings(named, gone),
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),

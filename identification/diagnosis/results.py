@@ -18,7 +18,11 @@ from identification.diagnosis.verdict.where import Where
 def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
     """Everything that was found, see docs/diagnosis.md: angles in rad, torques in N m, times in s."""
     count = len(found.roles.train)
-    kinds = {"train": found.runs[:count], "validate": found.runs[count:]}
+    kinds = {
+        "train": [one.sampled for one in found.runs[:count]],
+        "validate": [one.sampled for one in found.runs[count:]],
+        "test": () if new is None else new.tested,
+    }
     return {
         "robot": found.robot.name,
         "robot_sha256": found.robot.digest,
@@ -45,9 +49,7 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
             "before": [_lack(one) for one in found.before.lack],
             "after": [_lack(one) for one in found.after.lack],
         },
-        "data": {
-            kind: [outcome.run(one.sampled.run, one.sampled.filters) for one in runs] for kind, runs in kinds.items()
-        },
+        "data": {kind: [outcome.run(one.run, one.filters) for one in runs] for kind, runs in kinds.items()},
         "notes": [*found.notes, *(() if new is None else new.notes)],
     }
 

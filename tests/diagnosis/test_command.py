@@ -106,8 +106,10 @@ def test_the_gap_closes_on_the_run_that_nothing_touched(hidden: Case) -> None:
     assert each["after"][2] < 0.6 * each["before"][2]
     for joint in (1, 3):
         assert each["after"][joint] == pytest.approx(each["before"][joint], rel=0.05)
-    used = [one["file"] for runs in hidden.result["data"].values() for one in runs]
-    assert not any(name.endswith("3.csv") for name in used)
+    data = hidden.result["data"]
+    fitted = [one["file"] for kind in ("train", "validate") for one in data[kind]]
+    assert not any(name.endswith("3.csv") for name in fitted)
+    assert [one["file"].endswith("3.csv") for one in data["test"]] == [True]
 
 
 @pytest.mark.long

@@ -26,10 +26,12 @@ from identification.diagnosis.runs.played import Player, compiled, play
 from identification.diagnosis.runs.prepared import prepared
 from identification.observation import Motion, Regressors
 from identification.outcome import Value
+from identification.recipe import Recipe
 from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
-from tests.recorded import TRUTH, Recorded, fourier, two_links
+from identification.sidecar import UNITS, Payload
+from tests.recorded import TRUTH, Recorded, fourier, recorded, two_links
 
 Array = NDArray[np.float64]
 
@@ -216,6 +218,20 @@ def test_standard_deviations_are_those_of_the_noise_s_colour(time: float, known:
         fit = refit([prepared(run, recipes.recipe_of("two_links"), of).sampled], of, vague)
         away += [(fit.values[name] - TRUTH[name]) / fit.std[name] for name in of.names]
     assert 0.6 < np.sqrt(np.mean(np.square(away))) < 1.4
+
+
+def test_runs_may_carry_other_payloads_of_one_name(tmp_path: Path) -> None:
+    of, bodies = (
+        two_links(tmp_path),
+        ([0.1, 0, 0, 0.1, 0, 0.1, 0.4, 0, 0, 5.0], [0.3, 0, 0, 0.3, 0, 0.3, 0.9, 0.1, 0, 9.0]),
+    )
+    runs = []
+    for seed, body in enumerate(bodies, 1):
+        path = recorded(of, TRUTH, seed=seed, payload=body).save(tmp_path / f"{seed}.csv")
+        run = replace(load(str(path), of.model.robot), payload=Payload("L", dict(zip(UNITS, body, strict=True))))
+        runs.append(sampled(run, Recipe(), of))
+    found = refit(runs, of)
+    assert found.values == pytest.approx(TRUTH, rel=2e-2, abs=2e-2)
 
 
 @pytest.mark.parametrize("name", ["scara", "lbr_iiwa14"])

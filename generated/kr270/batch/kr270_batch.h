@@ -28,9 +28,6 @@
 extern "C" {
 #endif
 
-/** Number of base parameters: columns of an observation matrix. */
-#define KR270_NBASE 60
-
 /** Rows and columns of each joint's Gram matrix and triangular factor: the base parameters, then the torque. */
 #define KR270_NGRAM (KR270_NBASE + 1)
 

@@ -16,11 +16,13 @@
  *             U = skew(WP) + skew(W)^2, VP acceleration of the origin (gravity included), F and N force and moment
  *             that move a body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and
  *             first moment; u marks axes that do not spin with the joint, a trailing n the negative.
+ *   Report    COROUSSO deliverable 4.2 (HAL hal-01091400), whose equations are cited below.
  *   Precision double, or float with KR270_USE_FLOAT defined for the library and all of its users.
  *   Angles    sine and cosine are computed here, four angles side by side: wrong by at most 2 units in the last place
  *             for |x| <= 1e3, and by 2.2e-16 for |x| <= 1e5 (float: 2 units and 1.2e-7 for |x| <= 1e3). Larger angles,
  *             infinities and NaN go to <math.h>; with KR270_USE_LIBM all do, as under -ffast-math and in excess
  *             precision. -Dkr270_sin=my_sin -Dkr270_cos=my_cos takes yours. Rounding is to nearest.
+ *             Vectors are types of GCC and Clang; with KR270_LANES=1 the code is standard C throughout.
  *
  * Use: fill a kr270_params, call kr270_prepare() once, then any function, from any thread. Nothing is
  * allocated, and no state is kept. Compile kr270.c as C99 or later with -O2 -ffp-contract=fast and for your
@@ -84,6 +86,9 @@ typedef double kr270_real;
 
 /** Number of moving joints. */
 #define KR270_NQ 6
+
+/** Number of base parameters, the first of the parameters. */
+#define KR270_NBASE 60
 
 /** The parameters: places in kr270_params. */
 enum {

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from generator.review.formula import Name
-from generator.review.groupings import meaning
 from generator.review.markup import Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.words import unit
@@ -43,7 +42,7 @@ def _vector(model: Model) -> Markup:
 def _built_in(model: Model) -> Markup:
     """The values in place of a parameter vector."""
     rows = (
-        (math(Name(p.name)), unit(p.unit), f"{float(model.constants[p.name]):g}", meaning(p, model.grouping))
+        (math(Name(p.name)), unit(p.unit), f"{float(model.constants[p.name]):g}", p.meaning)
         for p in model.all_parameters
         if model.constants[p.name]
     )
@@ -61,7 +60,7 @@ def _table(parameters: Iterable[Parameter], model: Model) -> Markup:
             math(Name(parameter.name)),
             element("code", parameter.name),
             unit(parameter.unit),
-            meaning(parameter, model.grouping),
+            parameter.meaning,
             "" if parameter.lower is None else f"≥\u00a0{parameter.lower:g}",
         )
         for index, parameter in enumerate(parameters)

@@ -91,11 +91,19 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
     return tuple(tuple(inverse[i][k] * ratios[k] for k in range(n)) for i in range(n))
 
 
+def element(name: str) -> tuple[int, int] | None:
+    """The joints' numbers (row, column) of an element of the coupling such as ``N54`` or ``N10_4``; None for other
+    names.
+    """
+    match = _ELEMENT.match(name)
+    return None if match is None else (int(match[1] or match[3]), int(match[2] or match[4]))
+
+
 def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
-    match = _ELEMENT.match(key.content)
-    if match is None:
+    pair = element(key.content)
+    if pair is None:
         raise InputError(key.place, f"unknown key {key.content!r} in coupling", "convention or an element such as N54")
-    row, column = (int(one or other) for one, other in ((match[1], match[3]), (match[2], match[4])))
+    row, column = pair
     for number in (row, column):
         if number not in moving:
             raise InputError(key.place, f"{key.content}: joint {number} does not move or exist", "moving joints")

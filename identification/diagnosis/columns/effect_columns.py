@@ -14,6 +14,7 @@ from scipy.integrate import cumulative_trapezoid
 from generator.effects.effect import Effect, Site
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.runs.scene import Scene
+from identification.effect_states import beginning
 
 Array = NDArray[np.float64]
 
@@ -108,15 +109,14 @@ class EffectColumns:
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state, at first that of a long motion the same way."""
+        """The effect's state, at the beginning as a file's own effect has it (``effect_states``)."""
         stride = max(1, int(1 / (scene.period * _STEPS)))
         qd = scene.motion.qd[self._k]
         # Means over the steps: what is worn in is a matter of the way.
         way = cumulative_trapezoid(qd, initial=0)[::stride]
         speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
-        # What moved before the record began has come to its end.
-        start = float(np.sign(speed[0]))
+        start = float(beginning(speed))
         given = np.array([*values, stride * scene.period])[:, None]
         if count not in self._by_count:
             self._by_count[count] = self._step.mapaccum("states", count)

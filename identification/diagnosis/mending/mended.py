@@ -42,13 +42,14 @@ _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model w
 class Mended:
     """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
-    ``before`` and ``after`` are the test runs as the old and the new model play them, ``tried`` what that says of each
-    joint, by its number; ``file_difference`` and ``groupings_difference`` are unified diffs.
+    ``tested`` are the test runs, ``before`` and ``after`` those as the old and the new model play them, ``tried`` what
+    that says of each joint, by its number; ``file_difference`` and ``groupings_difference`` are unified diffs.
     """
 
     text: str
     robot: Robot
     fit: Refit
+    tested: tuple[Sampled, ...]
     before: tuple[Played, ...]
     after: tuple[Played, ...]
     tried: Mapping[int, Untouched]
@@ -103,6 +104,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         text=text,
         robot=new.robot,
         fit=fit,
+        tested=tuple(one.sampled for one in runs),
         before=before,
         after=after,
         tried=tried,

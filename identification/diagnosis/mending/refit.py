@@ -73,6 +73,7 @@ def refit(
     are fitted like any other.
     """
     given = {name: one for name, one in (given or {}).items() if name in regressors.names}
+    runs = _told_apart(runs)
     payloads = [one.run.payload for one in runs if one.run.payload is not None]
     known = {name: value for payload in payloads for name, value in payload.fixed.items()}
     carried = [name for payload in payloads for name in payload.names().values()]
@@ -108,6 +109,20 @@ def refit(
         _values(regressors, values, std, solution),
     )
     return Refit(values, std, written, regressors, tuple(notes))
+
+
+def _told_apart(runs: Sequence[Sampled]) -> list[Sampled]:
+    """The runs, their payloads by names of their own: payloads of several runs may share one and be others."""
+    different: list[Mapping[str, float]] = []
+    result = []
+    for one in runs:
+        if (payload := one.run.payload) is not None:
+            if payload.known not in different:
+                different.append(payload.known)
+            named = replace(payload, name=f"{payload.name}_{different.index(payload.known)}")
+            one = replace(one, run=replace(one.run, payload=named))
+        result.append(one)
+    return result
 
 
 def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, float], std: Mapping[str, float]) -> Prior:

@@ -15,6 +15,7 @@ from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.errors import InputError
 from generator.robot.description import Joint, Robot
+from generator.robot.sections.drives import element
 from generator.robot.signal_units import signal_unit
 from identification.corrections import NEVER, by_time
 from identification.diagnosis.columns.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
@@ -37,7 +38,6 @@ _WARMTH = ("warm_up_time", "warm_rise", "warm_torque")
 #: Corrections that replace what the file says; the others are added to it, a gain multiplies it.
 _REPLACING = ("current_limit", *_WARMTH)
 
-_ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
 _PRODUCT = re.compile(r"-?[\w./*]+\Z", re.ASCII)
 
 
@@ -188,9 +188,9 @@ def _with_ratio(text: str, robot: Robot, joint: int, factor: float) -> str:
     if "convention" in entries:
         convention = value_of(text, ("drives", "coupling", "convention"))
     for key in entries:
-        if (match := _ELEMENT.match(key)) is None or convention == "as_printed":
+        if (pair := element(key)) is None or convention == "as_printed":
             continue
-        row, column = (int(one or other) for one, other in ((match[1], match[3]), (match[2], match[4])))
+        row, column = pair
         if column == joint:
             text = _times(text, ("drives", "coupling", key), f"*{factor:.9g}")
         elif row == joint and convention == "row":

@@ -30,6 +30,7 @@ def settled(weighing: Weighing, chosen: Sequence[Variant]) -> tuple[list[Variant
     they act: of all turns, which make banks of their own, the one that leaves least.
     """
     best = list(chosen), *fitted(weighing, chosen)
+    # What the start leaves is no measure: its swings are under the loads of other base parameters.
     least, waited = inf, 0
     for _ in range(_TURNS):
         again = made_anew(weighing, chosen, *fitted(weighing, chosen))

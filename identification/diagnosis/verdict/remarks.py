@@ -70,6 +70,20 @@ def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
     ]
 
 
+def of_warmth(found: Search) -> Iterator[str]:
+    """Of fitted runs without the temperature that the robot's file tells warmth by, where others have it."""
+    scenes = [found.bank.scenes[r] for r in found.train]
+    coordinates = range(len(found.bank.robot.moving))
+    untold = {k: [one for one in scenes if not one.warmth_is_stated(k)] for k in coordinates}
+    for k, without in untold.items():
+        if 0 < len(without) < len(scenes):
+            files = listed(dict.fromkeys(one.sampled.run.file for one in without))
+            yield (
+                f"{files}: how warm the drive of joint {found.bank.robot.numbers[k]} was is not recorded, as it is in "
+                "other runs: friction that warms up and a torque that drifts are not looked for there"
+            )
+
+
 def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[str]:
     """Of findings whose amplitude does not hold, and of those that runs that test took back (``gone``)."""
     for one in found:

@@ -29,7 +29,7 @@ def minimise(search: Search, start: Array) -> Minimum:
         criterion = criterion.weighted(errors)
     end = time.monotonic() + (settings.seconds or np.inf)
     most = settings.iterations or (_GENERATIONS if settings.seconds is None else 10**9)
-    draw = np.random.RandomState(settings.seed + 1)
+    draw = np.random.RandomState(np.random.MT19937(np.random.SeedSequence(settings.seed)))
     evolution = strategy(np.zeros(len(start)), settings.spread, draw, maxiter=most)
     best, least, generations = start, criterion.value(criterion.begin(start)), 0
     while not evolution.stop() and time.monotonic() < end:
