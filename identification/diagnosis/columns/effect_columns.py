@@ -11,7 +11,7 @@ import sympy
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
-from generator.effects.effect import Effect, Site
+from generator.effects.effect import Effect, Shape, Site
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.runs.scene import Scene
 from identification.effect_states import beginning
@@ -38,9 +38,7 @@ class EffectColumns:
 
     def __init__(self, effect: Effect, joint: Joint, k: int, robot: Robot) -> None:
         self._k, self._numbers = k, [one.number for one in robot.moving]
-        values = {shape.name: sympy.Symbol(f"shape_{shape.name}", positive=True) for shape in effect.shapes}
-        if "neutral" in values or "phi" in values:
-            values |= {n: sympy.Symbol(f"shape_{n}", real=True) for n in ("neutral", "phi") if n in values}
+        values = {shape.name: _symbol(shape) for shape in effect.shapes}
         self._names = list(values)
         self._site = Site(joint, values, _ratios(robot, k) if "motor" in effect.needs else {})
         self._effect = effect
@@ -66,7 +64,7 @@ class EffectColumns:
         signals = self._signals(scene, shape.get("warm_up_time"), warm)
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
-        if self._positive is not None and np.min(self._positive(*values, self._anywhere(motion.q[self._k]))) < _ROOM:
+        if any(np.min(length(*values, self._anywhere(motion.q[self._k]))) < _ROOM for length in self._positive):
             return np.full_like(result, np.nan)
         with np.errstate(invalid="ignore", over="ignore"):
             found = self._function(*values, *signals, *states)
@@ -87,10 +85,9 @@ class EffectColumns:
         ]
         states = [at.state(one.stem) for one in effect.states]
         self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
-        self._positive = None
-        if effect.positive is not None:
-            least = next(iter(effect.positive(at).values()))
-            self._positive = sympy.lambdify([*(at.values[name] for name in self._names), at.q], least, "numpy")
+        lengths = {} if effect.positive is None else effect.positive(at)
+        given = [*(at.values[name] for name in self._names), at.q]
+        self._positive = [sympy.lambdify(given, one, "numpy") for one in lengths.values()]
         if effect.rates is not None:
             self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 
@@ -122,6 +119,11 @@ class EffectColumns:
             self._by_count[count] = self._step.mapaccum("states", count)
         _, z = self._by_count[count](start, speed[None], np.tile(given, count))
         return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, z.full()[0])]
+
+
+def _symbol(shape: Shape) -> sympy.Symbol:
+    signed = shape.lower is None or shape.lower < 0
+    return sympy.Symbol(f"shape_{shape.name}", **({"real": True} if signed else {"positive": True}))
 
 
 def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Any:
