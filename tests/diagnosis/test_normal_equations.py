@@ -88,6 +88,25 @@ def test_what_little_is_left_of_a_column_tells_more_where_parameters_are_known(
         assert [normal((W, within, y), prior_).hides(P + i) for i in range(C)] == [expected] * C
 
 
+@pytest.mark.parametrize("known", [False, True])
+def test_more_candidates_are_told_as_if_they_had_been_there(columns: tuple[Array, Array, Array], known: bool) -> None:
+    W, candidates, y = columns
+    less = normal((W, candidates[:, :2], y), prior() if known else None)
+    whole = normal(columns, prior() if known else None)
+    assert less.schur.shape == (3, 3)
+    for more in (less.grown(whole.gram), normal((W, candidates[:, :2], y), whole.prior).grown(whole.gram)):
+        np.testing.assert_allclose(more.schur, whole.schur, rtol=1e-9, atol=1e-9 * np.abs(whole.schur).max())
+
+
+@pytest.mark.parametrize("rank", [1e-10, 1e-8])
+@pytest.mark.parametrize("angle", [1.0, 2.5, 1e-3, 1e-6, 0.0])
+def test_two_columns_are_inverted_as_many_are(angle: float, rank: float) -> None:
+    """Beside a third one that has nothing to do with them."""
+    columns = np.array([[3.0, 0.0, 0.0], [20 * np.cos(angle), 20 * np.sin(angle), 0.0], [0.0, 0.0, 1.0]])
+    A = columns @ columns.T
+    np.testing.assert_allclose(inverse(A[:2, :2], rank), inverse(A, rank)[:2, :2], rtol=1e-3)
+
+
 def test_the_solution_its_covariance_and_misfit(columns: tuple[Array, Array, Array]) -> None:
     W, candidates, y = columns
     chosen = [P + 1, P + 4]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -51,19 +52,19 @@ class Variant:
         """That of its hypothesis."""
         return self.hypothesis.key
 
-    @property
+    @cached_property
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Those of the columns."""
         return tuple(self.hypothesis.coefficients[i] for i in self.used)
 
-    @property
+    @cached_property
     def bounds(self) -> tuple[Array, Array]:
         """Least and largest values of the coefficients (k each), infinite where free."""
         lower = np.array([-np.inf if c.lower is None else c.lower for c in self.coefficients])
         upper = np.array([np.inf if c.upper is None else c.upper for c in self.coefficients])
         return lower, upper
 
-    @property
+    @cached_property
     def preset(self) -> Array | None:
         """Its coefficients (k) where another fit than that of the columns tells them all; None where not."""
         known = [value for one in self.coefficients if (value := self.hypothesis.preset_value(one.name)) is not None]

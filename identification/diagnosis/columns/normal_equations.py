@@ -8,8 +8,9 @@ candidates is then a question about a few of its rows.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,9 +130,28 @@ class Normal:
         S = G[p:, p:] - G[p:, :p] @ self.inverse @ G[:p, p:]
         return np.asarray((S + S.T) / 2)
 
+    def grown(self, gram: Array) -> Normal:
+        """The same of a ``gram`` with more candidates, the last columns before the torque. Of the others it is told
+        already what W cannot explain.
+        """
+        result = replace(self, gram=gram)
+        if "schur" in self.__dict__:
+            G, p, old = result.whole, self.base, len(self.gram) - 1 - self.base
+            S = np.zeros((len(G) - p,) * 2)
+            S[:old, :old], S[-1, -1] = self.schur[:old, :old], self.schur[-1, -1]
+            S[-1, :old] = S[:old, -1] = self.schur[:old, -1]
+            new = G[p + old : -1, p:] - G[p + old : -1, :p] @ self.inverse @ G[:p, p:]
+            S[old:-1], S[:, old:-1] = new, new.T
+            result.__dict__.update(inverse=self.inverse, schur=S)
+        return result
+
+    @cached_property
+    def _least(self) -> Array:
+        return least_part(self.prior) * self.gram.diagonal()
+
     def least(self, columns: Sequence[int]) -> Array:
         """What must be left of the squares of candidate columns by number (k) for their coefficients to be told."""
-        return np.asarray(least_part(self.prior) * np.diag(self.gram)[list(columns)])
+        return self._least[list(columns)]
 
     def hides(self, column: int) -> bool:
         """Whether W takes up a candidate's column, by its number."""
@@ -144,7 +164,7 @@ class Normal:
             return self.schur
         fitted, known, values = told_apart(chosen, self.preset)
         S, out = without(self.schur, known - self.base, values), fitted - self.base
-        result = S - S[:, out] @ inverse(S[np.ix_(out, out)]) @ S[out]
+        result = S - S[:, out] @ (inverse(square(S, out)) @ S[out])
         result[at], result[:, at] = 0.0, 0.0
         return np.asarray(result)
 
@@ -152,7 +172,7 @@ class Normal:
         """The rows of ``columns`` and of the torque of the Schur complement after the columns ``chosen`` too."""
         fitted, known, values = told_apart(chosen, self.preset)
         at = np.array([*known, *fitted, *columns, len(self.gram) - 1]) - self.base
-        S = without(self.schur[np.ix_(at, at)], np.arange(len(known)), values)[len(known) :, len(known) :]
+        S = without(square(self.schur, at), np.arange(len(known)), values)[len(known) :, len(known) :]
         return after(S, len(fitted))
 
     def solution(self, chosen: Sequence[int]) -> tuple[Array, Array]:
@@ -160,19 +180,24 @@ class Normal:
         at = [*range(self.base), *chosen]
         free = np.array([number not in self.preset for number in at])
         fitted, known, values = told_apart(at, self.preset)
-        G = without(self.whole, known, values)
+        b = self.whole[fitted, -1] - self.whole[fitted[:, None], known] @ values
         C = np.zeros((len(at), len(at)))
-        C[np.ix_(free, free)] = inverse(G[np.ix_(fitted, fitted)])
+        C[np.ix_(free, free)] = inverse(square(self.whole, fitted))
         solution = np.empty(len(at))
-        solution[free] = C[np.ix_(free, free)] @ G[fitted, -1]
+        solution[free] = square(C, np.flatnonzero(free)) @ b
         solution[~free] = values
         return solution, C
 
     def misfit(self, chosen: Sequence[int], solution: Array) -> float:
         """Sum of the squared white residuals, without the prior's rows."""
-        at = [*range(self.base), *chosen, len(self.gram) - 1]
+        at = np.array([*range(self.base), *chosen, len(self.gram) - 1])
         v = np.append(-solution, 1.0)
-        return float(v @ self.gram[np.ix_(at, at)] @ v)
+        return float(v @ square(self.gram, at) @ v)
+
+
+def square(A: Array, at: Places) -> Array:
+    """The rows and columns ``at`` places of a matrix: ``np.ix_`` takes longer than what is done with so few."""
+    return A[at[:, None], at]
 
 
 def told_apart(columns: Sequence[int], preset: Mapping[int, float]) -> tuple[Places, Places, Array]:
@@ -206,7 +231,9 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
         return A
     if len(A) == 1:
         return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
-    size = np.sqrt(np.maximum(np.diag(A), 0.0))
+    if len(A) == 2 and (pair := _inverse_of_two(A, rank)) is not None:
+        return pair
+    size = np.sqrt(np.maximum(A.diagonal(), 0.0))
     live = size > 1e-12 * size.max(initial=0.0)
     scale = np.where(live, np.maximum(size, 1e-300), 1.0)
     scaled = np.where(np.outer(live, live), A / np.outer(scale, scale), 0.0)
@@ -214,6 +241,18 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
     seen = values > rank * max(values[-1], 1e-300)
     V = vectors[:, seen]
     return np.asarray((V / values[seen]) @ V.T / np.outer(scale, scale))
+
+
+def _inverse_of_two(A: Array, rank: float) -> Array | None:
+    """Of two columns, both of a size; None where it is not of full rank."""
+    (a, c), (_, b) = A.tolist()
+    if not (a > 0 and b > 0):
+        return None
+    cosine = abs(c) / sqrt(a * b)
+    if 1 - cosine <= rank * (1 + cosine) or min(a, b) <= 1e-24 * max(a, b):
+        return None
+    free = a * b - c * c
+    return np.array([[b / free, -c / free], [-c / free, a / free]])
 
 
 def lowered(A: Array, b: Array, x: Array) -> float:
@@ -227,14 +266,14 @@ def bounded(A: Array, b: Array, lower: Array, upper: Array, least: Array) -> tup
     A is k x k, all others k. Those that would be beyond their bounds are left out, zero: such values mean another
     effect; and so are those of whose column's square not the ``least`` is left.
     """
-    free = np.diag(A) > least
+    free = A.diagonal() > least
     x = np.zeros(len(b))
     for _ in range(len(b) + 1):
         at = np.flatnonzero(free)
         if not at.size:
             return np.zeros(len(b)), 0.0
         x = np.zeros(len(b))
-        x[at] = inverse(A[np.ix_(at, at)], 1e-8) @ b[at]
+        x[at] = inverse(square(A, at), 1e-8) @ b[at]
         out = at[(x[at] < lower[at]) | (x[at] > upper[at])]
         if not out.size:
             break

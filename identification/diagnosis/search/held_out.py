@@ -12,7 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Bank, Variant
-from identification.diagnosis.columns.normal_equations import Prior, inverse, least_part, lowered, told_apart, without
+from identification.diagnosis.columns.normal_equations import (
+    Prior,
+    inverse,
+    least_part,
+    lowered,
+    square,
+    told_apart,
+    without,
+)
 
 Array = NDArray[np.float64]
 
@@ -51,7 +59,7 @@ class HeldOut:
         across, own = self._products(runs, beside.tolist(), at), self._products(runs, at, at)
         part = own - across.T @ self._inverse(runs, beside.tolist()) @ across
         left = without(part, np.arange(len(known)), values)[len(known) :, len(known) :]
-        return left, least_part(self._prior) * np.diag(own)[len(known) : -1]
+        return left, least_part(self._prior) * own.diagonal()[len(known) : -1]
 
     def _inverse(self, runs: tuple[int, ...], columns: Sequence[int]) -> Array:
         key = (runs, tuple(columns))
@@ -76,4 +84,4 @@ def _drop(part: Array, x: Array, preset: bool) -> float:
         return lowered(part[:-1, :-1], part[:-1, -1], x)
     used = np.flatnonzero(x)
     b = part[used, -1]
-    return float(b @ inverse(part[np.ix_(used, used)]) @ b)
+    return float(b @ inverse(square(part, used)) @ b)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
-from identification.diagnosis.columns.normal_equations import bounded
+from identification.diagnosis.columns.normal_equations import bounded, square
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.likely import balances, common, likely, pulls
 from identification.diagnosis.search.refinement import refined
@@ -246,7 +246,7 @@ class Selection:
             at = np.array([*one.columns, *other.columns]) - self.weighing.normal.base
             bounds = [np.concatenate(pair) for pair in zip(one.bounds, other.bounds, strict=True)]
             least = self.weighing.normal.least([*one.columns, *other.columns])
-            _, drop = bounded(S[np.ix_(at, at)], S[at, -1], bounds[0], bounds[1], least)
+            _, drop = bounded(square(S, at), S[at, -1], bounds[0], bounds[1], least)
             if drop > best[0]:
                 best = (drop, [one, other])
         drop, pair = best

@@ -18,7 +18,7 @@ from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis, Key
-from identification.diagnosis.columns.normal_equations import FAR, Normal, Places, Prior, after, inverse, told_apart
+from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior, after, inverse, square, told_apart
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.evidence import Evidence
@@ -27,6 +27,7 @@ from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
 
 Array = NDArray[np.float64]
+Places = NDArray[np.int64]
 #: Drop of the sum of squares, variant, coefficients.
 _Found = tuple[float, Variant, Array]
 
@@ -83,8 +84,9 @@ class Weighing:
         self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
-        self._seen = 0
-        self.refresh()
+        self.normal = self._normal(self.train)
+        self.rows = np.sum([bank.rows(r) for r in self.train], axis=0)
+        self._seen = bank.count
 
     def along(self, bank: Bank) -> Weighing:
         """The same of another bank of the runs."""
@@ -93,11 +95,9 @@ class Weighing:
 
     def refresh(self) -> None:
         """After columns may have been added."""
-        if self._seen == self.bank.count:
-            return
-        self._seen = self.bank.count
-        self.normal = self._normal(self.train)
-        self.rows = np.sum([self.bank.rows(r) for r in self.train], axis=0)
+        if self._seen < self.bank.count:
+            self.normal = self.normal.grown(self._gram(self.train))
+            self._seen = self.bank.count
 
     @property
     def all(self) -> Normal:
@@ -132,11 +132,14 @@ class Weighing:
         return max(normal.misfit(columns, solution) / max(normal.rows, 1) - 1, 0.0)
 
     def _normal(self, runs: Sequence[int]) -> Normal:
+        rows = sum(int(self.bank.rows(r).sum()) for r in runs)
+        return Normal(self._gram(runs), len(self.bank.base), rows, self._prior, self.bank.preset)
+
+    def _gram(self, runs: Sequence[int]) -> Array:
         total = self.bank.grams[runs[0]].copy()
         for r in runs[1:]:
             total += self.bank.grams[r]
-        rows = sum(int(self.bank.rows(r).sum()) for r in runs)
-        return Normal(total, len(self.bank.base), rows, self._prior, self.bank.preset)
+        return total
 
     def evidence(self, chosen: Sequence[Variant]) -> list[Evidence]:
         """Of the best variants of the hypotheses that are not chosen and explain most, the best first."""
@@ -191,7 +194,7 @@ class Weighing:
 
     def _solve(self, S: Array, variant: Variant) -> tuple[Array, float]:
         at = np.array(variant.columns) - self.normal.base
-        return variant.best(S[np.ix_(at, at)], S[at, -1], self.normal.least(variant.columns))
+        return variant.best(square(S, at), S[at, -1], self.normal.least(variant.columns))
 
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = self._asked_for(found, others)
@@ -245,8 +248,8 @@ class Weighing:
             return False
         p, G = self.normal.base, self.normal.gram
         at = np.array([*range(p), *variant.columns])
-        left = np.diag(after(G[np.ix_(at, at)], p))
-        if np.any(left > _UNSEEN * np.diag(G)[at[p:]]):
+        left = after(square(G, at), p).diagonal()
+        if np.any(left > _UNSEEN * G.diagonal()[at[p:]]):
             return False
         solutions = [self.normal.solution(columns_of(each)) for each in (others, [*others, variant])]
         far, near = (self._prior.far(x[:p], covariance[:p, :p])[self._parameters] for x, covariance in solutions)
@@ -275,7 +278,7 @@ class Weighing:
         columns by number times their ``weights``.
         """
         own, G = np.array([*weights], dtype=int), self.normal.whole
-        taken = inverse(G[np.ix_(beside, beside)]) @ (G[np.ix_(beside, own)] @ [*weights.values()])
+        taken = inverse(square(G, beside)) @ (G[np.ix_(beside, own)] @ [*weights.values()])
         left = dict(zip((*weights, *beside.tolist()), (*weights.values(), *-taken), strict=True))
         return {k: self.bank.power(left, k, self.train) for k in joints}
 
@@ -333,7 +336,7 @@ class Weighing:
             return np.zeros(len(variant.columns))
         every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
         beside = self._fitted_beside(others)
-        explained = inverse(G[np.ix_(beside, beside)]) @ self._pretence.beside(others)[np.isin(every, beside)]
+        explained = inverse(square(G, beside)) @ self._pretence.beside(others)[np.isin(every, beside)]
         return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
 
     def _drops(self, chosen: Sequence[Variant]) -> list[float]:
