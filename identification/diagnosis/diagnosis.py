@@ -17,7 +17,7 @@ from identification.diagnosis.search.loop import Search, search
 from identification.diagnosis.search.scaling import taken_up
 from identification.diagnosis.verdict import few_rows, odd_run, remarks, trembling
 from identification.diagnosis.verdict.confirmation import confirmed
-from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, note
+from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, doubted, note
 from identification.diagnosis.verdict.finding import Finding, findings
 from identification.diagnosis.verdict.homogeneity import disagreements
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
@@ -96,13 +96,14 @@ def diagnose(
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
     named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)
+    named = doubted(named, other)
     if named:
         before = led(before, named[0])
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),
         *remarks.of_tests(found, trial, test),
-        *note(other),
+        *note(other, named),
         *remarks.of_elasticity(found),
         *remarks.of_motion(runs, bool(named) and not found.repeats),
         *(() if dry else remarks.of_warmth(found)),

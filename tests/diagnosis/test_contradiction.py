@@ -11,7 +11,8 @@ import pytest
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.results import document
-from identification.diagnosis.verdict.contradiction import contradicted, pulled
+from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, doubted, note, pulled
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.diagnosis.verdict.unexplained import VALUES
 from identification.report.diagnose.report import report
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
@@ -49,6 +50,16 @@ def test_a_set_that_holds_is_not_contradicted(tmp_path: Path) -> None:
     assert "other values than are known" not in report(found, None).decode()
 
 
+def test_what_is_named_beside_friction_that_is_contradicted_is_not_firm(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("stribeck")] * 3, ARM + parameters_text({"known": TRUTH}))
+    found = diagnosis_of(sources, regressors, "known")
+    assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("stribeck_friction", FIRM)]
+    one = Contradicted("Fv1", found.search.bank.base.index("Fv1"), 5.0, TRUTH["Fv1"], 0.7, 1)
+    for other, status in ((one, TENTATIVE), (replace(one, joint=2), FIRM), (replace(one, joint=0), FIRM)):
+        assert [each.status for each in doubted(found.findings, [other])] == [status]
+        assert len(note([other], found.findings)) == (2 if status == TENTATIVE else 1)
+
+
 def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:
     found = known(tmp_path, 0.0)
     prior = prior_of(found.search.bank.scenes[0].regressors.model, "known")
@@ -57,9 +68,9 @@ def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tm
     far[names.index("MX1")] = 10 * 0.05 * TRUTH["MX1"]
     (one,) = contradicted(found.search, replace(prior, mean=prior.mean + far))
     assert one.name == "MX1"
-    assert one.body
+    assert one.joint == 0
     assert pulled(found.search, [one]) == 0
-    assert pulled(found.search, [replace(one, body=False)]) is None
+    assert pulled(found.search, [replace(one, joint=1)]) is None
     assert pulled(found.search, [replace(one, found=one.known * 1.0001)]) is None
 
 

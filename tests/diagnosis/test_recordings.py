@@ -49,6 +49,7 @@ DRY = ("coulomb_friction", "dahl_friction", "lugre_friction")
 OPEN = {("torque_delay", (6,)), ("torque_gain", (6,))}
 
 
+@pytest.mark.long
 def test_friction_payload_and_balancer_of_a_heavy_arm_are_named(tmp_path: Path) -> None:
     """About 150 kg are mounted, which the set does not know."""
     path = without("kr300", tmp_path, "viscous_friction", "coulomb_friction", "gas_balancer")

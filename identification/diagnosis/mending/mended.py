@@ -4,31 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 
 from generator.generation import Stage, silent
 from generator.robot.description import Robot
 from generator.writing import replace
-from identification import recipe as recipes
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC
-from identification.diagnosis.columns.normal_equations import Prior
-from identification.diagnosis.columns.priors import preferring, prior_of
+from identification.diagnosis.columns.hypothesis import ELASTIC
+from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.mending.addition import Addition, addition, measured
+from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.changes import difference, groupings_difference
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
-from identification.diagnosis.mending.refit import SET, Refit, refit, with_payload
-from identification.diagnosis.mending.repair import as_written, repaired
+from identification.diagnosis.mending.refit import SET, Refit, refit
 from identification.diagnosis.mending.untouched import Untouched, objections, untouched
-from identification.diagnosis.mending.writable import loaded, writable
+from identification.diagnosis.mending.without_harm import without_harm
+from identification.diagnosis.mending.written_model import WrittenModel, prepared_runs, sampled_runs, written_model
 from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play, together
-from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.verdict.finding import Finding
-from identification.observation import Regressors
-from identification.outcome import Value
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
 
@@ -69,36 +64,37 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     """
     name = f"{found.robot.name}.yaml"
     old_text = path.read_text(encoding="utf-8-sig")
-    bank, aside = found.search.bank, measured(found.search.offered)
-    wanted = [*map(_addition, found.findings)]
-    additions, unwritten = writable(old_text, name, [*wanted, *aside], found.roles, bank.scenes)
-    new = repaired(old_text, name, additions)
-    entered = [(finding, one) for finding, one in zip(found.findings, wanted, strict=True) if one in additions]
-    written = [finding for finding, _ in entered]
+    bank = found.search.bank
     old_regressors = bank.scenes[0].regressors
-    regressors = Regressors(preferring(new.robot, prior))
     with stage("fitting the parameters with what was found"):
-        known = None if prior is None else _prior(prior, regressors, written)
-        said, given = _description(written), _given(entered, new.robot)
-        fit = refit(_sampled(found.roles.searched, regressors), regressors, known, said, given)
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
-        refitted = refit(_sampled(found.roles.searched, old_regressors), old_regressors, as_known).written
+        refitted = refit(sampled_runs(found.roles.searched, old_regressors), old_regressors, as_known).written
         values = refitted if as_known is None else dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
+        runs, old = [*prepared_runs(found.roles.test, old_regressors)], Player(old_regressors)
+
+        def model_of(findings: Sequence[Finding]) -> WrittenModel:
+            return written_model(old_text, name, found, findings, prior)
+
+        def tried_with(model: WrittenModel) -> dict[int, Untouched]:
+            fit = model.fit
+            played = _played(found.roles.test, Player(fit.regressors), fit.written)
+            return untouched(bank, *_beside(runs, old, refitted, played))
+
+        model, harmful = without_harm(model_of(found.findings), model_of, tried_with)
+    new, fit, additions = model.repaired, model.fit, model.additions
     text, sets = _with_sets(new.text, fit, additions)
     replace(folder, {name: text.encode()})
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, fit.written)
-        runs, old = [*_prepared(found.roles.test, old_regressors)], Player(old_regressors)
         before, after = _beside(runs, old, values, played)
         without = (before, after) if prior is None else _beside(runs, old, refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
-    left_out = {j for one in found.findings if one not in written for j in one.amplitude}
-    stated_aside = [one.evidence for one in aside if one in additions]
-    told = [*stated_aside, *unwritten, *new.notes, *fit.notes, *sets, *notes]
+    left_out = {j for one in found.findings if one not in model.findings for j in one.amplitude}
+    told = [*harmful, *model.notes, *sets, *notes]
     if prior is not None:
-        told += _gain(*without, found.roles.tested) if written else [_FITTED]
+        told += _gain(*without, found.roles.tested) if model.findings else [_FITTED]
     told += objections(untouched(bank, *without), found.roles.tested, elastic, left_out)
     return Mended(
         text=text,
@@ -109,7 +105,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         after=after,
         tried=tried,
         file_difference=difference(old_text, text, name),
-        groupings_difference=groupings_difference(old_regressors.model, regressors.model),
+        groupings_difference=groupings_difference(old_regressors.model, fit.regressors.model),
         generated=Path(GENERATED, found.robot.name),
         notes=tuple(dict.fromkeys(told)),
     )
@@ -123,49 +119,6 @@ def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[st
     if not found and FLEXIBLE not in model.robot.parameter_sets:
         return text, []
     return with_parameter_set(text, flexible_set(model, fit.parameter_set, found)), [_TWO_SETS]
-
-
-def _addition(one: Finding) -> Addition:
-    return addition(one.hypothesis, one.shape, one.known, f"{one.hypothesis.title}, {one.status}", one.amplitude)
-
-
-def _given(entered: Sequence[tuple[Finding, Addition]], robot: Robot) -> dict[str, Value]:
-    """Parameters of effects as they were found, beside noise that has a colour: a fit without it finds other values of
-    what is small, and none within its bounds. An effect that ``robot`` tells by another warmth has others.
-    """
-    return {
-        name: value
-        for finding, one in entered
-        if one.kind == EFFECT and all(as_written(one, robot, robot.numbers.index(number)) for number in one.joints)
-        for name, value in finding.parameters.items()
-        if value.value is not None and isfinite(value.std)
-    }
-
-
-def _description(found: Sequence[Finding]) -> str:
-    titles = ", ".join(dict.fromkeys(one.hypothesis.title for one in found))
-    return f"base parameters with {titles}" if titles else "base parameters, nothing missing"
-
-
-def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior:
-    """What the set says of the new model's base parameters, with a payload that was found."""
-    prior = prior_of(regressors.model, name)
-    for one in found:
-        if one.hypothesis.kind == BODY:
-            std = {name: one.parameters[name].std for name in one.known}
-            prior = with_payload(prior, regressors, one.known, std)
-    return prior
-
-
-def _prepared(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
-    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
-    robot = regressors.model.robot
-    for run in loaded(sources, robot):
-        yield prepared(run, recipes.recipe_of(robot.name), regressors)
-
-
-def _sampled(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
-    return [one.sampled for one in _prepared(sources, regressors)]
 
 
 def _beside(
@@ -190,4 +143,4 @@ def _gain(without: Sequence[Played], after: Sequence[Played], runs: str) -> Iter
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
-    return tuple(play(one, player, values) for one in _prepared(sources, player.regressors))
+    return tuple(play(one, player, values) for one in prepared_runs(sources, player.regressors))

@@ -32,6 +32,11 @@ class Untouched:
         return 100 * self.floor * float(np.sqrt(self.before.rows)) / self.before.spread if self.before.spread else 0.0
 
     @property
+    def worse(self) -> bool:
+        """Whether the model after leaves more, in parts of the torque's spread."""
+        return self.after.relative_to_mean > _WORSE * self.before.relative_to_mean
+
+    @property
     def closed(self) -> float | None:
         """The share of the gap between ``before`` and the noise that is closed, in squares of parts of the torque's
         spread, which a gain changes too; None without a gap.
@@ -68,7 +73,7 @@ def objections(
         f"joint {number} ({one.before.relative_to_mean:.3g} % without what was found, "
         f"{one.after.relative_to_mean:.3g} % with it)"
         for number, one in tried.items()
-        if one.after.relative_to_mean > _WORSE * one.before.relative_to_mean
+        if one.worse
     ]
     lacking = [
         f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"

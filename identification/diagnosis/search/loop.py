@@ -106,10 +106,10 @@ def search(
     values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting, lasting = Acting(), Lasting()
-    for turn in range(_PASSES):
+    for turn in range(_PASSES + 1):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
-        near = free or turn + 1 == _PASSES
+        near = free or turn + 1 >= _PASSES
         scenes = [Scene(run.sampled, regressors, values, acting, near) for run in clear]
         bank = Bank(clear, scenes, lasting)
         offered = _offered(bank, train)
@@ -127,10 +127,14 @@ def search(
         depends = acting.again or (regressors.reads_load and bool(acting.variants))
         if acting.jumps == before.jumps and (not depends or acting.near(before)):
             break
+        # Beside a gain that is not settled no parameter of what it scales has its value.
+        doubles = doubling.doubling(acting)
+        if turn + 1 == _PASSES + doubles:
+            break
         if swinging(chosen) and turn + 1 < _PASSES:
             progress("settling how drive trains swing")
             chosen, values, acting = settled(weighing, chosen)
-        elif doubling.doubling(acting) and turn + 1 < _PASSES:
+        elif doubles:
             progress("settling how large a gain is")
             chosen, values, acting = doubling.settled(weighing, chosen, old)
     return Search(

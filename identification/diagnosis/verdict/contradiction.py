@@ -6,7 +6,7 @@ An effect of a joint may have another value than it once had; where a body has, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from generator.review.decimals import scientific
 from generator.review.words import listed
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 
 #: How many values are told by name.
 _NAMED = 6
@@ -25,7 +26,7 @@ _LITTLE = 0.2
 @dataclass(frozen=True)
 class Contradicted:
     """A base parameter, by its ``place``, that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI];
-    ``body`` tells whether it is of bodies and of no effect alone.
+    ``joint`` is that of its effect by number, 0 of one that is of bodies.
     """
 
     name: str
@@ -33,7 +34,7 @@ class Contradicted:
     found: float
     known: float
     std: float
-    body: bool
+    joint: int
 
     @property
     def text(self) -> str:
@@ -51,14 +52,27 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before = np.diag(inverse(prior.precision))
     values = np.array([found.values[name] for name in names])
     far = prior.far(values, found.covariance[: len(names), : len(names)])
-    effects = {name for one in effects_of(found.bank.robot) for name in one.names}
+    joints = {name: one.joint.number for one in effects_of(found.bank.robot) for name in one.names}
     return tuple(
         Contradicted(
-            names[i], i, float(values[i]), float(prior.mean[i]), float(np.sqrt(before[i])), names[i] not in effects
+            names[i],
+            i,
+            float(values[i]),
+            float(prior.mean[i]),
+            float(np.sqrt(before[i])),
+            joints.get(names[i], 0),
         )
         for i in np.argsort(-far).tolist()
         if far[i] > FAR
     )
+
+
+def doubted(named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
+    """What was found, tentative where a known value of an effect on its joint is contradicted: the right law leaves
+    friction as it is known.
+    """
+    joints = {one.joint for one in ones if one.joint}
+    return tuple(replace(one, status=TENTATIVE) if joints & set(one.joints) else one for one in named)
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
@@ -66,7 +80,7 @@ def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
     other parameter stands for; None where it is little.
     """
     weighing, joints = found.weighing, range(found.bank.dof)
-    weights = {one.place: one.found - one.known for one in ones if one.body}
+    weights = {one.place: one.found - one.known for one in ones if not one.joint}
     others = np.setdiff1d(np.arange(len(found.bank.base)), [*weights])
     power = weighing.powers(weights, others, joints)
     size = np.sqrt([power[k] / max(weighing.rows[k], 1) for k in joints])
@@ -74,11 +88,17 @@ def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
     return most if size[most] > _LITTLE else None
 
 
-def note(ones: Sequence[Contradicted]) -> list[str]:
-    """What is to be told of them."""
+def note(ones: Sequence[Contradicted], named: Sequence[Finding]) -> list[str]:
+    """What is to be told of them, and of what was ``named`` on their joints."""
     if not ones:
         return []
     told = [one.text for one in ones[:_NAMED]]
     more = len(ones) - len(told)
     rest = [f"{more} more"] if more else []
-    return [f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"]
+    doubts = [
+        f"{finding.hypothesis.named} may be another law, which leaves {listed(names)} as known"
+        for finding in named
+        if (names := [one.name for one in ones if one.joint in finding.joints])
+    ]
+    those = f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"
+    return [those, *doubts]

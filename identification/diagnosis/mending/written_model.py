@@ -1,0 +1,98 @@
+"""A robot file with what was found in it, and the parameters of that model from the fitted runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+from generator.robot.description import Robot
+from identification import recipe as recipes
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT
+from identification.diagnosis.columns.normal_equations import Prior
+from identification.diagnosis.columns.priors import preferring, prior_of
+from identification.diagnosis.diagnosis import Diagnosis
+from identification.diagnosis.mending.addition import Addition, addition, measured
+from identification.diagnosis.mending.refit import Refit, refit, with_payload
+from identification.diagnosis.mending.repair import Repaired, as_written, repaired
+from identification.diagnosis.mending.writable import loaded, writable
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.verdict.finding import Finding
+from identification.observation import Regressors
+from identification.outcome import Value
+from identification.sampling import Sampled
+
+
+@dataclass(frozen=True, kw_only=True)
+class WrittenModel:
+    """The ``findings`` that a ``repaired`` robot file holds, as the ``additions`` do beside what was measured without
+    torque; its parameters, and what is to be told of both.
+    """
+
+    findings: tuple[Finding, ...]
+    additions: tuple[Addition, ...]
+    repaired: Repaired
+    fit: Refit
+    notes: tuple[str, ...]
+
+
+def written_model(
+    text: str, name: str, found: Diagnosis, findings: Sequence[Finding], prior: str | None
+) -> WrittenModel:
+    """The robot file ``text`` with those of ``findings`` that it can hold, its parameters near the set ``prior``."""
+    aside, wanted = measured(found.search.offered), [*map(_addition, findings)]
+    additions, unwritten = writable(text, name, [*wanted, *aside], found.roles, found.search.bank.scenes)
+    new = repaired(text, name, additions)
+    entered = [(finding, one) for finding, one in zip(findings, wanted, strict=True) if one in additions]
+    held = tuple(finding for finding, _ in entered)
+    regressors = Regressors(preferring(new.robot, prior))
+    known = None if prior is None else _prior(prior, regressors, held)
+    said, given = _description(held), _given(entered, new.robot)
+    fit = refit(sampled_runs(found.roles.searched, regressors), regressors, known, said, given)
+    stated_aside = [one.evidence for one in aside if one in additions]
+    notes = (*stated_aside, *unwritten, *new.notes, *fit.notes)
+    return WrittenModel(findings=held, additions=tuple(additions), repaired=new, fit=fit, notes=notes)
+
+
+def prepared_runs(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
+    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
+    robot = regressors.model.robot
+    for run in loaded(sources, robot):
+        yield prepared(run, recipes.recipe_of(robot.name), regressors)
+
+
+def sampled_runs(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
+    """The same, with all their rows."""
+    return [one.sampled for one in prepared_runs(sources, regressors)]
+
+
+def _addition(one: Finding) -> Addition:
+    return addition(one.hypothesis, one.shape, one.known, f"{one.hypothesis.title}, {one.status}", one.amplitude)
+
+
+def _given(entered: Sequence[tuple[Finding, Addition]], robot: Robot) -> dict[str, Value]:
+    """Parameters of effects as they were found, beside noise that has a colour: a fit without it finds other values of
+    what is small, and none within its bounds. An effect that ``robot`` tells by another warmth has others.
+    """
+    return {
+        name: value
+        for finding, one in entered
+        if one.kind == EFFECT and all(as_written(one, robot, robot.numbers.index(number)) for number in one.joints)
+        for name, value in finding.parameters.items()
+        if value.value is not None and isfinite(value.std)
+    }
+
+
+def _description(found: Sequence[Finding]) -> str:
+    titles = ", ".join(dict.fromkeys(one.hypothesis.title for one in found))
+    return f"base parameters with {titles}" if titles else "base parameters, nothing missing"
+
+
+def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior:
+    """What the set says of the new model's base parameters, with a payload that was found."""
+    prior = prior_of(regressors.model, name)
+    for one in found:
+        if one.hypothesis.kind == BODY:
+            std = {name: one.parameters[name].std for name in one.known}
+            prior = with_payload(prior, regressors, one.known, std)
+    return prior

@@ -1,0 +1,71 @@
+"""Which tentative findings a new model goes without: those that make it worse than the old one, and no others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from identification.diagnosis.mending.untouched import Untouched
+from identification.diagnosis.mending.without_harm import without_harm
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
+from identification.residuals import Residual
+
+#: What the old model leaves of each joint, of a spread of 1.
+OLD = 0.1
+
+
+def finding(name: str, joints: Sequence[int], drop: float, status: str = TENTATIVE) -> Any:
+    return SimpleNamespace(
+        name=name,
+        status=status,
+        amplitude=dict.fromkeys(joints, 1.0),
+        evidence=SimpleNamespace(drop=drop),
+        hypothesis=SimpleNamespace(named=name),
+    )
+
+
+def left(size: float) -> Residual:
+    return Residual(rows=100, norm=size, torque=1.0, spread=1.0)
+
+
+def kept(found: Sequence[Any], worse: dict[frozenset[str], dict[int, float]]) -> tuple[set[str], list[str]]:
+    """Findings by name that stay, where models with some of them leave so much of joints, else as much as the old."""
+
+    def tried(model: Any) -> dict[int, Untouched]:
+        now = worse.get(frozenset(one.name for one in model.findings), {})
+        return {joint: Untouched(left(OLD), left(now.get(joint, OLD)), 0.01) for joint in (1, 2)}
+
+    model, notes = without_harm(model_of(found), model_of, tried)
+    return {one.name for one in model.findings}, notes
+
+
+def model_of(found: Sequence[Any]) -> Any:
+    return SimpleNamespace(findings=tuple(found))
+
+
+GAIN, DELAY = finding("gain", [1], 50.0), finding("delay", [1], 90.0)
+
+
+def test_what_spoils_its_joint_is_left_out_and_told() -> None:
+    names, notes = kept([GAIN, DELAY], {frozenset({"gain", "delay"}): {1: 0.2}})
+    assert names == {"delay"}
+    assert notes == [
+        "gain is not in the new model, which is worse with it on joint 1 (20 % of it is left, 10 % without)"
+    ]
+
+
+def test_what_is_not_the_cause_stays() -> None:
+    both, without = frozenset({"gain", "delay"}), frozenset({"delay"})
+    assert kept([GAIN, DELAY], {both: {1: 0.2}, without: {1: 0.3}})[0] == {"gain"}
+    names, notes = kept([GAIN, DELAY], {both: {1: 0.2}, without: {1: 0.3}, frozenset({"gain"}): {1: 0.25}})
+    assert (names, notes) == ({"gain", "delay"}, [])
+
+
+@pytest.mark.parametrize(
+    "one", [finding("gain", [1], 50.0, FIRM), finding("gain", [1, 2], 50.0), finding("gain", [2], 50.0)]
+)
+def test_what_is_firm_or_helps_elsewhere_stays(one: Any) -> None:
+    assert kept([one], {frozenset({"gain"}): {1: 0.2}})[0] == {"gain"}
