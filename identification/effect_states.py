@@ -28,16 +28,16 @@ _SAME, _GUESSES = 1e-9, 30
 _FAR = 10.0
 #: Difference of states that slopes are taken over.
 _APART = 1e-6
-#: Speed in parts of its rms below which a joint stood before its record began.
-_RESTED = 0.01
+#: Mean speed of the first samples, in parts of the rms, below which a joint stood before its record began.
+_RESTED, _FIRST = 0.03, 10
 
 
 def beginning(qd: Array) -> Array:
     """States at the beginning of a record of speeds (... x N) [rad/s, m/s], each that of a long motion the same way: 1
     or -1. Nobody knows how a joint came to rest that stands: 0.
     """
-    size = np.sqrt(np.mean(qd**2, axis=-1))
-    return np.where(np.abs(qd[..., 0]) > _RESTED * size, np.sign(qd[..., 0]), 0.0)
+    size, first = np.sqrt(np.mean(qd**2, axis=-1)), np.mean(qd[..., :_FIRST], axis=-1)
+    return np.where(np.abs(first) > _RESTED * size, np.sign(first), 0.0)
 
 
 def integrated(rates: Rates, q: Array, qd: Array, period: float, start: Array) -> Array:
@@ -60,7 +60,8 @@ def integrated(rates: Rates, q: Array, qd: Array, period: float, start: Array) -
         new = _recursion(np.exp(x), h * _phi(x) * (rate - slope * about), start)
         change = np.abs(new - z).max()
         z = new
-        if change < _SAME:
+        # What has no value is told by the torque that it makes.
+        if change < _SAME or not np.isfinite(change):
             return z[::steps].T.copy()
     return _one_by_one(rates, middle_q, middle_qd, h, start)[::steps].T.copy()
 

@@ -44,7 +44,10 @@ class Rows:
 
 @dataclass(frozen=True)
 class Sampled:
-    """A run ready to be observed: its filtered motion, without the ends; ``still`` are joints without motion."""
+    """A run ready to be observed: its filtered motion, without the ends; ``still`` are joints without motion.
+
+    ``head`` are the speeds (n x h) [rad/s, m/s] before it, since the run began: states inside effects remember them.
+    """
 
     run: Run
     filters: Filters
@@ -52,6 +55,7 @@ class Sampled:
     tau: Array
     left_out: NDArray[np.bool_]
     still: tuple[int, ...]
+    head: Array
 
     @property
     def times(self) -> Array:
@@ -85,7 +89,7 @@ def sampled(
     left_out = standing(regressors.signs, motion.qd, slow)
     if run.unusable is not None:
         left_out |= run.unusable[:, inner]
-    result = Sampled(run, filters, motion, run.tau[:, inner], left_out, still)
+    result = Sampled(run, filters, motion, run.tau[:, inner], left_out, still, qd[:, : inner.start])
     _check_defined(result, regressors)
     return result
 

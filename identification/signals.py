@@ -46,11 +46,12 @@ def numbered(recording: Recording, robot: Robot) -> Recording:
 
 def overlooked(recording: Recording, robot: Robot) -> Iterator[str]:
     """Columns whose names are nearly those of what a run may hold beside, and does not: they are not used."""
-    numbered_names = (f"{stem}{number}" for stem in FURTHER for number in robot.numbers)
+    # Nothing reads speeds.
+    numbered_names = (f"{stem}{number}" for stem in FURTHER if stem != "qd" for number in robot.numbers)
     missing = {_plain(name): name for name in (*numbered_names, *WRENCH) if name not in recording.columns}
     for name in recording.columns:
         if not meant(name) and (wanted := missing.get(_plain(name))):
-            yield f"{recording.where(None, name)}: column {name} is not used; {wanted} would be"
+            yield f"{recording.where(None, name)}: column {name} is not known, perhaps {wanted} is meant"
 
 
 def _plain(name: str) -> str:

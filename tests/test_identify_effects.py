@@ -66,9 +66,9 @@ def test_states_are_those_of_an_implicit_integration(effect: str) -> None:
 
 def test_a_record_begins_as_the_joint_moved_before() -> None:
     """Of one that stands nobody knows how it came to rest; what noise its speed has tells nothing."""
-    speed = np.sin(np.linspace(0, 20, 500))
-    noise = 1e-4 * np.random.default_rng(1).normal(size=500)
-    starts = beginning(np.stack([np.cos(speed), -np.cos(speed), speed + noise, np.zeros(500)]))
+    speed = np.sin(np.linspace(0, 20, 20000))
+    noise = 1e-3 * np.random.default_rng(1).normal(size=20000)
+    starts = beginning(np.stack([np.cos(speed), -np.cos(speed), speed + noise, np.zeros(20000)]))
     np.testing.assert_array_equal(starts, [1, -1, 0, 0])
 
 

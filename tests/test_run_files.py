@@ -72,7 +72,7 @@ def test_a_column_that_is_nearly_a_known_one_is_told(
 ) -> None:
     path = good.with_columns(**{spelt: good.columns["q1"] + 1e-4}).save(tmp_path / "a.csv")
     place = f"{path}:1:{len(','.join(good.columns)) + 2}"
-    assert load(str(path), robot).notes == (f"{place}: column {spelt} is not used; {meant} would be",)
+    assert load(str(path), robot).notes == (f"{place}: column {spelt} is not known, perhaps {meant} is meant",)
 
 
 def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot, tmp_path: Path) -> None:

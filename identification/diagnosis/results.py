@@ -30,7 +30,7 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         "mode": found.mode,
         "verdict": found.verdict,
         "where": _where(found.before),
-        "findings": [_finding(one) for one in found.findings],
+        "findings": [_finding(one, new) for one in found.findings],
         "unexplained": _where(found.after) if found.verdict == UNEXPLAINED else None,
         "contradicted": [
             {"parameter": one.name, "value": one.found, "known": one.known, "known_std": one.std}
@@ -68,12 +68,13 @@ def _residual(found: Diagnosis, new: Mended) -> dict[str, Any]:
     return result
 
 
-def _finding(one: Finding) -> dict[str, Any]:
+def _finding(one: Finding, new: Mended | None) -> dict[str, Any]:
     return {
         "effect": one.hypothesis.effect,
         "title": one.hypothesis.title,
         "joints": list(one.joints),
         "status": one.status,
+        "written": None if new is None else one in new.written,
         "parameters": {each.name: {"value": each.value, "std": each.std, "unit": each.unit} for each in one.told},
         "determined": one.determined,
         "amplitude": {str(number): value for number, value in one.amplitude.items()},

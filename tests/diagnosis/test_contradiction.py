@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from identification.diagnosis.columns.hypothesis import BODY
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.results import document
@@ -54,10 +55,12 @@ def test_what_is_named_beside_friction_that_is_contradicted_is_not_firm(tmp_path
     regressors, sources = recorded(tmp_path, [torque("stribeck")] * 3, ARM + parameters_text({"known": TRUTH}))
     found = diagnosis_of(sources, regressors, "known")
     assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("stribeck_friction", FIRM)]
-    one = Contradicted("Fv1", found.search.bank.base.index("Fv1"), 5.0, TRUTH["Fv1"], 0.7, 1)
-    for other, status in ((one, TENTATIVE), (replace(one, joint=2), FIRM), (replace(one, joint=0), FIRM)):
+    one = Contradicted("Fv1", found.search.bank.base.index("Fv1"), 5.0, TRUTH["Fv1"], 0.7, False, 1)
+    for other, status in ((one, TENTATIVE), (replace(one, rubs=2), FIRM), (replace(one, rubs=0), FIRM)):
         assert [each.status for each in doubted(found.findings, [other])] == [status]
         assert len(note([other], found.findings)) == (2 if status == TENTATIVE else 1)
+    of_all = replace(found.findings[0], hypothesis=replace(found.findings[0].hypothesis, effect="payload", kind=BODY))
+    assert doubted([of_all], [one]) == (of_all,)
 
 
 def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:
@@ -68,9 +71,9 @@ def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tm
     far[names.index("MX1")] = 10 * 0.05 * TRUTH["MX1"]
     (one,) = contradicted(found.search, replace(prior, mean=prior.mean + far))
     assert one.name == "MX1"
-    assert one.joint == 0
+    assert (one.body, one.rubs) == (True, 0)
     assert pulled(found.search, [one]) == 0
-    assert pulled(found.search, [replace(one, joint=1)]) is None
+    assert pulled(found.search, [replace(one, body=False)]) is None
     assert pulled(found.search, [replace(one, found=one.known * 1.0001)]) is None
 
 

@@ -106,19 +106,19 @@ class EffectColumns:
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
     def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state, at the beginning as a file's own effect has it (``effect_states``)."""
+        """The effect's state along a scene, since the run's start as a file's own effect has it (``effect_states``)."""
         stride = max(1, int(1 / (scene.period * _STEPS)))
-        qd = scene.motion.qd[self._k]
+        head = scene.sampled.head[self._k]
+        qd = np.concatenate([head, scene.motion.qd[self._k]])
         # Means over the steps: what is worn in is a matter of the way.
         way = cumulative_trapezoid(qd, initial=0)[::stride]
         speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
-        start = float(beginning(speed))
         given = np.array([*values, stride * scene.period])[:, None]
         if count not in self._by_count:
             self._by_count[count] = self._step.mapaccum("states", count)
-        _, z = self._by_count[count](start, speed[None], np.tile(given, count))
-        return [np.interp(np.arange(scene.motion.samples), np.arange(count) * stride, z.full()[0])]
+        _, z = self._by_count[count](float(beginning(qd)), speed[None], np.tile(given, count))
+        return [np.interp(np.arange(len(head), len(qd)), np.arange(count) * stride, z.full()[0])]
 
 
 def _symbol(shape: Shape) -> sympy.Symbol:

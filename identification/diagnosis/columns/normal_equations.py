@@ -248,11 +248,13 @@ def _inverse_of_two(A: Array, rank: float) -> Array | None:
     (a, c), (_, b) = A.tolist()
     if not (a > 0 and b > 0):
         return None
-    cosine = abs(c) / sqrt(a * b)
-    if 1 - cosine <= rank * (1 + cosine) or min(a, b) <= 1e-24 * max(a, b):
+    size, other = sqrt(a), sqrt(b)
+    cosine = c / size / other
+    if 1 - abs(cosine) <= rank * (1 + abs(cosine)) or min(size, other) <= 1e-12 * max(size, other):
         return None
-    free = a * b - c * c
-    return np.array([[b / free, -c / free], [-c / free, a / free]])
+    scale = 1 / ((1 - cosine) * (1 + cosine))
+    across = -scale * cosine / size / other
+    return np.array([[scale / a, across], [across, scale / b]])
 
 
 def lowered(A: Array, b: Array, x: Array) -> float:

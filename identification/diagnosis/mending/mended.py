@@ -37,13 +37,15 @@ _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model w
 class Mended:
     """The new robot file's ``text``, its ``robot`` and parameters, and its code's place in the folder (``generated``).
 
-    ``tested`` are the test runs, ``before`` and ``after`` those as the old and the new model play them, ``tried`` what
-    that says of each joint, by its number; ``file_difference`` and ``groupings_difference`` are unified diffs.
+    ``written`` are the findings in the file, ``tested`` the test runs, ``before`` and ``after`` those as the old and
+    the new model play them, ``tried`` what that says of each joint, by its number; ``file_difference`` and
+    ``groupings_difference`` are unified diffs.
     """
 
     text: str
     robot: Robot
     fit: Refit
+    written: tuple[Finding, ...]
     tested: tuple[Sampled, ...]
     before: tuple[Played, ...]
     after: tuple[Played, ...]
@@ -80,7 +82,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
             played = _played(found.roles.test, Player(fit.regressors), fit.written)
             return untouched(bank, *_beside(runs, old, refitted, played))
 
-        model, harmful = without_harm(model_of(found.findings), model_of, tried_with)
+        whole = model_of(found.findings)
+        model, harmful = without_harm(whole, model_of, tried_with)
     new, fit, additions = model.repaired, model.fit, model.additions
     text, sets = _with_sets(new.text, fit, additions)
     replace(folder, {name: text.encode()})
@@ -91,7 +94,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         without = (before, after) if prior is None else _beside(runs, old, refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
-    left_out = {j for one in found.findings if one not in model.findings for j in one.amplitude}
+    left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *sets, *notes]
     if prior is not None:
         told += _gain(*without, found.roles.tested) if model.findings else [_FITTED]
@@ -100,6 +103,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         text=text,
         robot=new.robot,
         fit=fit,
+        written=model.findings,
         tested=tuple(one.sampled for one in runs),
         before=before,
         after=after,

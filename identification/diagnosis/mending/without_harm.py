@@ -12,8 +12,8 @@ from identification.diagnosis.mending.untouched import Untouched
 from identification.diagnosis.mending.written_model import WrittenModel
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 
-#: Findings that are left out by way of trial, at most.
-_TRIED = 3
+#: Findings that are left out by way of trial, at most, and how much less a model without one must leave.
+_TRIED, _BETTER = 3, 1.05
 
 
 def without_harm(
@@ -24,14 +24,17 @@ def without_harm(
     """The ``model`` without tentative findings that make it worse than the old one on each of their joints and without
     which it is better there, those of least evidence first; and what is to be told.
     """
-    tried, notes = tried_with(model), list[str]()
+    notes: list[str] = []
     doubtful = sorted((one for one in model.findings if one.status == TENTATIVE), key=lambda one: one.evidence.drop)
+    if not doubtful:
+        return model, notes
+    tried = tried_with(model)
     for one in [one for one in doubtful if _spoiled(one, tried)][:_TRIED]:
         if not _spoiled(one, tried):
             continue
         less = model_of([other for other in model.findings if other is not one])
         instead = tried_with(less)
-        if all(instead[j].after.relative_to_mean < tried[j].after.relative_to_mean for j in one.amplitude):
+        if all(_BETTER * instead[j].after.relative_to_mean < tried[j].after.relative_to_mean for j in one.amplitude):
             told = [
                 f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
                 f"{instead[j].after.relative_to_mean:.3g} % without)"

@@ -31,7 +31,8 @@ from identification.observation import Regressors
 
 Array = NDArray[np.float64]
 
-#: Times that columns which depend on the model are made anew with what was found.
+#: Times that columns which depend on the model are made, all but the first with what was found; one more with a gain
+#: that is to be settled.
 _PASSES = 3
 #: Times that the model is fitted before, where columns of it depend on its values.
 _FITS = 5

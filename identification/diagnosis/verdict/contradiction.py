@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from generator.effects.library import effects_of
+from generator.effects.library import effects_of, library
 from generator.review.decimals import scientific
 from generator.review.words import listed
+from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
@@ -26,7 +27,7 @@ _LITTLE = 0.2
 @dataclass(frozen=True)
 class Contradicted:
     """A base parameter, by its ``place``, that the runs say is ``found``, where ``known`` +- ``std`` was stated [SI];
-    ``joint`` is that of its effect by number, 0 of one that is of bodies.
+    ``body`` tells whether it is of bodies and of no effect alone, ``rubs`` on which joint it is friction, 0 on none.
     """
 
     name: str
@@ -34,7 +35,8 @@ class Contradicted:
     found: float
     known: float
     std: float
-    joint: int
+    body: bool
+    rubs: int
 
     @property
     def text(self) -> str:
@@ -52,7 +54,9 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before = np.diag(inverse(prior.precision))
     values = np.array([found.values[name] for name in names])
     far = prior.far(values, found.covariance[: len(names), : len(names)])
-    joints = {name: one.joint.number for one in effects_of(found.bank.robot) for name in one.names}
+    stated = effects_of(found.bank.robot)
+    effects = {name for one in stated for name in one.names}
+    rubs = {name: one.joint.number for one in stated if one.effect.dissipates for name in one.names}
     return tuple(
         Contradicted(
             names[i],
@@ -60,7 +64,8 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
             float(values[i]),
             float(prior.mean[i]),
             float(np.sqrt(before[i])),
-            joints.get(names[i], 0),
+            names[i] not in effects,
+            rubs.get(names[i], 0),
         )
         for i in np.argsort(-far).tolist()
         if far[i] > FAR
@@ -68,11 +73,18 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
 
 
 def doubted(named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
-    """What was found, tentative where a known value of an effect on its joint is contradicted: the right law leaves
-    friction as it is known.
+    """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
+    as it is known.
     """
-    joints = {one.joint for one in ones if one.joint}
-    return tuple(replace(one, status=TENTATIVE) if joints & set(one.joints) else one for one in named)
+    return tuple(replace(one, status=TENTATIVE) if _instead_of(one, ones) else one for one in named)
+
+
+def _instead_of(one: Finding, ones: Sequence[Contradicted]) -> list[str]:
+    """Names of contradicted friction in whose place a friction may stand that was found."""
+    effect = library().get(one.hypothesis.effect) if one.hypothesis.kind == EFFECT else None
+    if effect is None or not effect.dissipates:
+        return []
+    return [each.name for each in ones if each.rubs and each.rubs == one.hypothesis.joint]
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
@@ -80,7 +92,7 @@ def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
     other parameter stands for; None where it is little.
     """
     weighing, joints = found.weighing, range(found.bank.dof)
-    weights = {one.place: one.found - one.known for one in ones if not one.joint}
+    weights = {one.place: one.found - one.known for one in ones if one.body}
     others = np.setdiff1d(np.arange(len(found.bank.base)), [*weights])
     power = weighing.powers(weights, others, joints)
     size = np.sqrt([power[k] / max(weighing.rows[k], 1) for k in joints])
@@ -96,9 +108,9 @@ def note(ones: Sequence[Contradicted], named: Sequence[Finding]) -> list[str]:
     more = len(ones) - len(told)
     rest = [f"{more} more"] if more else []
     doubts = [
-        f"{finding.hypothesis.named} may be another law, which leaves {listed(names)} as known"
-        for finding in named
-        if (names := [one.name for one in ones if one.joint in finding.joints])
+        f"{one.hypothesis.named} may be another law, which leaves {listed(names)} as known"
+        for one in named
+        if (names := _instead_of(one, ones))
     ]
     those = f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"
     return [those, *doubts]

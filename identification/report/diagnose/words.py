@@ -141,12 +141,12 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
 def change(subject: Subject) -> Iterator[str]:
     """What naming it changed on the runs that test."""
     tried = subject.tried
-    if not tried or not subject.found.findings or subject.mended is None:
+    if not tried or subject.mended is None or not subject.mended.written:
         return
     totals = [together(played).total.relative_to_mean for played in (subject.mended.before, subject.mended.after)]
     was, now = (f"{plain(one, 3)}\u202f%" for one in totals)
     yield f"On the {subject.found.roles.tested} {now} of the torques' spread is left, instead of {was}."
-    acted = [number for number in subject.found.findings[0].amplitude if number in tried]
+    acted = [number for number in subject.mended.written[0].amplitude if number in tried]
     for number in acted[:1] or list(tried)[:1]:
         one = tried[number]
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))

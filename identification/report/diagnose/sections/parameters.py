@@ -28,7 +28,7 @@ def render(subject: Subject) -> Markup | None:
         rows[name] = {"value": value if known else None, "std": std, "relative_std_percent": relative, "unit": unit}
         states[name] = element("span", "new", class_="state") if name not in old else None
     text = (
-        "Fitted anew to the fitted runs, with the findings in place; standard deviations allow for the colour of the"
-        " residuals. The robot file has them as the set "
+        "Fitted anew to the fitted runs, with the findings in place that the file holds; standard deviations allow for"
+        " the colour of the residuals. The robot file has them as the set "
     )
     return join(element("p", text, element("code", mended.fit.parameter_set.name), "."), parameter_table(rows, states))
