@@ -73,7 +73,7 @@ def refit(
     are fitted like any other.
     """
     given = {name: one for name, one in (given or {}).items() if name in regressors.names}
-    runs = _told_apart(runs)
+    runs = _by_own_payloads(runs)
     payloads = [one.run.payload for one in runs if one.run.payload is not None]
     known = {name: value for payload in payloads for name, value in payload.fixed.items()}
     carried = [name for payload in payloads for name in payload.names().values()]
@@ -111,7 +111,7 @@ def refit(
     return Refit(values, std, written, regressors, tuple(notes))
 
 
-def _told_apart(runs: Sequence[Sampled]) -> list[Sampled]:
+def _by_own_payloads(runs: Sequence[Sampled]) -> list[Sampled]:
     """The runs, their payloads by names of their own: payloads of several runs may share one and be others."""
     different: list[Mapping[str, float]] = []
     result = []

@@ -7,13 +7,14 @@ other is no effect of the robot.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from identification.diagnosis.mending.untouched import Untouched
 from identification.diagnosis.mending.written_model import WrittenModel
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
 
-#: Findings that are left out by way of trial, at most, and how much less a model without one must leave.
-_TRIED, _BETTER = 3, 1.05
+#: Findings that are left out by way of trial, at most.
+_TRIED = 3
 
 
 def without_harm(
@@ -34,7 +35,7 @@ def without_harm(
             continue
         less = model_of([other for other in model.findings if other is not one])
         instead = tried_with(less)
-        if all(_BETTER * instead[j].after.relative_to_mean < tried[j].after.relative_to_mean for j in one.amplitude):
+        if all(replace(tried[j], before=instead[j].after).worse for j in one.amplitude):
             told = [
                 f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
                 f"{instead[j].after.relative_to_mean:.3g} % without)"
