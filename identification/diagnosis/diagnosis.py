@@ -82,10 +82,10 @@ def diagnose(
     train = range(len(roles.train))
     validate = range(len(roles.train), len(runs))
     found = search(runs, train, validate, regressors, prior, progress, dry)
-    robot, few = regressors.model.robot, few_rows.few_rows(found.bank)
-    found, small = few_rows.without_small(found, few)
+    robot, few = regressors.model.robot, found.weighing.few
     trial = None if dry else along(found, test)
     found, gone = confirmed(found, trial)
+    small = [] if dry else few_rows.left_out(found)
     progress("looking where the residual is")
     start, weights = found.start, found.weights
     first, last = seen(found, start), seen(found, weights)

@@ -5,6 +5,10 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import pytest
+
+from identification.diagnosis.search.evidence import SMALL
+from identification.diagnosis.search.few_rows import small
 from identification.diagnosis.verdict import few_rows
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from tests.diagnosis.test_swinging import finding
@@ -14,32 +18,51 @@ ROBOT: Any = SimpleNamespace(numbers=(1, 2, 3))
 FEW = {1: (90, 12)}
 
 
-def choice(effect: str, joints: tuple[int, ...], size: float, believed: bool = True) -> Any:
+def variant(effect: str, joints: tuple[int, ...], preset: bool = False) -> Any:
     hypothesis = SimpleNamespace(kind="effect", effect=effect, stated=False, named=f"{effect} of a joint")
-    variant = SimpleNamespace(joints=joints, hypothesis=hypothesis)
-    return SimpleNamespace(evidence=SimpleNamespace(variant=variant, size=size, believed=believed))
+    return SimpleNamespace(joints=joints, hypothesis=hypothesis, preset=[0.1] if preset else None)
 
 
-def test_what_is_small_there_is_left_out_but_for_what_every_robot_has() -> None:
-    choices = [
-        choice("viscous_friction", (1,), 0.3),
-        choice("stribeck_friction", (1,), 0.3),
-        choice("torque_delay", (0, 1, 2), 0.7),
-        choice("torque_gain", (1,), 2.0, believed=False),
-        choice("stribeck_friction", (1,), 0.9),
-        choice("stribeck_friction", (2,), 0.3),
-    ]
-    found: Any = SimpleNamespace(choices=choices, keeping=lambda kept: kept)
-    kept, small = few_rows.without_small(found, FEW)
-    assert (kept, small) == ([choices[0], *choices[4:]], choices[1:4])
-    found.choices = choices[4:]
-    assert few_rows.without_small(found, FEW) == (found, [])
+@pytest.mark.parametrize(
+    ("effect", "joints", "size", "believed", "preset", "left_out"),
+    [
+        ("viscous_friction", (1,), 0.3, True, False, False),
+        ("stribeck_friction", (1,), 0.3, True, False, True),
+        ("stribeck_friction", (1,), 0.9, True, False, False),
+        ("stribeck_friction", (2,), 0.3, True, False, False),
+        ("torque_gain", (1,), 2.0, False, False, True),
+        ("torque_delay", (0, 1, 2), 0.7, True, False, True),
+        ("torque_delay", (0, 1, 2), 0.7, True, True, False),
+    ],
+)
+def test_what_is_small_there_is_left_out_but_for_what_every_robot_has_or_another_fit_tells(
+    effect: str, joints: tuple[int, ...], size: float, believed: bool, preset: bool, left_out: bool
+) -> None:
+    one: Any = SimpleNamespace(variant=variant(effect, joints, preset), size=size, believed=believed)
+    assert small(one, FEW) == left_out
+    assert not small(one, {})
+
+
+def test_of_what_was_left_out_the_best_is_told_on_each_joint() -> None:
+    def evidence(_: Any) -> list[Any]:
+        return [
+            SimpleNamespace(variant=variant("torque_delay", (0, 1)), why_not=SMALL),
+            SimpleNamespace(variant=variant("stribeck_friction", (1,)), why_not=SMALL),
+            SimpleNamespace(variant=variant("dahl_friction", (2,)), why_not="within chance"),
+            SimpleNamespace(variant=variant("stribeck_friction", (2,)), why_not=SMALL),
+        ]
+
+    found: Any = SimpleNamespace(variants=[], weighing=SimpleNamespace(few=FEW, evidence=evidence))
+    told = [(one.hypothesis.effect, one.joints) for one in few_rows.left_out(found)]
+    assert told == [("torque_delay", (0, 1)), ("stribeck_friction", (2,))]
+    found.weighing.few = {}
+    assert few_rows.left_out(found) == []
 
 
 def test_what_was_left_out_is_told_and_makes_findings_beside_it_tentative() -> None:
     """A finding on joint 2 reaches joint 1 too; nothing was left out of the fit of joint 3."""
     firm = finding("stribeck_friction", "effect", 1e-5)
-    whole, wrist = choice("torque_delay", (0, 1, 2), 0.3), choice("coupled_rotor", (0, 2), 0.3)
+    whole, wrist = variant("torque_delay", (0, 1, 2)), variant("coupled_rotor", (0, 2))
     (doubted,) = few_rows.doubted(FEW, ROBOT, [firm], [whole])
     assert (doubted.status, doubted.sure) == (TENTATIVE, False)
     assert few_rows.doubted(FEW, ROBOT, [firm], [wrist])[0].status == FIRM

@@ -116,7 +116,7 @@ def test_a_delay_is_as_uncertain_as_coloured_noise_leaves_it(tmp_path: Path) -> 
             source = Recorded({"t": t, "q1": motion.q[0], "tau1": (tau + 0.7 * noise / noise.std())[0]})
             run = ready(str(source.save(tmp_path / f"{number}.csv")), regressors)
             scenes.append(Scene(run.sampled, regressors, LINK))
-        found = delay_of(latenesses(scenes))
+        found = delay_of(latenesses(scenes)[0])
         assert found is not None
         assert found.std is not None
         off.append(((found.value or 0.0) - delay) / found.std)
@@ -171,6 +171,36 @@ def test_of_few_rows_a_ripple_near_none_hides_no_delay() -> None:
     found = delay_of([Lateness(delays, (), np.empty((0, len(delays))), valley, 150, 1.0)])
     assert found is not None
     assert found.value == pytest.approx(0.012, abs=5e-4)
+
+
+def test_motors_whose_rows_are_too_few_tell_one_delay_together(tmp_path: Path) -> None:
+    """Five for each parameter are not in the rows of the motor that drives both links, but in those of both motors."""
+    (tmp_path / "two_links.yaml").write_text(TWO_LINKS)
+    robot, draw = read(tmp_path / "two_links.yaml"), np.random.default_rng(5)
+    regressors, delay = Regressors(robot), 0.018
+    t, slow = fourier(robot, 1.6, RATE, 1)
+    motion = swinging(t, slow)
+    motors = np.linalg.solve(coupling(robot).T, regressors.torques(TRUTH, motion))
+    motors = earlier(motors, [-delay, -delay], 1 / RATE) + 0.02 * draw.normal(size=motors.shape)
+    q = coupling(robot) @ motion.q
+    columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
+    run = ready(str(Recorded(columns).save(tmp_path / "short.csv")), regressors)
+    own, as_late = latenesses([Scene(run.sampled, regressors, TRUTH)])
+    assert own[0] is None
+    assert None not in as_late
+    assert delay_of(own) is None
+    found = delay_of(as_late)
+    assert found is not None
+    assert found.value == pytest.approx(delay, abs=1e-3)
+
+
+def test_of_few_rows_noise_tells_no_delay() -> None:
+    """What 13 parameters take of it differs from delay to delay."""
+    delays = 0.001 * np.arange(-30, 31)
+    valley = 1 - 0.35 * np.exp(-(((delays - 0.012) / 0.004) ** 2))
+    names = tuple(f"X{number}" for number in range(13))
+    assert delay_of([Lateness(delays, names, np.empty((13, len(delays))), valley, 65, 1.0)]) is None
+    assert delay_of([Lateness(delays, names, np.empty((13, len(delays))), valley, 130, 1.0)]) is not None
 
 
 @pytest.mark.parametrize(("held", "drop"), [(0.5, 3.0), (1.0, 4.0), (-0.5, 0.0)])

@@ -42,12 +42,13 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
     if stated and all(stated):
         return []
-    late = latenesses(scenes)
-    shared = None if any(stated) else delay_of(late)
+    late, as_late = latenesses(scenes)
+    shared = None if any(stated) else delay_of(as_late)
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
     each = [delay_of([one], start) for one in late]
     whole = [start + _value(beyond) for beyond in each]
-    together, *told = [None if one is None else _Told(one, late, whole) for one in (shared, *each)]
+    together = None if shared is None else _Told(shared, as_late, whole)
+    told = [None if one is None else _Told(one, late, whole) for one in each]
     own = [
         _hypothesis((joint,), k, start if told[k] else 0.0, told[k])
         for k, joint in enumerate(moving)

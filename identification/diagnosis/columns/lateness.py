@@ -2,7 +2,8 @@
 
 What swings is another torque a quarter of its period later, and a model fitted without the delay has too little of it:
 neither tells the delay. Fitted at the right one a motor's rows leave least, whatever it swings by. What is known of
-parameters beforehand is not asked.
+parameters beforehand is not asked. Of motors whose rows are too few by themselves one delay may still be told: all
+motors are fitted at once at every one that they may have in common.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from scipy.interpolate import CubicSpline
 
 from identification.colour import inflation
 from identification.diagnosis.columns.bank import base_rows
+from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.runs.prepared import window, windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling, supplied
@@ -33,10 +35,12 @@ _LESS = 0.8
 #: Of a delay of several motors: how many must tell it, what it leaves of the squares of each that does, and its least
 #: part of what delays of their own would explain.
 _SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
-#: Difference of cost that is chance, in parts of the square root of the rows.
-_CHANCE = 4.0
+#: Difference of cost that is chance, in parts of the square root of the rows; and its standard deviations.
+_CHANCE, _DEVIATIONS = 4.0, 4.0
 #: Least rows for each base parameter, and least singular value of scaled columns.
 _ROWS, _RANK = 5, 1e-6
+#: Times that motors fitted at once are weighed by what each leaves.
+_WEIGHED = 4
 #: Part of a torque's square that is rounding.
 _ROUNDING = 1e-12
 
@@ -79,7 +83,7 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     gains = now - [one.cost[least] for one in known]
     most = np.sum(now - [one.cost.min() for one in known])
     telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
-    enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most)
+    enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most, _taken(known))
     if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
         return None
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
@@ -90,6 +94,13 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     delay = delays[least] + step * (before - after) / (2 * bends.sum())
     variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
     return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
+
+
+def _taken(among: Sequence[Lateness]) -> float:
+    """By how much costs of two delays may differ by chance: parameters take as many rows' worth of noise, the more
+    unlike the longer it lasts, of another part of the noise at every delay.
+    """
+    return _DEVIATIONS * float(np.sqrt(sum(4 * len(one.names) * one.colour for one in among)))
 
 
 def _nearest(beyond: Array, cost: Array, rows: int) -> int:
@@ -104,12 +115,17 @@ def _nearest(beyond: Array, cost: Array, rows: int) -> int:
     return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
 
 
-def latenesses(scenes: Sequence[Scene]) -> list[Lateness | None]:
-    """Of each motor along the runs; None where rows are too few."""
+def latenesses(scenes: Sequence[Scene]) -> tuple[list[Lateness | None], list[Lateness | None]]:
+    """Of each motor along the runs: late by itself, None where its rows are too few; and as late as all others, which
+    is the same where no motor has too few rows, and None where all together have.
+    """
     last = int(min(LONGEST, _OF_RUN * min(scene.motion.samples * scene.period for scene in scenes)) / _STEP)
     delays: Array = _STEP * np.arange(-last, last + 1, dtype=float)
     runs = [_Run(scene, delays) for scene in scenes]
-    return [_fitted(delays, runs, k) for k in range(len(scenes[0].robot.moving))]
+    motors = [_rows(runs, k) for k in range(len(scenes[0].robot.moving))]
+    own = [_fitted(delays, motor) for motor in motors]
+    known = all(late or not motor.acts for late, motor in zip(own, motors, strict=True))
+    return own, own if known else _together(delays, motors)
 
 
 def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float], motors: Sequence[int]) -> Array:
@@ -124,13 +140,34 @@ def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[floa
     return tau
 
 
-def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:
-    names = runs[0].names(k)
-    if not names:
-        return None
+@dataclass(frozen=True)
+class _Motor:
+    """Base columns ``W`` (p x N) of a motor's kept rows and its torque ``Y`` by each delay (D x N) [N m, N]; the
+    columns are those of the base parameters ``numbers``, called ``names``.
+    """
+
+    numbers: list[int]
+    names: tuple[str, ...]
+    W: Array
+    Y: Array
+
+    @property
+    def acts(self) -> bool:
+        return bool(self.numbers) and bool(self.Y.any())
+
+
+def _rows(runs: Sequence[_Run], k: int) -> _Motor:
+    """Of motor k in all runs."""
+    numbers = runs[0].numbers(k)
     W, Y = (np.concatenate(parts, axis=1) for parts in zip(*(run.rows(k) for run in runs), strict=True))
+    return _Motor(numbers, tuple(runs[0].scene.regressors.names[number] for number in numbers), W, Y)
+
+
+def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
+    """By its own rows."""
+    W, Y = motor.W, motor.Y
     count = W.shape[1]
-    if count < _ROWS * len(W) or not Y.any():
+    if not motor.acts or count < _ROWS * len(W):
         return None
     size = np.linalg.norm(W, axis=1)
     size[size == 0] = 1.0
@@ -142,14 +179,44 @@ def _fitted(delays: Array, runs: Sequence[_Run], k: int) -> Lateness | None:
     squares = np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max())
     best = int(np.argmin(squares))
     colour = inflation(Y[best] - parts[:, best] @ right[seen])
-    return Lateness(delays, names, solution, squares, count, colour)
+    return Lateness(delays, motor.names, solution, squares, count, colour)
+
+
+def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
+    """By all rows at once, each motor weighed by what it leaves."""
+    numbers = sorted({number for motor in motors for number in motor.numbers})
+    place = {number: i for i, number in enumerate(numbers)}
+    acting = [motor for motor in motors if motor.acts]
+    if not acting or sum(motor.W.shape[1] for motor in acting) < _ROWS * len(numbers):
+        return [None] * len(motors)
+    places = [[place[number] for number in motor.numbers] for motor in acting]
+    products = [(motor.W @ motor.W.T, motor.W @ motor.Y.T) for motor in acting]
+    solution = np.zeros((len(delays), len(numbers)))
+    left = np.array([np.sum(motor.Y**2, axis=1) for motor in acting])
+    least = _ROUNDING * left.max(axis=1)
+    for _ in range(_WEIGHED):
+        for d in range(len(delays)):
+            G, g = np.zeros((len(numbers), len(numbers))), np.zeros(len(numbers))
+            for at, motor, (of_columns, of_torques), squares in zip(places, acting, products, left, strict=True):
+                weight = motor.W.shape[1] / squares[d]
+                G[np.ix_(at, at)] += weight * of_columns
+                g[at] += weight * of_torques[:, d]
+            solution[d] = inverse(G) @ g
+        errors = [motor.Y - solution[:, at] @ motor.W for at, motor in zip(places, acting, strict=True)]
+        left = np.maximum([np.sum(e**2, axis=1) for e in errors], least[:, None])
+    best = int(np.argmin(sum(e.shape[1] * np.log(squares) for e, squares in zip(errors, left, strict=True))))
+    told = {
+        id(motor): Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
+        for at, motor, squares, e in zip(places, acting, left, errors, strict=True)
+    }
+    return [told.get(id(motor)) for motor in motors]
 
 
 class _Run:
     """Rows of a run beside its torque taken earlier by every one of ``delays``."""
 
     def __init__(self, scene: Scene, delays: Array) -> None:
-        self._scene, factor = scene, scene.sampled.filters.factor
+        self.scene, factor = scene, scene.sampled.filters.factor
         self._base = base_rows(partial(windowed, factor=factor), scene)
         shifts = delays / scene.period
         out = windowed(scene.sampled.left_out.astype(float), factor) > 0
@@ -162,10 +229,6 @@ class _Run:
         # What acts beside the model is along the motion, which is not late.
         self._beside = windowed(scene.carried(scene.motion) + scene.torque - scene.model_torque, factor)
 
-    def names(self, k: int) -> tuple[str, ...]:
-        """Of the base parameters of a motor's rows."""
-        return tuple(self._scene.regressors.names[number] for number in self._numbers(k))
-
     def rows(self, k: int) -> tuple[Array, Array]:
         """Kept rows of the base columns of motor k (p x N) and of its torque by each delay (D x N) [N m, N]."""
         at, shifts = self._at
@@ -174,17 +237,17 @@ class _Run:
         W = np.array(
             [
                 sum(self._share[k, j] * self._base[j].get(number, none) for j in self._driven(k))
-                for number in self._numbers(k)
+                for number in self.numbers(k)
             ]
         )
-        tau = np.convolve(self._share[k] @ self._scene.sampled.tau, window(self._scene.sampled.filters.factor), "same")
+        tau = np.convolve(self._share[k] @ self.scene.sampled.tau, window(self.scene.sampled.filters.factor), "same")
         earlier = CubicSpline(np.arange(len(tau)), tau)(at[kept] + shifts[:, None])
         return W[:, kept], earlier - (self._share[k] @ self._beside)[kept]
 
     def _driven(self, k: int) -> list[int]:
         return np.flatnonzero(self._share[k]).tolist()
 
-    def _numbers(self, k: int) -> list[int]:
+    def numbers(self, k: int) -> list[int]:
         """Of the base parameters that its torque depends on, without the file's drive trains."""
-        count = len(self._scene.regressors.names)
+        count = len(self.scene.regressors.names)
         return sorted({number for j in self._driven(k) for number in self._base[j] if number < count})

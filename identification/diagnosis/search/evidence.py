@@ -13,6 +13,9 @@ from identification.diagnosis.columns.bank import Variant
 
 Array = NDArray[np.float64]
 
+#: Why an effect is not taken that would be, were rows not few.
+SMALL = "small beside what noise of few rows may hold"
+
 
 @dataclass(frozen=True)
 class Evidence:

@@ -62,7 +62,7 @@ class Selection:
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
-        chosen = list(start) or self._common_start()
+        chosen = list(start) or self._first()
         paired = False
         seen: set[frozenset[Key]] = set()
         refused: set[Key] = set()
@@ -100,17 +100,26 @@ class Selection:
         alike = [one for one in found if _agrees(one.evidence)]
         return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike])
 
-    def _common_start(self) -> list[Variant]:
-        """Where far more is missing than one effect: all common ones together and the best balancer, then without those
-        that nothing speaks for. One after the other they hide each other.
+    def _first(self) -> list[Variant]:
+        """What the search begins with: what is told of several joints by another fit, behind which small parts of it on
+        each of them would hide, and what is common where far more than that is missing.
         """
-        if self.weighing.unexplained([]) < _GROSS * self.weighing.normal.rows:
-            return []
+        variants = self.weighing.bank.variants
+        told = [one for one in variants if one.preset is not None and len(one.hypothesis.joints) > 1]
+        return self._with_common(self._standing(told))
+
+    def _with_common(self, told: Sequence[Variant]) -> list[Variant]:
+        """What is ``told``, and where far more is missing than one effect beside it: all common ones together and the
+        best balancer, then without those that nothing speaks for. One after the other they hide each other.
+        """
+        chosen = list(told)
+        if self.weighing.unexplained(chosen) < _GROSS * self.weighing.normal.rows:
+            return chosen
         offered: dict[Key, list[Variant]] = {}
         for one in self.weighing.bank.variants:
             if common(one) or (balances(one.hypothesis.effect) and one.hypothesis.usual):
                 offered.setdefault(one.key, []).append(one)
-        chosen = [shapes[0] for (effect, _), shapes in offered.items() if not balances(effect)]
+        chosen += [shapes[0] for (effect, _), shapes in offered.items() if not balances(effect)]
         balancers = [one for (effect, _), shapes in offered.items() if balances(effect) for one in shapes]
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)

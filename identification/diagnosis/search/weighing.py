@@ -21,7 +21,8 @@ from identification.diagnosis.columns.hypothesis import Hypothesis, Key
 from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior, after, inverse, square, told_apart
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction
-from identification.diagnosis.search.evidence import Evidence
+from identification.diagnosis.search.evidence import SMALL, Evidence
+from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
 from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
@@ -87,6 +88,7 @@ class Weighing:
         self.normal = self._normal(self.train)
         self.rows = np.sum([bank.rows(r) for r in self.train], axis=0)
         self._seen = bank.count
+        self.few = few_rows(bank)
 
     def along(self, bank: Bank) -> Weighing:
         """The same of another bank of the runs."""
@@ -228,6 +230,8 @@ class Weighing:
             return replace(one, why_not="may be what another effect's law lacks")
         if _at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
+        if small(one, self.few):
+            return replace(one, why_not=SMALL)
         return replace(one, passes=True)
 
     def _asked_of_others(self, variant: Variant, others: Sequence[Variant], promised: float) -> float:
