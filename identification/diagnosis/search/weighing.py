@@ -18,7 +18,16 @@ from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Hypothesis, Key
-from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior, after, inverse, square, told_apart
+from identification.diagnosis.columns.normal_equations import (
+    FAR,
+    Normal,
+    Places,
+    Prior,
+    after,
+    inverse,
+    square,
+    told_apart,
+)
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.evidence import SMALL, Evidence
@@ -26,9 +35,9 @@ from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
 from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
+from identification.diagnosis.search.tried import at_end, chance, tries
 
 Array = NDArray[np.float64]
-Places = NDArray[np.int64]
 #: Drop of the sum of squares, variant, coefficients.
 _Found = tuple[float, Variant, Array]
 
@@ -49,12 +58,8 @@ _TINY = 1e-300
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
 _MAIN = 0.5
-#: Times its low end below which what vanishes there has vanished.
-_VANISHED = 1.1
 #: Part of what an effect explains that is not of the noise of positions.
 _TRUE = 0.5
-#: Least points of a grid that has ends, and how far below and above them, in parts of the first and the last, is one.
-_FEWEST, _LOW, _HIGH = 4, 0.7, 1.4
 #: Hypotheses, by what they explain, that are tried on the validating runs.
 _JUDGED = 16
 #: Shapes of a hypothesis that are, and by what part of the best one's drop they may explain less.
@@ -201,9 +206,9 @@ class Weighing:
     def _judged(self, found: _Found, others: Sequence[Variant], unexplained: float) -> Evidence:
         drop, variant, x = self._asked_for(found, others)
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
-        p = _chance(drop, variant)
+        p = chance(drop, variant)
         free = len(x) + variant.hypothesis.free
-        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(_tries(variant))
+        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(tries(variant))
         believed = not self._free or variant.believed(x)
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:
@@ -213,7 +218,7 @@ class Weighing:
         if not self._beyond_friction(drop, variant, others):
             return replace(one, why_not="what it explains is another value of friction that is known")
         true = self._without_position_noise(variant, others)
-        if true < _TRUE * drop or _chance(true, variant) * self._tried > _ALPHA:
+        if true < _TRUE * drop or chance(true, variant) * self._tried > _ALPHA:
             return replace(one, why_not="what it explains is noise of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
         one = replace(one, validation=validation)
@@ -228,7 +233,7 @@ class Weighing:
             return replace(one, why_not="too small beside what is left")
         if drop < lacking(variant, others, self._drops(others)):
             return replace(one, why_not="may be what another effect's law lacks")
-        if _at_end(variant):
+        if at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         if small(one, self.few):
             return replace(one, why_not=SMALL)
@@ -374,26 +379,3 @@ class Weighing:
 def _beyond(drop: float, less: float, count: int) -> bool:
     """Whether ``count`` more coefficients explain beyond chance, and a part of it, what others explain ``less`` of."""
     return bool(count > 0 and drop - less > _SHARE * drop and chi2.sf(drop - less, count) < _ALPHA)
-
-
-def _chance(drop: float, variant: Variant) -> float:
-    """How likely noise makes the best of all shapes that were tried explain as much."""
-    return min(1.0, _tries(variant) * float(chi2.sf(drop, max(len(variant.columns), 1))))
-
-
-def _tries(variant: Variant) -> int:
-    return max(variant.hypothesis.tries, len(variant.hypothesis.variants))
-
-
-def _at_end(variant: Variant) -> bool:
-    """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
-    for shape in variant.hypothesis.shapes:
-        if shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED:
-            return True
-        points = shape.grid()
-        if shape.whole or shape.step or len(points) < _FEWEST or not shape.log:
-            continue
-        value = variant.shape[shape.name]
-        if value <= min(points) * _LOW or value >= max(points) * _HIGH:
-            return True
-    return False
