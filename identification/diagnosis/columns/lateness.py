@@ -18,7 +18,7 @@ from scipy.interpolate import CubicSpline
 
 from identification.colour import inflation
 from identification.diagnosis.columns.bank import base_rows
-from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.columns.normal_equations import Places, inverse
 from identification.diagnosis.runs.prepared import window, windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling, supplied
@@ -184,32 +184,36 @@ def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
 
 def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
     """By all rows at once, each motor weighed by what it leaves."""
-    numbers = sorted({number for motor in motors for number in motor.numbers})
-    place = {number: i for i, number in enumerate(numbers)}
     acting = [motor for motor in motors if motor.acts]
-    if not acting or sum(motor.W.shape[1] for motor in acting) < _ROWS * len(numbers):
+    numbers = sorted({number for motor in acting for number in motor.numbers})
+    if sum(motor.W.shape[1] for motor in acting) < max(_ROWS * len(numbers), 1):
         return [None] * len(motors)
-    places = [[place[number] for number in motor.numbers] for motor in acting]
-    products = [(motor.W @ motor.W.T, motor.W @ motor.Y.T) for motor in acting]
-    solution = np.zeros((len(delays), len(numbers)))
-    left = np.array([np.sum(motor.Y**2, axis=1) for motor in acting])
-    least = _ROUNDING * left.max(axis=1)
+    places = [np.searchsorted(numbers, motor.numbers) for motor in acting]
+    power = np.array([np.sum(motor.Y**2, axis=1) for motor in acting])
+    left = power
     for _ in range(_WEIGHED):
-        for d in range(len(delays)):
-            G, g = np.zeros((len(numbers), len(numbers))), np.zeros(len(numbers))
-            for at, motor, (of_columns, of_torques), squares in zip(places, acting, products, left, strict=True):
-                weight = motor.W.shape[1] / squares[d]
-                G[np.ix_(at, at)] += weight * of_columns
-                g[at] += weight * of_torques[:, d]
-            solution[d] = inverse(G) @ g
-        errors = [motor.Y - solution[:, at] @ motor.W for at, motor in zip(places, acting, strict=True)]
-        left = np.maximum([np.sum(e**2, axis=1) for e in errors], least[:, None])
-    best = int(np.argmin(sum(e.shape[1] * np.log(squares) for e, squares in zip(errors, left, strict=True))))
-    told = {
-        id(motor): Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
-        for at, motor, squares, e in zip(places, acting, left, errors, strict=True)
-    }
-    return [told.get(id(motor)) for motor in motors]
+        solution = _weighed(acting, places, left, len(numbers))
+        errors = [motor.Y - solution[:, at] @ motor.W for motor, at in zip(acting, places, strict=True)]
+        squares = np.array([np.sum(e**2, axis=1) for e in errors])
+        left = np.maximum(squares, _ROUNDING * power.max(axis=1, keepdims=True))
+    best = int(np.argmin([e.shape[1] for e in errors] @ np.log(left)))
+    told = iter(
+        Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
+        for motor, at, squares, e in zip(acting, places, left, errors, strict=True)
+    )
+    return [next(told) if motor.acts else None for motor in motors]
+
+
+def _weighed(motors: Sequence[_Motor], places: Sequence[Places], left: Array, count: int) -> Array:
+    """Parameters (D x p), of ``count`` p in all, that fit the rows of all motors at every delay; those of a motor stand
+    in its ``places``, and its rows weigh by the sum of squares that is ``left`` of them (n x D).
+    """
+    G, g = np.zeros((left.shape[1], count, count)), np.zeros((left.shape[1], count))
+    for motor, at, squares in zip(motors, places, left, strict=True):
+        weights = motor.W.shape[1] / squares
+        G[:, at[:, None], at] += weights[:, None, None] * (motor.W @ motor.W.T)
+        g[:, at] += weights[:, None] * (motor.Y @ motor.W.T)
+    return np.array([inverse(A) @ b for A, b in zip(G, g, strict=True)])
 
 
 class _Run:
