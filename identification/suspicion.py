@@ -35,8 +35,8 @@ _SURE, _LIKELY, _SEVERAL = 4.0, 2.5, 2
 _BETTER = 20.0
 #: Samples that the fits are repeated on.
 _THINNED = 1500
-#: Rows a parameter that a joint must have for that.
-_FEWEST = 3
+#: Rows for each parameter that a joint must have for that, those alone counted that the filter leaves independent.
+_FEWEST = 5
 
 
 def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> list[str]:
@@ -116,7 +116,8 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
     motion = one.motion.at(thin)
     tau, used = tau[:, thin], ~one.left_out[:, thin]
     straight = list(range(len(tau)))
-    given = _Thinned(regressors, motion, tau, used)
+    independent = min(2 * one.filters.cutoff / one.filters.rate * one.motion.samples / len(thin), 1.0)
+    given = _Thinned(regressors, motion, tau, used, independent)
     best, what = given.misfit(straight) - np.log(_BETTER), ""
     numbers = regressors.model.robot.numbers
     for i, k in combinations(straight, 2):
@@ -124,7 +125,7 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
             continue
         order = straight.copy()
         order[i], order[k] = k, i
-        other = _Thinned(regressors, motion.of_joints(order), tau, used[order])
+        other = _Thinned(regressors, motion.of_joints(order), tau, used[order], independent)
         for name, misfit in (
             ("torques", given.misfit(order)),
             ("positions", other.misfit(straight)),
@@ -137,11 +138,13 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
 
 
 class _Thinned:
-    """Factors of a few rows, each joint's with the torques of all joints beside."""
+    """Factors of a few rows, each joint's with the torques of all joints beside; a part of them is ``independent``."""
 
-    def __init__(self, regressors: Regressors, motion: Motion, tau: Array, used: NDArray[np.bool_]) -> None:
+    def __init__(
+        self, regressors: Regressors, motion: Motion, tau: Array, used: NDArray[np.bool_], independent: float
+    ) -> None:
         self._names, self._structure = regressors.names, regressors.structure
-        self._rows = used.sum(axis=1)
+        self._rows = independent * used.sum(axis=1)
         self._factors = [
             triangular(np.concatenate([W[:, rows], tau[:, rows]]).T)
             for W, rows in zip(regressors.base(motion), used, strict=True)

@@ -367,3 +367,10 @@ def test_negative_friction_is_told(links: Regressors, folder: Path) -> None:
     run = recorded(links, {**TRUTH, "Fv1": -8.0}, noise=0.01)
     found = identify(links.model.robot, [run.save(folder / "driven.csv")], regressors=links)
     assert any(note.startswith("Fv1 is -") and "below its bound 0" in note for note in found.notes)
+
+
+def test_columns_of_a_short_run_are_not_doubted(links: Regressors, folder: Path) -> None:
+    """Of 2.5 s some thirty rows are independent, by which 13 parameters explain what they like."""
+    run = recorded(links, TRUTH, duration=2.5, seed=7, noise=0.03)
+    path = run.with_columns(tau1=run.columns["tau2"], tau2=run.columns["tau1"]).save(folder / "short_swapped.csv")
+    identify(links.model.robot, [path], regressors=links)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from scipy.signal import lfilter
 
 from generator.robot.readers import read
 from identification.corrections import earlier, recorded_motor_torques
+from identification.diagnosis.candidates.torque_delay import _quieter
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.columns.lateness import Lateness, delay_of, latenesses
@@ -200,6 +203,22 @@ def test_of_few_rows_noise_tells_no_delay() -> None:
     names = tuple(f"X{number}" for number in range(13))
     assert delay_of([Lateness(delays, names, np.empty((13, len(delays))), valley, 65, 1.0)]) is None
     assert delay_of([Lateness(delays, names, np.empty((13, len(delays))), valley, 130, 1.0)]) is not None
+
+
+def test_the_column_of_a_delay_is_of_the_torque_that_has_less_noise() -> None:
+    """Clean, noisy by a third, and lost in the model's: what both have in common is the delay's."""
+    draw, count, factor = np.random.default_rng(0), 4000, 10
+    true = np.sin(0.01 * np.arange(count)) * np.ones((3, 1))
+    noise = np.convolve(draw.normal(size=count), np.ones(40) / 40, "same")
+    noise *= 0.6 / np.std(noise)
+    scene: Any = SimpleNamespace(
+        sampled=SimpleNamespace(filters=SimpleNamespace(factor=factor), left_out=np.zeros((3, count), dtype=bool))
+    )
+    recorded, modelled = true.copy(), true + noise
+    recorded[1] += noise[::-1]
+    modelled[2] = true[2]
+    recorded[2] += 0.1 * noise
+    assert _quieter(scene, recorded, modelled).tolist() == [True, False, False]
 
 
 @pytest.mark.parametrize(("held", "drop"), [(0.5, 3.0), (1.0, 4.0), (-0.5, 0.0)])

@@ -16,11 +16,15 @@ from generator.robot.description import Joint
 from identification.corrections import earlier
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.columns.lateness import LONGEST, Lateness, delay_of, latenesses, torques
+from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
+
+#: Noise in a column, in parts of its power, that may be the record's own.
+_NOISY = 0.1
 
 
 @dataclass(frozen=True)
@@ -104,9 +108,33 @@ def _columns(
     more = _value(told.beyond) if told else found
     motors = range(len(scene.robot.moving)) if k is None else (k,)
     tau = torques(scene, told.late, told.whole, motors) if told and not found else scene.torque
-    if k is not None:
-        tau = supplied(scene.robot, k, tau)
     if not more:
-        return -scene.derivative(tau)[None]
+        return -scene.derivative(_of_motor(scene, k, tau))[None]
+    modelled = _secant(scene, _of_motor(scene, k, tau), start, more)
+    if told is None:
+        return modelled[None]
+    # The recorded torque is late already.
+    recorded = _secant(scene, _of_motor(scene, k, scene.sampled.tau), -more, more)
+    return np.where(_quieter(scene, recorded, modelled)[:, None], recorded, modelled)[None]
+
+
+def _of_motor(scene: Scene, k: int | None, tau: Array) -> Array:
+    """The part of torques (n x N) that motor k supplies; all of them where it is None."""
+    return tau if k is None else supplied(scene.robot, k, tau)
+
+
+def _secant(scene: Scene, tau: Array, start: float, more: float) -> Array:
+    """What a delay of ``start`` and ``more`` [s] makes of torques (n x N) beyond one of ``start``, per second of it."""
     before, after = (earlier(tau, [-delay] * len(tau), scene.period) for delay in (start, start + more))
-    return (after - before)[None] / more
+    return (after - before) / more
+
+
+def _quieter(scene: Scene, recorded: Array, modelled: Array) -> NDArray[np.bool_]:
+    """On which joints (n) the secant of the recorded torque has hardly any noise, and less than that of the model's,
+    which has that of the positions: what both have in common is none.
+    """
+    factor = scene.sampled.filters.factor
+    clear = windowed(scene.sampled.left_out.astype(float), factor) == 0
+    r, m = (np.where(clear, windowed(one, factor), 0.0) for one in (recorded, modelled))
+    common, power = np.sum(r * m, axis=1), np.sum(r**2, axis=1)
+    return np.asarray((power < (1 + _NOISY) * common) & (power < np.sum(m**2, axis=1)))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from generator.review.words import listed
 from identification.diagnosis.mending.untouched import Untouched
 from identification.diagnosis.mending.written_model import WrittenModel
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding
@@ -23,27 +24,39 @@ def without_harm(
     tried_with: Callable[[WrittenModel], Mapping[int, Untouched]],
 ) -> tuple[WrittenModel, list[str]]:
     """The ``model`` without tentative findings that make it worse than the old one on each of their joints and without
-    which it is better there, those of least evidence first; and what is to be told.
+    which it is better there, those of least evidence first, then all together of the same joints; and what is to be
+    told.
     """
     notes: list[str] = []
     doubtful = sorted((one for one in model.findings if one.status == TENTATIVE), key=lambda one: one.evidence.drop)
     if not doubtful:
         return model, notes
     tried = tried_with(model)
-    for one in [one for one in doubtful if _spoiled(one, tried)][:_TRIED]:
-        if not _spoiled(one, tried):
+    spoiling = [one for one in doubtful if _spoiled(one, tried)][:_TRIED]
+    for several in [*([one] for one in spoiling), *_of_the_same_joints(spoiling)]:
+        if not all(one in model.findings and _spoiled(one, tried) for one in several):
             continue
-        less = model_of([other for other in model.findings if other is not one])
+        less = model_of([other for other in model.findings if other not in several])
         instead = tried_with(less)
-        if all(replace(tried[j], before=instead[j].after).worse for j in one.amplitude):
+        if all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
             told = [
                 f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
                 f"{instead[j].after.relative_to_mean:.3g} % without)"
-                for j in one.amplitude
+                for j in several[0].amplitude
             ]
-            notes.append(f"{one.hypothesis.named} is not in the new model, which is worse with it on {', '.join(told)}")
+            what = listed([one.hypothesis.named for one in several])
+            is_not, it = ("is not", "it") if len(several) == 1 else ("are not", "them")
+            notes.append(f"{what} {is_not} in the new model, which is worse with {it} on {', '.join(told)}")
             model, tried = less, instead
     return model, notes
+
+
+def _of_the_same_joints(found: Sequence[Finding]) -> list[list[Finding]]:
+    """Findings that act on the same joints, where there are several: one may hide what the other spoils."""
+    groups: dict[tuple[int, ...], list[Finding]] = {}
+    for one in found:
+        groups.setdefault(tuple(one.amplitude), []).append(one)
+    return [several for several in groups.values() if len(several) > 1]
 
 
 def _spoiled(one: Finding, tried: Mapping[int, Untouched]) -> bool:

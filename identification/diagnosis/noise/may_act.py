@@ -13,8 +13,9 @@ from identification.diagnosis.noise.errors_in_variables import Redrawn
 
 Array = NDArray[np.float64]
 
-#: Rows that a column may use up: with more columns only the strongest directions are taken away.
-_ROWS = 8
+#: Rows that a column may use up: with more columns only the strongest directions are taken away. Rows for each column
+#: of the model from which they are taken away all the same.
+_ROWS, _FEWEST = 8, 6
 
 
 @dataclass(frozen=True)
@@ -62,12 +63,10 @@ def with_maps(parts: Sequence[Rows], bank: Bank, joint: int, maps: Sequence[Arra
     """Rows of a joint in each run with ``maps`` and with the model's columns once more for each run by itself, which
     may be another one there, where there are rows enough.
     """
-    if not maps:
+    if not maps or not have_room(bank, maps, joint):
         return list(parts)
     p, more = len(bank.base), len(maps[0])
     count, model = bank.counts(joint)
-    if not enough(count, model + more):
-        return list(parts)
     apart = enough(count, model + more + model * len(parts))
     result = []
     for r, (part, rows) in enumerate(zip(parts, maps, strict=True)):
@@ -83,8 +82,23 @@ def with_maps(parts: Sequence[Rows], bank: Bank, joint: int, maps: Sequence[Arra
 
 def maps_taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
     """Whether rows of a joint are enough for its maps to be taken out of its noise."""
+    return have_room(bank, maps[joint], joint)
+
+
+def have_room(bank: Bank, maps: Sequence[Array], joint: int) -> bool:
+    """The same of the maps of that joint, by run."""
     rows, model = bank.counts(joint)
-    return enough(rows, model + len(maps[joint][0]))
+    return enough(rows, model + len(maps[0]))
+
+
+def known_to_act(parts: Sequence[Rows], bank: Bank) -> list[int]:
+    """Numbers of the columns of a joint's rows in each run that are taken away whatever is missing: maps and the
+    model's, where there are rows enough for them.
+    """
+    numbers = sorted({number for part in parts for number in part.numbers if number < len(bank.base)})
+    rows = sum(int(part.kept.sum()) for part in parts)
+    model = sum(number >= 0 for number in numbers)
+    return numbers if rows > _FEWEST * model else []
 
 
 def enough(rows: int, columns: int) -> bool:

@@ -20,7 +20,16 @@ from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
 from identification.diagnosis.noise.errors_in_variables import Redrawn
-from identification.diagnosis.noise.may_act import Rows, allowed, with_maps, with_noise, without_record
+from identification.diagnosis.noise.may_act import (
+    Rows,
+    allowed,
+    have_room,
+    known_to_act,
+    with_maps,
+    with_noise,
+    without_record,
+)
+from identification.diagnosis.noise.outstanding import outstanding
 from identification.side_by_side import side_by_side
 
 Array = NDArray[np.float64]
@@ -64,22 +73,25 @@ def _of_joint(
 ) -> list[Colour]:
     """The colour of a joint's noise in each run."""
     plain = [without_record(bank, r, joint) for r in range(len(bank.runs))]
-    found = _joint(with_maps(plain, bank, joint, maps), bank, rounded)
+    blurred = bool(maps) and not have_room(bank, maps, joint)
+    apart = outstanding(plain, bank, joint) if blurred and known_to_act(plain, bank) else []
+    found = _joint(with_maps(plain, bank, joint, maps), bank, rounded, apart)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
     power = sum(float(np.sum(x**2)) for x in torques) / max(sum(x.size for x in torques), 1)
     if not _NOISY < power < _ABSURD:
         return found
     noisy = with_noise(plain, bank, joint, redrawn)
-    return _joint(with_maps(noisy, bank, joint, maps), bank, rounded)
+    return _joint(with_maps(noisy, bank, joint, maps), bank, rounded, apart)
 
 
-def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array]) -> list[Colour]:
-    """The colour of a joint's noise in each run."""
-    left, free, _ = _left(parts, bank, None, rounded)
+def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array], apart: Sequence[int]) -> list[Colour]:
+    """The colour of a joint's noise in each run, columns number ``apart`` taken away whole."""
+    taken = [*known_to_act(parts, bank), *apart]
+    left, free, _ = _left(parts, bank, None, rounded, taken)
     for _ in range(_AGAIN):
-        left, free, each = _left(parts, bank, _colour(left, free), rounded)
-    known = _colour(left, free)
-    return [_scaled(known, parts, freedom) for parts, freedom in zip(left, each, strict=True)]
+        left, free, each = _left(parts, bank, _colour(left, free), rounded, taken)
+    form = _colour(left, free)
+    return [_scaled(form, parts, freedom) for parts, freedom in zip(left, each, strict=True)]
 
 
 def _colour(left: list[list[Array]], free: Array) -> Colour:
@@ -88,10 +100,12 @@ def _colour(left: list[list[Array]], free: Array) -> Colour:
 
 
 def _left(
-    parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array]
+    parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array], taken: Sequence[int]
 ) -> tuple[list[list[Array]], Array, list[float]]:
-    """Stretches of noise of each run, and the part of its power that is left in them: by frequency, and run by run."""
-    numbers = sorted({number for part in parts for number in part.numbers})
+    """Stretches of noise of each run, and the part of its power that is left in them: by frequency, and run by run. All
+    columns number ``taken`` are taken away, and of the others the strongest directions that rows allow.
+    """
+    numbers = [*taken, *sorted({number for part in parts for number in part.numbers}.difference(taken))]
     place = {number: i for i, number in enumerate(numbers)}
     places = [np.array([place[number] for number in part.numbers], dtype=int) for part in parts]
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
@@ -104,9 +118,8 @@ def _left(
             noise = _white(known, part.noise, part.kept)
             pretended[at] -= noise[:-1] @ noise[-1]
     rows = sum(x.shape[1] for x in white)
-    taken, most = sum(number < len(bank.base) for number in numbers), allowed(rows)
-    model = sum(0 <= number < len(bank.base) for number in numbers)
-    inside = _inside(gram[:-1, :-1], taken, most - model) if model < most else _inside(gram[:-1, :-1], 0, most)
+    acting = sum(number >= 0 for number in taken)
+    inside = _inside(gram[:-1, :-1], len(taken), max(allowed(rows) - acting, 0))
     weights = inside @ (gram[:-1, -1] - pretended)
     noise_left, lost = [], []
     for at, x, part, run in zip(places, white, parts, bank.runs, strict=True):

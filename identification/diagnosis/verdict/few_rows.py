@@ -30,8 +30,8 @@ def notes(few: Few, robot: Robot, small: Sequence[Variant]) -> list[str]:
     if not said:
         return []
     told = [
-        f"rows are too few for the base parameters that act there, {listed(said)}: noise holds part of the model, and "
-        "only what is about as large as noise, or what nearly every robot has, is named"
+        f"rows are too few for the base parameters that act there, {listed(said)}: noise may hold part of the model, "
+        "and only what is about as large as noise, or what nearly every robot has, is named"
     ]
     if small:
         named = listed([one.hypothesis.named for one in small])

@@ -28,6 +28,8 @@ def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Ar
     if lack.repeats or not maps or maps_taken(bank, maps, k):
         return lack
     e = np.concatenate([residuals[r] for r in bank.alone])
+    if not len(e):
+        return lack
     X = np.concatenate([bank.whitened(r, k, maps[k][r]) for r in bank.alone], axis=1)
     each = groups(bank.robot.numbers, k)
     _, fitted = bank.counts(k)
