@@ -371,6 +371,11 @@ def test_negative_friction_is_told(links: Regressors, folder: Path) -> None:
 
 def test_columns_of_a_short_run_are_not_doubted(links: Regressors, folder: Path) -> None:
     """Of 2.5 s some thirty rows are independent, by which 13 parameters explain what they like."""
-    run = recorded(links, TRUTH, duration=2.5, seed=7, noise=0.03)
-    path = run.with_columns(tau1=run.columns["tau2"], tau2=run.columns["tau1"]).save(folder / "short_swapped.csv")
-    identify(links.model.robot, [path], regressors=links)
+    short, long = (
+        run.with_columns(tau1=run.columns["tau2"], tau2=run.columns["tau1"]).save(folder / f"swapped_{seconds:g}.csv")
+        for seconds in (2.5, 25.0)
+        for run in [recorded(links, TRUTH, duration=seconds, seed=7, noise=0.03)]
+    )
+    identify(links.model.robot, [short], regressors=links)
+    with pytest.raises(InputError, match="look swapped"):
+        identify(links.model.robot, [long], regressors=links)

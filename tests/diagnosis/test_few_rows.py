@@ -48,11 +48,12 @@ def test_of_what_was_left_out_the_best_is_told_on_each_joint() -> None:
         return [
             SimpleNamespace(variant=variant("torque_delay", (0, 1)), why_not=SMALL),
             SimpleNamespace(variant=variant("stribeck_friction", (1,)), why_not=SMALL),
+            SimpleNamespace(variant=variant("coupled_rotor", (1, 3)), why_not=SMALL),
             SimpleNamespace(variant=variant("dahl_friction", (2,)), why_not="within chance"),
             SimpleNamespace(variant=variant("stribeck_friction", (2,)), why_not=SMALL),
         ]
 
-    found: Any = SimpleNamespace(variants=[], weighing=SimpleNamespace(few=FEW, evidence=evidence))
+    found: Any = SimpleNamespace(variants=[], weighing=SimpleNamespace(few={**FEW, 2: (80, 11)}, evidence=evidence))
     told = [(one.hypothesis.effect, one.joints) for one in few_rows.left_out(found)]
     assert told == [("torque_delay", (0, 1)), ("stribeck_friction", (2,))]
     found.weighing.few = {}

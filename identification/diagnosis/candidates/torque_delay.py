@@ -6,7 +6,7 @@ At first that is tau(t) - s dtau/dt; a long delay is told by motors' rows (``lat
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -29,11 +29,15 @@ _NOISY = 0.1
 
 @dataclass(frozen=True)
 class _Told:
-    """A delay ``beyond`` another; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s] (n)."""
+    """A delay ``beyond`` another; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s] (n).
+
+    Its column is of the recorded torque on the joints that are ``quiet`` (n).
+    """
 
     beyond: Value
     late: Sequence[Lateness | None]
     whole: Sequence[float]
+    quiet: NDArray[np.bool_]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -50,9 +54,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     shared = None if any(stated) else delay_of(as_late)
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
     each = [delay_of([one], start) for one in late]
-    whole = [start + _value(beyond) for beyond in each]
-    together = None if shared is None else _Told(shared, as_late, whole)
-    told = [None if one is None else _Told(one, late, whole) for one in each]
+    whole, none = [start + _value(beyond) for beyond in each], np.zeros(len(moving), dtype=bool)
+    together = None if shared is None else _told(scenes, None, 0.0, _Told(shared, as_late, whole, none))
+    told = [
+        None if one is None else _told(scenes, k, start, _Told(one, late, whole, none)) for k, one in enumerate(each)
+    ]
     own = [
         _hypothesis((joint,), k, start if told[k] else 0.0, told[k])
         for k, joint in enumerate(moving)
@@ -105,17 +111,25 @@ def _columns(
     else as none.
     """
     found = scene.found(_name(joint))
-    more = _value(told.beyond) if told else found
-    motors = range(len(scene.robot.moving)) if k is None else (k,)
-    tau = torques(scene, told.late, told.whole, motors) if told and not found else scene.torque
-    if not more:
-        return -scene.derivative(_of_motor(scene, k, tau))[None]
-    modelled = _secant(scene, _of_motor(scene, k, tau), start, more)
+    if told is None and not found:
+        return -scene.derivative(_of_motor(scene, k, scene.torque))[None]
     if told is None:
-        return modelled[None]
-    # The recorded torque is late already.
+        return _secant(scene, _of_motor(scene, k, scene.torque), start, found)[None]
+    recorded, modelled, clear = _two_secants(scene, k, start, told)
+    return np.where(told.quiet[:, None] & clear, recorded, modelled)[None]
+
+
+def _two_secants(scene: Scene, k: int | None, start: float, told: _Told) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Of the recorded torque, which is late already, and of the model's (n x N); and where the recorded one is known as
+    much later (N).
+    """
+    more, name = _value(told.beyond), _name(None if k is None else scene.robot.moving[k])
+    motors = range(len(scene.robot.moving)) if k is None else (k,)
+    tau = scene.torque if scene.found(name) else torques(scene, told.late, told.whole, motors)
     recorded = _secant(scene, _of_motor(scene, k, scene.sampled.tau), -more, more)
-    return np.where(_quieter(scene, recorded, modelled)[:, None], recorded, modelled)[None]
+    later = np.arange(scene.motion.samples) + more / scene.period
+    known = (later >= 0) & (later <= scene.motion.samples - 1)
+    return recorded, _secant(scene, _of_motor(scene, k, tau), start, more), known
 
 
 def _of_motor(scene: Scene, k: int | None, tau: Array) -> Array:
@@ -129,12 +143,20 @@ def _secant(scene: Scene, tau: Array, start: float, more: float) -> Array:
     return (after - before) / more
 
 
-def _quieter(scene: Scene, recorded: Array, modelled: Array) -> NDArray[np.bool_]:
-    """On which joints (n) the secant of the recorded torque has hardly any noise, and less than that of the model's,
-    which has that of the positions: what both have in common is none.
+def _told(scenes: Sequence[Scene], k: int | None, start: float, told: _Told) -> _Told:
+    """With the joints on which the recorded torque is the quieter one along all runs."""
+    kept = []
+    for scene in scenes:
+        recorded, modelled, known = _two_secants(scene, k, start, told)
+        factor = scene.sampled.filters.factor
+        clear = windowed((scene.sampled.left_out | ~known).astype(float), factor) == 0
+        kept.append(np.stack([np.where(clear, windowed(one, factor), 0.0) for one in (recorded, modelled)]))
+    return replace(told, quiet=_quieter(*np.concatenate(kept, axis=-1)))
+
+
+def _quieter(recorded: Array, modelled: Array) -> NDArray[np.bool_]:
+    """On which joints rows of the recorded torque (n x N) have hardly any noise, and less than those of the model's,
+    which have that of the positions: what both have in common is none.
     """
-    factor = scene.sampled.filters.factor
-    clear = windowed(scene.sampled.left_out.astype(float), factor) == 0
-    r, m = (np.where(clear, windowed(one, factor), 0.0) for one in (recorded, modelled))
-    common, power = np.sum(r * m, axis=1), np.sum(r**2, axis=1)
-    return np.asarray((power < (1 + _NOISY) * common) & (power < np.sum(m**2, axis=1)))
+    common, power = np.sum(recorded * modelled, axis=1), np.sum(recorded**2, axis=1)
+    return np.asarray((power < (1 + _NOISY) * common) & (power < np.sum(modelled**2, axis=1)))

@@ -52,6 +52,11 @@ class Variant:
         """That of its hypothesis."""
         return self.hypothesis.key
 
+    @property
+    def tries(self) -> int:
+        """Shapes of its hypothesis that are tried."""
+        return max(self.hypothesis.tries, len(self.hypothesis.variants))
+
     @cached_property
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Those of the columns."""

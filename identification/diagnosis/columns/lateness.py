@@ -37,8 +37,8 @@ _LESS = 0.8
 _SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
 #: Difference of cost that is chance, in parts of the square root of the rows; and its standard deviations.
 _CHANCE, _DEVIATIONS = 4.0, 4.0
-#: Least rows for each base parameter, and least singular value of scaled columns.
-_ROWS, _RANK = 5, 1e-6
+#: Least rows for each base parameter, and of a motor fitted with others; least singular value of scaled columns.
+_ROWS, _AMONG, _RANK = 5, 2, 1e-6
 #: Times that motors fitted at once are weighed by what each leaves.
 _WEIGHED = 4
 #: Part of a torque's square that is rounding.
@@ -97,8 +97,8 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
 
 
 def _taken(among: Sequence[Lateness]) -> float:
-    """By how much costs of two delays may differ by chance: parameters take as many rows' worth of noise, the more
-    unlike the longer it lasts, of another part of the noise at every delay.
+    """By how much costs of two delays may differ by chance: parameters of each motor take as many rows' worth of noise,
+    the more unlike the longer it lasts, of another part of it at every delay.
     """
     return _DEVIATIONS * float(np.sqrt(sum(4 * len(one.names) * one.colour for one in among)))
 
@@ -117,15 +117,15 @@ def _nearest(beyond: Array, cost: Array, rows: int) -> int:
 
 def latenesses(scenes: Sequence[Scene]) -> tuple[list[Lateness | None], list[Lateness | None]]:
     """Of each motor along the runs: late by itself, None where its rows are too few; and as late as all others, which
-    is the same where no motor has too few rows, and None where all together have.
+    is the same where several have rows enough, and None where all together have too few.
     """
     last = int(min(LONGEST, _OF_RUN * min(scene.motion.samples * scene.period for scene in scenes)) / _STEP)
     delays: Array = _STEP * np.arange(-last, last + 1, dtype=float)
     runs = [_Run(scene, delays) for scene in scenes]
     motors = [_rows(runs, k) for k in range(len(scenes[0].robot.moving))]
     own = [_fitted(delays, motor) for motor in motors]
-    known = all(late or not motor.acts for late, motor in zip(own, motors, strict=True))
-    return own, own if known else _together(delays, motors)
+    known = sum(late is not None for late in own)
+    return own, own if known >= min(len(own), _SEVERAL) else _together(delays, motors)
 
 
 def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float], motors: Sequence[int]) -> Array:
@@ -142,10 +142,12 @@ def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[floa
 
 @dataclass(frozen=True)
 class _Motor:
-    """Base columns ``W`` (p x N) of a motor's kept rows and its torque ``Y`` by each delay (D x N) [N m, N]; the
-    columns are those of the base parameters ``numbers``, called ``names``.
+    """Base columns ``W`` (p x N) of motor k's kept rows and its torque ``Y`` by each delay (D x N) [N m, N].
+
+    The columns are those of the base parameters ``numbers``, called ``names``.
     """
 
+    k: int
     numbers: list[int]
     names: tuple[str, ...]
     W: Array
@@ -153,14 +155,14 @@ class _Motor:
 
     @property
     def acts(self) -> bool:
-        return bool(self.numbers) and bool(self.Y.any())
+        return bool(self.W.size) and bool(self.Y.any())
 
 
 def _rows(runs: Sequence[_Run], k: int) -> _Motor:
     """Of motor k in all runs."""
     numbers = runs[0].numbers(k)
     W, Y = (np.concatenate(parts, axis=1) for parts in zip(*(run.rows(k) for run in runs), strict=True))
-    return _Motor(numbers, tuple(runs[0].scene.regressors.names[number] for number in numbers), W, Y)
+    return _Motor(k, numbers, tuple(runs[0].scene.regressors.names[number] for number in numbers), W, Y)
 
 
 def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
@@ -183,8 +185,8 @@ def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
 
 
 def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
-    """By all rows at once, each motor weighed by what it leaves."""
-    acting = [motor for motor in motors if motor.acts]
+    """By all rows at once, each motor weighed by what it leaves; None of those whose few rows fit whatever acts."""
+    acting = [motor for motor in motors if motor.acts and motor.W.shape[1] >= _AMONG * len(motor.W)]
     numbers = sorted({number for motor in acting for number in motor.numbers})
     if sum(motor.W.shape[1] for motor in acting) < max(_ROWS * len(numbers), 1):
         return [None] * len(motors)
@@ -197,11 +199,11 @@ def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
         squares = np.array([np.sum(e**2, axis=1) for e in errors])
         left = np.maximum(squares, _ROUNDING * power.max(axis=1, keepdims=True))
     best = int(np.argmin([e.shape[1] for e in errors] @ np.log(left)))
-    told = iter(
-        Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
+    told = {
+        motor.k: Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
         for motor, at, squares, e in zip(acting, places, left, errors, strict=True)
-    )
-    return [next(told) if motor.acts else None for motor in motors]
+    }
+    return [told.get(motor.k) for motor in motors]
 
 
 def _weighed(motors: Sequence[_Motor], places: Sequence[Places], left: Array, count: int) -> Array:
@@ -246,7 +248,7 @@ class _Run:
         )
         tau = np.convolve(self._share[k] @ self.scene.sampled.tau, window(self.scene.sampled.filters.factor), "same")
         earlier = CubicSpline(np.arange(len(tau)), tau)(at[kept] + shifts[:, None])
-        return W[:, kept], earlier - (self._share[k] @ self._beside)[kept]
+        return W.reshape(-1, len(at))[:, kept], earlier - (self._share[k] @ self._beside)[kept]
 
     def _driven(self, k: int) -> list[int]:
         return np.flatnonzero(self._share[k]).tolist()

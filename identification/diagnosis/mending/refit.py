@@ -99,10 +99,7 @@ def refit(
     std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
     hidden = [name for name in regressors.names if name in solution.hidden]
     if hidden:
-        notes.append(
-            f"the runs do not show {' '.join(hidden)}, or only together: their values in the set explain these runs, "
-            "another motion asks for others"
-        )
+        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")
     names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
     how = "least squares" if prior is None else "least squares near what was known"
     written = ParameterSet(
@@ -230,8 +227,7 @@ def _values(
     result = {}
     for parameter in regressors.model.parameters:
         name = parameter.name
-        if name in values:
-            told = bool(values[name]) and name not in solution.hidden
-            relative = 100 * std[name] / abs(values[name]) if told else None
+        if name in values and name not in solution.hidden:
+            relative = 100 * std[name] / abs(values[name]) if values[name] else None
             result[name] = ParameterValue(values[name], parameter.unit, relative)
     return result

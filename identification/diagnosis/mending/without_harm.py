@@ -34,7 +34,8 @@ def without_harm(
     tried = tried_with(model)
     spoiling = [one for one in doubtful if _spoiled(one, tried)][:_TRIED]
     for several in [*([one] for one in spoiling), *_of_the_same_joints(spoiling)]:
-        if not all(one in model.findings and _spoiled(one, tried) for one in several):
+        several = [one for one in several if one in model.findings and _spoiled(one, tried)]
+        if not several:
             continue
         less = model_of([other for other in model.findings if other not in several])
         instead = tried_with(less)

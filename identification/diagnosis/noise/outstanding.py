@@ -106,4 +106,4 @@ class _Rows:
         each = [part for part in np.split(e, self.runs[:-1]) if len(part)]
         colour = sum(inflation(part) * len(part) for part in each) / len(e)
         gain = free / colour * np.log(power / max(float(e @ e), _ROUNDING * power))
-        return max(one.hypothesis.tries, len(one.hypothesis.variants)) * float(chi2.sf(gain, len(one.columns)))
+        return one.tries * float(chi2.sf(gain, len(one.columns)))

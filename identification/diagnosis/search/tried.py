@@ -14,12 +14,7 @@ _FEWEST, _LOW, _HIGH = 4, 0.7, 1.4
 
 def chance(drop: float, variant: Variant) -> float:
     """How likely noise makes the best of all shapes that were tried explain as much."""
-    return min(1.0, tries(variant) * float(chi2.sf(drop, max(len(variant.columns), 1))))
-
-
-def tries(variant: Variant) -> int:
-    """Shapes of its hypothesis that are tried."""
-    return max(variant.hypothesis.tries, len(variant.hypothesis.variants))
+    return min(1.0, variant.tries * float(chi2.sf(drop, max(len(variant.columns), 1))))
 
 
 def at_end(variant: Variant) -> bool:

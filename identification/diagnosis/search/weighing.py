@@ -35,7 +35,7 @@ from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
 from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
-from identification.diagnosis.search.tried import at_end, chance, tries
+from identification.diagnosis.search.tried import at_end, chance
 
 Array = NDArray[np.float64]
 #: Drop of the sum of squares, variant, coefficients.
@@ -208,7 +208,7 @@ class Weighing:
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
         p = chance(drop, variant)
         free = len(x) + variant.hypothesis.free
-        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(tries(variant))
+        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(variant.tries)
         believed = not self._free or variant.believed(x)
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:

@@ -18,9 +18,12 @@ def left_out(found: Search) -> list[Variant]:
     """What would have been taken beside the choices, were it not small there: on each joint what explains most."""
     weighed = found.weighing.evidence(found.variants) if found.weighing.few else []
     result: list[Variant] = []
+    told: set[int] = set()
     for one in weighed:
-        if one.why_not == SMALL and not all(any(k in other.joints for other in result) for k in one.variant.joints):
+        there = found.weighing.few.keys() & {*one.variant.joints}
+        if one.why_not == SMALL and not there <= told:
             result.append(one.variant)
+            told |= there
     return result
 
 
