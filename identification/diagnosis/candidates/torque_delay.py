@@ -23,8 +23,8 @@ from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
-#: Noise in a column, in parts of its power, that may be the record's own.
-_NOISY = 0.1
+#: Noise of the record's own in a column, in parts of what the delay makes of it, that it may have.
+_NOISY = 1.0
 
 
 @dataclass(frozen=True)
@@ -155,8 +155,8 @@ def _told(scenes: Sequence[Scene], k: int | None, start: float, told: _Told) -> 
 
 
 def _quieter(recorded: Array, modelled: Array) -> NDArray[np.bool_]:
-    """On which joints rows of the recorded torque (n x N) have hardly any noise, and less than those of the model's,
-    which have that of the positions: what both have in common is none.
+    """On which joints rows of the recorded torque (n x N) have little noise, and less than those of the model's, which
+    have that of the positions: what both have in common is none.
     """
     common, power = np.sum(recorded * modelled, axis=1), np.sum(recorded**2, axis=1)
     return np.asarray((power < (1 + _NOISY) * common) & (power < np.sum(modelled**2, axis=1)))

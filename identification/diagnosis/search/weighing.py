@@ -217,7 +217,8 @@ class Weighing:
             return replace(one, why_not="what it explains is another effect")
         if not self._beyond_friction(drop, variant, others):
             return replace(one, why_not="what it explains is another value of friction that is known")
-        true = self._without_position_noise(variant, others)
+        # What another fit tells it tells with the noise of the positions alike at every value.
+        true = drop if variant.preset is not None else self._without_position_noise(variant, others)
         if true < _TRUE * drop or chance(true, variant) * self._tried > _ALPHA:
             return replace(one, why_not="what it explains is noise of the positions")
         validation, promised = self._held_out.gain(variant, x, columns_of(others))
