@@ -6,7 +6,7 @@ At first that is tau(t) - s dtau/dt; a long delay is told by motors' rows (``lat
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -29,15 +29,11 @@ _NOISY = 1.0
 
 @dataclass(frozen=True)
 class _Told:
-    """A delay ``beyond`` another; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s] (n).
-
-    Its column is of the recorded torque on the joints that are ``quiet`` (n).
-    """
+    """A delay ``beyond`` another; motors' ``late`` rows tell it, and of each what it is late by, ``whole`` [s] (n)."""
 
     beyond: Value
     late: Sequence[Lateness | None]
     whole: Sequence[float]
-    quiet: NDArray[np.bool_]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -54,30 +50,31 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     shared = None if any(stated) else delay_of(as_late)
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
     each = [delay_of([one], start) for one in late]
-    whole, none = [start + _value(beyond) for beyond in each], np.zeros(len(moving), dtype=bool)
-    together = None if shared is None else _told(scenes, None, 0.0, _Told(shared, as_late, whole, none))
-    told = [
-        None if one is None else _told(scenes, k, start, _Told(one, late, whole, none)) for k, one in enumerate(each)
-    ]
+    whole = [start + _value(beyond) for beyond in each]
+    together = None if shared is None else _Told(shared, as_late, whole)
+    told = [None if one is None else _Told(one, late, whole) for one in each]
     own = [
-        _hypothesis((joint,), k, start if told[k] else 0.0, told[k])
+        _hypothesis(scenes, (joint,), k, start if told[k] else 0.0, told[k])
         for k, joint in enumerate(moving)
         if not (stated and stated[k])
     ]
     if any(stated):
         return own
-    return [_hypothesis(moving, None, 0.0, together), *(own if len(moving) > 1 else ())]
+    return [_hypothesis(scenes, moving, None, 0.0, together), *(own if len(moving) > 1 else ())]
 
 
-def _hypothesis(joints: Sequence[Joint], k: int | None, start: float, told: _Told | None) -> Hypothesis:
+def _hypothesis(
+    scenes: Sequence[Scene], joints: Sequence[Joint], k: int | None, start: float, told: _Told | None
+) -> Hypothesis:
     """Of a delay beyond one of all motors that is ``start`` [s]."""
     joint = None if k is None else joints[0]
+    quiet = None if told is None else _quiet(scenes, k, start, told)
     return Hypothesis(
         "torque_delay",
         "delay between torque and position" + (" of all joints" if k is None else ""),
         0 if joint is None else joint.number,
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
-        partial(_columns, k, joint, start, told),
+        partial(_columns, k, joint, start, told, quiet),
         kind=SIGNAL,
         preset={} if told is None else {_name(joint): told.beyond},
         beyond=(_name(None),) if start else (),
@@ -105,18 +102,23 @@ def _value(told: Value | None) -> float:
 
 
 def _columns(
-    k: int | None, joint: Joint | None, start: float, told: _Told | None, scene: Scene, shape: Mapping[str, float]
+    k: int | None,
+    joint: Joint | None,
+    start: float,
+    told: _Told | None,
+    quiet: NDArray[np.bool_] | None,
+    scene: Scene,
+    shape: Mapping[str, float],
 ) -> Array:
-    """What a delay beyond one of ``start`` [s] changes per second of it: as long as was ``told``, else as was found,
-    else as none.
+    """What a delay beyond one of ``start`` [s] changes per second of it: as long as was ``told``, of recorded torques
+    on joints that are ``quiet`` (n), else as was found, else as none.
     """
+    if told is not None and quiet is not None:
+        recorded, modelled, known = _two_secants(scene, k, start, told)
+        return np.where(quiet[:, None] & known, recorded, modelled)[None]
+    tau = _of_motor(scene, k, scene.torque)
     found = scene.found(_name(joint))
-    if told is None and not found:
-        return -scene.derivative(_of_motor(scene, k, scene.torque))[None]
-    if told is None:
-        return _secant(scene, _of_motor(scene, k, scene.torque), start, found)[None]
-    recorded, modelled, clear = _two_secants(scene, k, start, told)
-    return np.where(told.quiet[:, None] & clear, recorded, modelled)[None]
+    return (_secant(scene, tau, start, found) if found else -scene.derivative(tau))[None]
 
 
 def _two_secants(scene: Scene, k: int | None, start: float, told: _Told) -> tuple[Array, Array, NDArray[np.bool_]]:
@@ -143,15 +145,15 @@ def _secant(scene: Scene, tau: Array, start: float, more: float) -> Array:
     return (after - before) / more
 
 
-def _told(scenes: Sequence[Scene], k: int | None, start: float, told: _Told) -> _Told:
-    """With the joints on which the recorded torque is the quieter one along all runs."""
+def _quiet(scenes: Sequence[Scene], k: int | None, start: float, told: _Told) -> NDArray[np.bool_]:
+    """The joints (n) on which the recorded torque is the quieter one along all runs."""
     kept = []
     for scene in scenes:
         recorded, modelled, known = _two_secants(scene, k, start, told)
         factor = scene.sampled.filters.factor
         clear = windowed((scene.sampled.left_out | ~known).astype(float), factor) == 0
         kept.append(np.stack([np.where(clear, windowed(one, factor), 0.0) for one in (recorded, modelled)]))
-    return replace(told, quiet=_quieter(*np.concatenate(kept, axis=-1)))
+    return _quieter(*np.concatenate(kept, axis=-1))
 
 
 def _quieter(recorded: Array, modelled: Array) -> NDArray[np.bool_]:
