@@ -14,7 +14,9 @@ from generator.resources import find_robot
 from tests.commands import ROOT, process, tree
 
 
-@pytest.mark.parametrize("name", ["kr270", pytest.param("puma560", marks=pytest.mark.long), "tree_two_arms"])
+@pytest.mark.parametrize(
+    "name", [*(pytest.param(name, marks=pytest.mark.long) for name in ("kr270", "puma560")), "tree_two_arms"]
+)
 def test_hash_seed_folder_locale_and_time_zone_do_not_matter(name: str, tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()

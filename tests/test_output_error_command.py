@@ -139,6 +139,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_result(folder: Path, seria
     assert found == serial
 
 
+@pytest.mark.long
 def test_results_that_die_with_their_worker_are_made_again(tmp_path: Path) -> None:
     """All tasks are done, on either worker, when one of them is killed with what was not fetched from it."""
     killed: list[int] = []

@@ -59,7 +59,8 @@ def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS) -> Dia
     return diagnosis_of(sources, regressors)
 
 
-@pytest.mark.parametrize("delay", [16, pytest.param(-20, marks=pytest.mark.long)])
+@pytest.mark.parametrize("delay", [16, -20])
+@pytest.mark.long
 def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Path) -> None:
     found = late_by(tmp_path, (delay, delay))
     assert found.verdict == NAMED

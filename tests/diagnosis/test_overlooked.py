@@ -85,7 +85,7 @@ def test_more_noise_is_no_contradiction(tmp_path: Path) -> None:
     assert (found.verdict, found.findings) == (NOTHING, ())
 
 
-@pytest.mark.parametrize("turning", [True, False])
+@pytest.mark.parametrize("turning", [pytest.param(True, marks=pytest.mark.long), False])
 def test_what_the_fitted_runs_leave_open_is_no_contradiction(turning: bool, tmp_path: Path) -> None:
     """A joint that never turns round shows the sum of its offset and its dry friction, and the testing run more."""
     found = diagnosis(tmp_path, same, turning)
