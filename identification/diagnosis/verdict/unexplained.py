@@ -14,6 +14,7 @@ from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
 from identification.diagnosis.verdict.crossed import Crossed, crossed
 from identification.diagnosis.verdict.drifting import drifting
+from identification.diagnosis.verdict.finding import BOUNCED
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
 from identification.diagnosis.verdict.ripples import Ripple, ripples
@@ -25,9 +26,8 @@ from identification.residuals import rms
 #: Why something stays unexplained where a residual does not say so.
 VALUES, AMPLITUDES = "values", "amplitudes"
 
-#: What may stay unexplained, in parts of what was explained on the joint: of any law, and where a link bounces in a
-#: gap, which the smallest error changes.
-_PART, _BOUNCED = 0.3, 0.7
+#: What may stay unexplained of any law, in parts of what was explained on the joint.
+_PART = 0.3
 #: Factor by which the size of a torque and the time of a fall may differ about a gap; and the part of a backlash's size
 #: on the joint where it is largest, beside the noise, that another joint feels.
 _SAME, _FELT = 1.3, 0.1
@@ -75,7 +75,7 @@ def unexplained(
     """
     bounces, loose, explained = _bounces(found), _loose(found), _explained(found) | _taken_back(found, gone)
     stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
-    stays |= {number: max(stays[number], _BOUNCED * explained[number]) for number in loose}
+    stays |= {number: max(stays[number], BOUNCED * explained[number]) for number in loose}
     large = [one for one in last.lack if _large(one, stays[one.joint])]
     overlooked = {} if large else _drifting(found) | _swaying(found)
     doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
