@@ -27,7 +27,7 @@ from identification.diagnosis.search.likely import balances, pulls
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.whole_orders import UNSURE
-from identification.diagnosis.verdict.crossings import left_between
+from identification.diagnosis.verdict.gap_crossings import left_between
 from identification.diagnosis.verdict.shape_uncertainty import apart, deviations
 from identification.outcome import Value
 
@@ -52,8 +52,6 @@ _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
 #: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
-#: What may be left where a link bounces in a gap, in parts of what was explained.
-BOUNCED = 0.7
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -223,11 +221,10 @@ def findings(
         )
     pulled = [number for one in result if pulls(one.hypothesis.effect) for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    moving = found.bank.robot.moving
-    remains = [left.get(moving[one.evidence.place].number, 0.0) / one.evidence.size for one in result]
-    told = [_doubted(one, rest, several, found.repeats) for one, rest in zip(result, remains, strict=True)]
-    swung = [_settled(found, one, left, rest) for one, rest in zip(found.choices, remains, strict=True)]
-    told = _beside_any_torque([_swinging(one, *kept) for one, kept in zip(told, swung, strict=True)])
+    told = [_doubted(one, _remains(found, one, left), several, found.repeats) for one in result]
+    settled = [left_between(found, one.evidence, left) if one.hypothesis.effect == "backlash" else left for one in told]
+    told = [_swinging(one, rest, _remains(found, one, rest)) for one, rest in zip(told, settled, strict=True)]
+    told = _beside_any_torque(told)
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
@@ -250,6 +247,11 @@ def _least(found: Search, variant: Variant) -> float:
     if found.repeats:
         return 0.0
     return _APERIODIC if all(maps_taken(found.bank, found.maps, k) for k in variant.joints) else _SHORT
+
+
+def _remains(found: Search, one: Finding, left: Mapping[int, float]) -> float:
+    """What is ``left`` on the joint where a finding is largest, in parts of it."""
+    return left.get(found.bank.robot.numbers[one.evidence.place], 0.0) / one.evidence.size
 
 
 def _beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
@@ -293,20 +295,6 @@ def _doubted(one: Finding, remains: float, several: Collection[int], repeats: bo
     if remains > _LEFT or all(map(_vague, one.main)) or (kind == BODY and _vague(one.main[0])):
         return replace(one, status=TENTATIVE)
     return one
-
-
-def _settled(
-    found: Search, one: Choice, left: Mapping[int, float], remains: float
-) -> tuple[Mapping[int, float], float]:
-    """What is ``left`` on joints and ``remains`` of a finding: between the crossings of a backlash that explains most
-    of them.
-    """
-    variant = one.evidence.variant
-    if variant.hypothesis.effect != "backlash" or remains > BOUNCED:
-        return left, remains
-    between = left_between(found, variant)
-    place = found.bank.robot.numbers[one.evidence.place]
-    return {**left, **between}, between[place] / one.evidence.size if place in between else remains
 
 
 def _swinging(one: Finding, left: Mapping[int, float], remains: float) -> Finding:

@@ -14,7 +14,7 @@ from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.contradiction import Contradicted, pulled
 from identification.diagnosis.verdict.crossed import Crossed, crossed
 from identification.diagnosis.verdict.drifting import drifting
-from identification.diagnosis.verdict.finding import BOUNCED
+from identification.diagnosis.verdict.gap_crossings import BOUNCED
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.overlooked import untested, untold
 from identification.diagnosis.verdict.ripples import Ripple, ripples
