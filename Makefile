@@ -87,11 +87,11 @@ setup: $(TESTING) ## install the packages for simulate, excite, identify, diagno
 test: $(TESTING) ## every test that needs Python and a C compiler alone
 	@$(PYTEST) -n 2 --dist worksteal -m "not long" --ignore=tests/extra tests
 
-test-long: $(TESTING) ## further and longer cases of what make test holds, and what a diagnosis costs
+test-long: $(TESTING) ## further and longer cases of what make test and make test-extra hold, and what a diagnosis costs
 	@$(PYTEST) -n 2 --dist worksteal -m long tests
 
 test-extra: $(TESTING) ## tests with clang, valgrind, an Arm compiler and a browser, where installed
-	@$(PYTEST) -n 2 --dist worksteal tests/extra
+	@$(PYTEST) -n 2 --dist worksteal -m "not long" tests/extra
 
 bench: $(BENCHING) ## time the generated code beside other libraries, into docs/performance.md; only=NAME for one study
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.bench $(if $(only),only="$(only)")

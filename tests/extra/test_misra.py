@@ -1,4 +1,4 @@
-"""The report's robots under cppcheck's MISRA addon: a minute each, so not among the quick tests."""
+"""Robots under cppcheck's MISRA addon: up to minutes each, so not among the quick tests."""
 
 from __future__ import annotations
 
@@ -21,29 +21,28 @@ OPTIONS = ["--addon=misra", "--enable=all", "--std=c99", "--suppress=missingIncl
 #: Documented in prose, see docs/misra.md: names that share their first 31 characters.
 LONG_NAMES = "5.1"
 
-NAME = "kr500"
-
 #: What cppcheck says of its own work, and of functions that only a user calls.
 REMARKS = {"unusedFunction", "staticFunction", "checkersReport", "normalCheckLevelMaxBranches"}
 
 
-@pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The library of a robot and what stands on it, in one folder."""
-    model = derive(read(find_robot(NAME)))
-    return write(tmp_path_factory.mktemp("library"), {**c.emit(model), **simulation.emit(model)})
+@pytest.fixture(scope="module", params=["scara", pytest.param("kr500", marks=pytest.mark.long)])
+def library(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    """Name of a robot; its library and what stands on it, in one folder."""
+    model = derive(read(find_robot(request.param)))
+    return request.param, write(tmp_path_factory.mktemp("library"), {**c.emit(model), **simulation.emit(model)})
 
 
-@pytest.mark.parametrize("source", [f"{NAME}.c", f"{NAME}_simulation.c"])
-def test_no_rule_beyond_the_documented_ones(source: str, library: Path) -> None:
+@pytest.mark.parametrize("ending", [".c", "_simulation.c"])
+def test_no_rule_beyond_the_documented_ones(ending: str, library: tuple[str, Path]) -> None:
+    name, folder = library
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     report = run(
         [
             shutil.which("cppcheck", path=path) or "cppcheck",
             *OPTIONS,
-            f"-U{NAME.upper()}_USE_FLOAT",
-            f"-D{NAME.upper()}_LANES=1",
-            library / source,
+            f"-U{name.upper()}_USE_FLOAT",
+            f"-D{name.upper()}_LANES=1",
+            folder / f"{name}{ending}",
         ]
     )
     found = set(re.findall(r"\[misra-c2012-([\d.]+)\]$", report, re.MULTILINE))

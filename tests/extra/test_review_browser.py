@@ -45,6 +45,10 @@ document.body.append(holder);
 """
 
 
+#: Robots whose page is looked at each time: the report's, a branch and a slide.
+ALWAYS = ("kr270", "kr500", "stanford", "tree_two_arms")
+
+
 @dataclass(frozen=True)
 class Measures:
     """Boxes of the pictures [px], labels that overlap or leave their picture, width of the page and of the window."""
@@ -79,7 +83,10 @@ def measured(path: Path, width: int) -> Measures:
     return Measures(**json.loads(unescape(told)))
 
 
-@pytest.mark.parametrize("name", [path.stem for path in robots()])
+@pytest.mark.parametrize(
+    "name",
+    [path.stem if path.stem in ALWAYS else pytest.param(path.stem, marks=pytest.mark.long) for path in robots()],
+)
 def test_the_page_is_quiet_complete_and_tidy(name: str, tmp_path: Path) -> None:
     path = written(name, tmp_path)
     told = measured(path, 1440)
