@@ -46,7 +46,7 @@ def left(new: Mended | None) -> tuple[float, float]:
 #: What a joint's friction is named, besides the viscous one: none is Coulomb's alone just after a reversal.
 DRY = ("coulomb_friction", "dahl_friction", "lugre_friction")
 #: What is named as well of which nobody knows whether it is true.
-OPEN = {("torque_delay", (6,)), ("torque_gain", (6,)), ("stribeck_friction", (6,))}
+OPEN = {("torque_delay", (6,)), ("torque_gain", (6,))}
 
 
 @pytest.mark.long
