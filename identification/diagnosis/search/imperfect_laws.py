@@ -23,6 +23,8 @@ _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
 _OF_SPEED = ("qd", SINCE_REVERSAL)
+#: The same part of all friction that was found on a joint, for more of it: common laws are unlike real ones by a fifth.
+FRICTION = 0.04
 #: Variables over which an effect of one of them shows as well.
 _SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
 
@@ -48,6 +50,17 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
             near = bool(set(one.joints) & set(variant.joints))
             least = max(least, (part if near else min(part, _ANYWHERE)) * drop)
     return least
+
+
+def refined(variant: Variant, others: Sequence[Variant]) -> list[list[Variant]]:
+    """The friction among ``others`` of which a variant that is not common would be more, joint by joint; none of joints
+    where nothing of it is common.
+    """
+    if common(variant) or variant.hypothesis.variable not in _OF_SPEED:
+        return []
+    of_speed = [one for one in others if one.hypothesis.variable in _OF_SPEED]
+    each = ([one for one in of_speed if one.joints == (joint,)] for joint in variant.joints)
+    return [same for same in each if any(map(common, same))]
 
 
 def _exclude(one: Hypothesis, other: Hypothesis) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import inf
 
@@ -61,7 +61,9 @@ class Selection:
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
-        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do."""
+        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do; ``start`` where
+        that ends no better than it began.
+        """
         chosen = list(start) or self._first()
         paired = False
         seen: set[frozenset[Key]] = set()
@@ -89,13 +91,20 @@ class Selection:
             else:
                 seen.add(known)
                 refused.clear()
-        return self.choices(self._exchanged(chosen, None, _ROUNDS))
+        found = self.choices(self._exchanged(chosen, None, _ROUNDS))
+        begun = self.choices(start)
+        return begun if self._cost(begun) < self._cost(found) else found
+
+    def _cost(self, choices: Sequence[Choice]) -> float:
+        """What is left of the sum of squares, with the price of what was chosen: the less, the better."""
+        chosen = [one.evidence.variant for one in choices]
+        return self.weighing.misfit(chosen) + sum(map(self.weighing.price, chosen))
 
     def choices(self, chosen: Sequence[Variant]) -> list[Choice]:
         """Those that pass beside each other, with what may stand in their places; none that tells the same twice and
         not alike.
         """
-        standing = self._standing(chosen)
+        standing = self._standing(chosen, replacing=True)
         found = [self._choice(one, [other for other in standing if other is not one]) for one in standing]
         alike = [one for one in found if _agrees(one.evidence)]
         return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike])
@@ -126,16 +135,23 @@ class Selection:
         chosen = self._standing(chosen)
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
 
-    def _standing(self, chosen: Sequence[Variant]) -> list[Variant]:
-        """Those that pass beside each other: the weakest that does not is taken away, one after the other."""
-        chosen = list(chosen)
+    def _standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
+        """Those that pass beside each other: the weakest that does not is taken away, one after the other, ``replacing``
+        it by what should stand in its place. Beside what it leaves, others would seem too small.
+        """
+        chosen, gone = list(chosen), set[Key]()
         while chosen:
             rest = [[other for other in chosen if other is not one] for one in chosen]
             found = [self.weighing.of(one, others) for one, others in zip(chosen, rest, strict=True)]
             failing = [k for k, others in enumerate(rest) if not self._sound(found[k], others)]
             if not failing:
                 return [one.variant for one in found]
-            del chosen[min(failing, key=lambda k: found[k].drop)]
+            weakest = min(failing, key=lambda k: found[k].drop)
+            gone.add(chosen[weakest].key)
+            refused, others = replace(found[weakest], passes=False), rest[weakest]
+            best = self._challenger(refused, others) if replacing else None
+            new = [] if best is None or best.variant.key in gone else [self._shaped(best.variant, others)]
+            chosen[weakest : weakest + 1] = new
         return chosen
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
@@ -164,12 +180,39 @@ class Selection:
         return self.weighing.bank.add(one.hypothesis, one.shape, offered=False) or one
 
     def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
-        """What should stand in the place of ``mine``, whichever of the two came first."""
+        """What should stand in the place of ``mine``, whichever came first: of what is common and what is not the one
+        that would take it from the other.
+        """
+        best: Evidence | None = None
         for one in self._rivals(mine, others):
+            if best is not None and not likely(one.variant, others):
+                continue
             one = self._whole(one, others)
-            if self._sound(one, others) and (not mine.passes or _displaces(one, mine, others)):
-                return one
-        return None
+            if not self._sound(one, others) or (mine.passes and not self._displaces(one, mine, others)):
+                continue
+            if likely(one.variant, others):
+                return one if best is None or self._displaces(one, best, others) else best
+            best = one
+        return best
+
+    def _displaces(self, one: Evidence, mine: Evidence, others: Sequence[Variant]) -> bool:
+        """Whether ``one`` is clearly better; what is common gives way to what is not only for much more, and takes its
+        place back for less.
+        """
+        usual, mine_usual = (likely(each.variant, others) for each in (one, mine))
+        if usual == mine_usual:
+            return one.score > mine.score + _BETTER
+        return not self._outweighs(mine, one, others) if usual else self._outweighs(one, mine, others)
+
+    def _outweighs(self, rare: Evidence, usual: Evidence, others: Sequence[Variant]) -> bool:
+        """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with
+        the others. What is common counts as beside nothing else on its joint that is rare: what it is hides behind that.
+        """
+        joints = usual.variant.joints
+        besides = [one for one in others if one.joints != joints or likely(one, others)]
+        alone = self.weighing.beside(usual.variant, besides)[1]
+        margin = _BETTER + _RARE * max(alone, usual.drop)
+        return rare.believed and rare.bic > usual.bic + margin and rare.score > usual.score + margin
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
@@ -305,21 +348,3 @@ def _agrees(one: Evidence) -> bool:
     """Whether what its coefficients and its shape tell of the same may be of one thing."""
     agrees = one.variant.hypothesis.agrees
     return agrees is None or agrees(one.coefficients, one.variant.shape)
-
-
-def _displaces(one: Evidence, mine: Evidence, others: Sequence[Variant]) -> bool:
-    """Whether ``one`` is clearly better; what is common gives way to what is not only for much more, and takes its
-    place back for less.
-    """
-    usual, mine_usual = (likely(each.variant, others) for each in (one, mine))
-    if usual == mine_usual:
-        return one.score > mine.score + _BETTER
-    return not _outweighs(mine, one) if usual else _outweighs(one, mine)
-
-
-def _outweighs(rare: Evidence, usual: Evidence) -> bool:
-    """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with the
-    others.
-    """
-    margin = _BETTER + _RARE * usual.drop
-    return rare.believed and rare.bic > usual.bic + margin and rare.score > usual.score + margin

@@ -33,7 +33,7 @@ from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.evidence import SMALL, Evidence
 from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
-from identification.diagnosis.search.imperfect_laws import lacking
+from identification.diagnosis.search.imperfect_laws import FRICTION, lacking, refined
 from identification.diagnosis.search.likely import common, likely
 from identification.diagnosis.search.tried import at_end, chance
 
@@ -207,8 +207,7 @@ class Weighing:
         drop, variant, x = self._asked_for(found, others)
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
         p = chance(drop, variant)
-        free = len(x) + variant.hypothesis.free
-        bic = drop - free * np.log(self.normal.rows) - 2 * np.log(variant.tries)
+        bic = drop - self.price(variant)
         believed = not self._free or variant.believed(x)
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:
@@ -232,13 +231,18 @@ class Weighing:
         share = _SHARE if common(variant) else _LIKELY_SHARE if likely(variant, others) else _RARE_SHARE
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
-        if drop < lacking(variant, others, self._drops(others)):
+        if drop < max(lacking(variant, others, self._drops(others)), self._friction_lacks(variant, others)):
             return replace(one, why_not="may be what another effect's law lacks")
         if at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         if small(one, self.few):
             return replace(one, why_not=SMALL)
         return replace(one, passes=True)
+
+    def price(self, variant: Variant) -> float:
+        """What the sum of squares must drop for each value that is fitted, and for the shapes that are tried."""
+        free = len(variant.columns) + variant.hypothesis.free
+        return float(free * np.log(self.normal.rows) + 2 * np.log(variant.tries))
 
     def _asked_of_others(self, variant: Variant, others: Sequence[Variant], promised: float) -> float:
         """The least drop of the sum of squares of what was not fitted, of a variant beside ``others``.
@@ -357,6 +361,12 @@ class Weighing:
                 self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen
             ]
         return self._known_drops[key]
+
+    def _friction_lacks(self, variant: Variant, others: Sequence[Variant]) -> float:
+        """What the laws of the friction that a variant would refine may lack, on the joint where that is least."""
+        left = self.misfit(others)
+        each = ([one for one in others if one not in same] for same in refined(variant, others))
+        return FRICTION * min((self.misfit(rest) - left for rest in each), default=0.0)
 
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""
