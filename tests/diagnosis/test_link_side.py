@@ -79,8 +79,14 @@ def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> 
     assert all(inertia.low < one["Iam"] < 1.1 * inertia.high for one in untold.variants)
 
 
-def test_swings_settle_beside_the_base_parameters(loose: Scene) -> None:
-    """From a rotor and inertias that are wrong both come near the truth, and the gap with them."""
+@pytest.mark.parametrize(("errors", "off"), [((0.0,), 0.03), (backlash.ERRORS, 0.05)])
+def test_swings_settle_beside_the_base_parameters(
+    errors: tuple[float, ...], off: float, loose: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From a rotor and inertias that are wrong both come near the truth, and the gap with them: nearer if the torque is
+    no mean over errors of the load, of which this run has none.
+    """
+    monkeypatch.setattr(backlash, "ERRORS", errors)
     one = prepared(loose.sampled.run, Recipe(), loose.regressors)
     wrong = {name: value * (1.03 if name == "ZZ1R" else 1.0) for name, value in loose.values.items()}
     scene = replace(loose, sampled=one.sampled, values=wrong)
@@ -95,5 +101,5 @@ def test_swings_settle_beside_the_base_parameters(loose: Scene) -> None:
     (found,), values, acting = settled(Weighing(bank, [0], [1], None), [start])
     assert values["ZZ1R"] == pytest.approx(loose.values["ZZ1R"], rel=0.005)
     assert found.shape["Iam"] == pytest.approx(ROTOR, rel=0.01)
-    assert found.shape["gap"] == pytest.approx(GAP, rel=0.03)
+    assert found.shape["gap"] == pytest.approx(GAP, rel=off)
     assert acting.coefficients["gap1"] == pytest.approx(GAP, rel=0.05)

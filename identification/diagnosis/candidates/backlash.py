@@ -25,6 +25,8 @@ _QUICKEST, _SLOWEST = 0.01, 0.2
 _STEPS, _DAMPINGS, _GAPS = 10, 3, 24
 #: Step of the logarithm by which a gap is searched between them; of a rotor's inertia, in parts of the link's.
 _FINE = 0.1
+#: Errors of the load, in parts of its spread, over which the torque is a mean: how a link bounces they change.
+ERRORS = (-0.0025, 0.0, 0.0025)
 #: Part of the gap of the fall's time that the torque's size must tell at least, and the other way round: a link that
 #: falls is missing with all its load.
 _ALIKE = 0.1
@@ -136,5 +138,6 @@ def _has_gap(robot: Robot, number: int) -> bool:
 
 def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
     side = sides.along(scene, shape["Iam"])
-    deflection = side.deflection(Train(shape["k"], shape["damping"], shape["gap"]))
-    return side.torque_per(deflection)[None] / shape["gap"]
+    train, spread = Train(shape["k"], shape["damping"], shape["gap"]), float(np.std(side.load))
+    played = [side.torque_per(side.loaded(part * spread).deflection(train)) for part in ERRORS]
+    return np.asarray(np.mean(played, axis=0)[None] / shape["gap"])

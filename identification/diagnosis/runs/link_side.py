@@ -84,6 +84,10 @@ class LinkSide:
         by_acceleration[self.k] -= rotor - self.rotor
         return replace(self, rotor=rotor, load=load, by_acceleration=by_acceleration)
 
+    def loaded(self, more: float) -> LinkSide:
+        """The same with a load that is larger by ``more`` [N m, N] all along."""
+        return replace(self, load=self.load + more)
+
     def deflection(self, train: Train) -> Motion:
         """The link's motion against the motor's on a drive train of plain numbers."""
         given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)

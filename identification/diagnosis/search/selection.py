@@ -136,8 +136,8 @@ class Selection:
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
-        """Those that pass beside each other: the weakest that does not is taken away, one after the other, ``replacing``
-        it by what should stand in its place. Beside what it leaves, others would seem too small.
+        """Those that pass beside each other: the weakest that does not is taken away, one after the other, or where
+        ``replacing`` gives its place to what should stand there: beside a gap, others would seem too small.
         """
         chosen, gone = list(chosen), set[Key]()
         while chosen:
@@ -206,7 +206,7 @@ class Selection:
 
     def _outweighs(self, rare: Evidence, usual: Evidence, others: Sequence[Variant]) -> bool:
         """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with
-        the others. What is common counts as beside nothing else on its joint that is rare: what it is hides behind that.
+        the others. What is common counts as beside nothing on its joint that is rare, behind which it would hide.
         """
         joints = usual.variant.joints
         besides = [one for one in others if one.joints != joints or likely(one, others)]
