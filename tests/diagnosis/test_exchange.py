@@ -1,12 +1,16 @@
-"""What was chosen is challenged with all its coefficients, and by what a free fit believes."""
+"""What was chosen is challenged with all its coefficients, by what is believed; what falls and what goes astray."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import Coefficient
 from identification.diagnosis.columns.normal_equations import Prior
+from identification.diagnosis.search.selection import Selection
 from identification.diagnosis.search.weighing import Weighing
 from tests.diagnosis.drawn_data import TRAIN, VALIDATE, Data, fixed, search
 from tests.matrices import several
@@ -37,3 +41,40 @@ def test_what_a_file_states_of_drive_trains_is_no_prior_of_the_model() -> None:
     stated = Prior(np.zeros(3), np.zeros((3, 3)))
     for prior, free, believed in ((None, False, False), (stated, True, False), (None, True, False)):
         assert Weighing(one, TRAIN, VALIDATE, prior, None, free).of(one.variants[0], []).believed == believed
+
+
+def test_the_place_of_what_falls_is_taken_before_others_are_judged() -> None:
+    """Beside all that the one which falls had explained the other is too small to be named."""
+    data = Data(31)
+    large, small = data.column(), data.column()
+    offered = [fixed("wrong", large, (None, 0.0)), fixed("large", large), fixed("small", small)]
+    one = data.bank(5 * large + small, offered)
+    wrong, _, beside = one.variants
+    found = Selection(Weighing(one, TRAIN, VALIDATE, None)).choices([wrong, beside])
+    assert {each.evidence.variant.hypothesis.effect for each in found} == {"large", "small"}
+
+
+def test_a_search_ends_no_worse_than_it_began() -> None:
+    class Astray(Selection):
+        def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
+            return []
+
+    data = Data(32)
+    column = data.column()
+    one = data.bank(3 * column, [fixed("there", column)])
+    astray = Astray(Weighing(one, TRAIN, VALIDATE, None))
+    assert [each.evidence.variant for each in astray.search(one.variants)] == one.variants
+    assert astray.search() == []
+
+
+@pytest.mark.parametrize(("size", "named"), [(1.5, False), (2.5, True)])
+def test_friction_that_a_common_law_may_lack_is_not_named(size: float, named: bool) -> None:
+    """Laws are unlike by a fifth; without friction that is found on its joint the same would be named."""
+    data = Data(33)
+    viscous, gradual = data.column(), data.column()
+    every = {"viscous_friction": viscous, "gradual_friction": gradual}
+    offered = [replace(fixed(effect, column), variable="qd") for effect, column in every.items()]
+    found = search(data.bank(10 * viscous + size * gradual, offered))
+    assert ("gradual_friction" in {one.evidence.variant.hypothesis.effect for one in found}) == named
+    (alone,) = search(data.bank(size * gradual, offered[1:]))
+    assert alone.evidence.variant.hypothesis.effect == "gradual_friction"
