@@ -36,7 +36,7 @@ def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int
 def bank(runs: Sequence[Any]) -> Bank:
     """The runs' base columns and torques; a scene is its run's number and carries nothing."""
     names = tuple(f"p{i}" for i in range(len(runs[0].sampled.motion)))
-    robot = SimpleNamespace(moving=(), flexible=(), effects=(), parameter_sets={})
+    robot = SimpleNamespace(moving=(), flexible=(), effects=(), lengths=(), parameter_sets={})
     regressors = SimpleNamespace(names=names, structure=[names], base=lambda motion: [motion[:, 0]])
     regressors.model = SimpleNamespace(effects=())
     scenes: Any = [

@@ -5,8 +5,10 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
+from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.selection import Selection
 
 
@@ -27,15 +29,21 @@ def test_on_other_joints_what_is_found_beside_it_is_no_rival(
     assert instead(joints, beside) == stands
 
 
-@pytest.mark.parametrize(("joint", "outweighs"), [(0, False), (1, True)])
-def test_what_is_common_counts_as_if_nothing_rare_hid_it(joint: int, outweighs: bool) -> None:
-    """A rival explains half as much again as what is common does beside something rare, and little without that."""
+@pytest.mark.parametrize(
+    ("alone", "joint", "outweighs"), [(1050.0, 0, False), (1200.0, 0, True), (1050.0, 1, True), (1200.0, 1, True)]
+)
+def test_what_is_rare_outweighs_what_is_common_without_what_hides_that(
+    alone: float, joint: int, outweighs: bool
+) -> None:
+    """Beside a rare effect on some joint it explains half as much again; on theirs only that hides what is common."""
 
     def effect(name: str, *joints: int) -> Any:
         return SimpleNamespace(hypothesis=SimpleNamespace(effect=name, kind="effect", stated=False), joints=joints)
 
-    hiding = effect("gradual_friction", joint)
-    usual = SimpleNamespace(variant=effect("viscous_friction", 0), drop=100.0, bic=100.0, score=100.0)
-    rare = SimpleNamespace(variant=effect("torque_gain", 0), believed=True, bic=150.0, score=150.0)
-    weighing: Any = SimpleNamespace(beside=lambda variant, others: (None, 100.0 if hiding in others else 1000.0))
-    assert Selection(weighing)._outweighs(rare, usual, [hiding]) == outweighs  # type: ignore[arg-type]
+    def found(name: str, drop: float) -> Evidence:
+        return Evidence(effect(name, 0), np.ones(1), drop, 0.0, drop, drop, {}, True, "", True)
+
+    hiding, usual, rare = effect("gradual_friction", joint), found("viscous_friction", 100), found("torque_gain", 150)
+    drops = {id(usual.variant): 1000.0, id(rare.variant): alone}
+    weighing: Any = SimpleNamespace(beside=lambda variant, others: (None, drops[id(variant)]))
+    assert Selection(weighing)._outweighs(rare, usual, [hiding]) == outweighs

@@ -22,11 +22,10 @@ _SHIFTED = 0.002
 _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
-_OF_SPEED = ("qd", SINCE_REVERSAL)
-#: The same part of all friction that was found on a joint, for more of it: common laws are unlike real ones by a fifth.
-FRICTION = 0.04
+#: Variables of the speed's history.
+OF_SPEED = ("qd", SINCE_REVERSAL)
 #: Variables over which an effect of one of them shows as well.
-_SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*_OF_SPEED, "time"), ("frequency",))
+_SHOWN_ALIKE = (("q", "q by direction", "motor phase", "load"), (*OF_SPEED, "time"), ("frequency",))
 
 
 def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float]) -> float:
@@ -52,17 +51,6 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
     return least
 
 
-def refined(variant: Variant, others: Sequence[Variant]) -> list[list[Variant]]:
-    """The friction among ``others`` of which a variant that is not common would be more, joint by joint; none of joints
-    where nothing of it is common.
-    """
-    if common(variant) or variant.hypothesis.variable not in _OF_SPEED:
-        return []
-    of_speed = [one for one in others if one.hypothesis.variable in _OF_SPEED]
-    each = ([one for one in of_speed if one.joints == (joint,)] for joint in variant.joints)
-    return [same for same in each if any(map(common, same))]
-
-
 def _exclude(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether a joint has one of them alone."""
     both = (one.effect, other.effect)
@@ -76,7 +64,7 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
         return 0.0
     # What a delay of the whole robot explains is not of one joint.
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
-    if behind or {one.variable, other.variable} <= set(_OF_SPEED):
+    if behind or {one.variable, other.variable} <= set(OF_SPEED):
         return _ALIKE
     if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", SINCE_REVERSAL):
         return _SHIFTED

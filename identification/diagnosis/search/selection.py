@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import inf
@@ -32,6 +32,8 @@ _RARE = 0.1
 _MOST, _MOST_OF_JOINT, _ROUNDS = 12, 3, 3
 #: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have.
 _RIVALS, _RIVAL = 3, 0.4
+#: Times the effects that were chosen that what falls among them may be replaced.
+_REPLACED = 3
 #: Hypotheses whose pairs are tried when single ones do not do.
 _PAIRED = 20
 
@@ -61,8 +63,8 @@ class Selection:
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
-        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do; ``start`` where
-        that ends no better than it began.
+        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do; what stands of
+        ``start`` where that was lost on the way.
         """
         chosen = list(start) or self._first()
         paired = False
@@ -91,23 +93,23 @@ class Selection:
             else:
                 seen.add(known)
                 refused.clear()
-        found = self.choices(self._exchanged(chosen, None, _ROUNDS))
-        begun = self.choices(start)
-        return begun if self._cost(begun) < self._cost(found) else found
+        found = self.choices(self._exchanged(chosen, None, _ROUNDS), replacing=True)
+        begun = self._standing(start)
+        return self.choices(begun) if self._lost([one.evidence.variant for one in found], begun) else found
 
-    def _cost(self, choices: Sequence[Choice]) -> float:
-        """What is left of the sum of squares, with the price of what was chosen: the less, the better."""
-        chosen = [one.evidence.variant for one in choices]
-        return self.weighing.misfit(chosen) + sum(map(self.weighing.price, chosen))
+    def _lost(self, found: Sequence[Variant], begun: Sequence[Variant]) -> bool:
+        """Whether a search has lost more of what it began with than it may leave for what is common."""
+        nothing, now, before = map(self.weighing.cost, ([], found, begun))
+        return now - before > _BETTER + _RARE * (nothing - now)
 
-    def choices(self, chosen: Sequence[Variant]) -> list[Choice]:
+    def choices(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Choice]:
         """Those that pass beside each other, with what may stand in their places; none that tells the same twice and
-        not alike.
+        not alike. ``replacing`` is that of ``_standing``.
         """
-        standing = self._standing(chosen, replacing=True)
+        standing = self._standing(chosen, replacing)
         found = [self._choice(one, [other for other in standing if other is not one]) for one in standing]
         alike = [one for one in found if _agrees(one.evidence)]
-        return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike])
+        return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike], replacing)
 
     def _first(self) -> list[Variant]:
         """What the search begins with: what is told of several joints by another fit, behind which small parts of it on
@@ -136,10 +138,11 @@ class Selection:
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
 
     def _standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
-        """Those that pass beside each other: the weakest that does not is taken away, one after the other, or where
-        ``replacing`` gives its place to what should stand there: beside a gap, others would seem too small.
+        """Those that pass beside each other: the weakest that does not is taken away, one after the other. Where
+        ``replacing``, what passes there takes its place: beside a gap, others would seem too small.
         """
-        chosen, gone = list(chosen), set[Key]()
+        chosen, seen = list(chosen), set[frozenset[Key]]()
+        most = _REPLACED * len(chosen)
         while chosen:
             rest = [[other for other in chosen if other is not one] for one in chosen]
             found = [self.weighing.of(one, others) for one, others in zip(chosen, rest, strict=True)]
@@ -147,12 +150,21 @@ class Selection:
             if not failing:
                 return [one.variant for one in found]
             weakest = min(failing, key=lambda k: found[k].drop)
-            gone.add(chosen[weakest].key)
-            refused, others = replace(found[weakest], passes=False), rest[weakest]
-            best = self._challenger(refused, others) if replacing else None
-            new = [] if best is None or best.variant.key in gone else [self._shaped(best.variant, others)]
-            chosen[weakest : weakest + 1] = new
+            seen.add(frozenset(one.key for one in chosen))
+            again = replacing and len(seen) < most
+            chosen[weakest : weakest + 1] = self._instead_of(found[weakest], rest[weakest], seen) if again else []
         return chosen
+
+    def _instead_of(self, fallen: Evidence, others: list[Variant], seen: Collection[frozenset[Key]]) -> list[Variant]:
+        """What passes beside ``others`` on the joints of what has fallen, if that has not been ``seen`` together."""
+        there = {one.key for one in others}
+        rivals = [
+            one
+            for one in self._rivals(fallen, others)
+            if _share_joints(one, fallen) and there | {one.variant.key} not in seen
+        ]
+        best = self._best(rivals, replace(fallen, passes=False), others)
+        return [] if best is None else [self._shaped(best.variant, others)]
 
     def _exchanged(self, chosen: list[Variant], new: Variant | None, rounds: int) -> list[Variant]:
         """Each one that shares a joint with ``new`` (all if None) challenged with the others in place; dropped when its
@@ -165,7 +177,8 @@ class Selection:
                     continue
                 others = [other for other in chosen if other is not one]
                 mine = self.weighing.of(self._shaped(self._entire(one), others), others)
-                best = self._challenger(mine, others)
+                sound = mine if self._sound(mine, others) else replace(mine, passes=False)
+                best = self._best(self._rivals(mine, others), sound, others)
                 if best is not None:
                     mine = self.weighing.of(self._shaped(best.variant, others), others)
                 place = chosen.index(one)
@@ -179,18 +192,19 @@ class Selection:
         """With all its coefficients: beside fewer others some may have been at their bounds, or within chance."""
         return self.weighing.bank.add(one.hypothesis, one.shape, offered=False) or one
 
-    def _challenger(self, mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
-        """What should stand in the place of ``mine``, whichever came first: of what is common and what is not the one
-        that would take it from the other.
+    def _best(self, rivals: Sequence[Evidence], mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
+        """Of ``rivals``, the best first, what should stand in the place of ``mine``, whichever of the two came first: a
+        common one before what is not and explains little more on the same joints.
         """
         best: Evidence | None = None
-        for one in self._rivals(mine, others):
-            if best is not None and not likely(one.variant, others):
+        for one in rivals:
+            usual = likely(one.variant, others)
+            if best is not None and not (usual and _share_joints(one, best) and one.drop > _RIVAL * best.drop):
                 continue
             one = self._whole(one, others)
             if not self._sound(one, others) or (mine.passes and not self._displaces(one, mine, others)):
                 continue
-            if likely(one.variant, others):
+            if usual:
                 return one if best is None or self._displaces(one, best, others) else best
             best = one
         return best
@@ -206,13 +220,17 @@ class Selection:
 
     def _outweighs(self, rare: Evidence, usual: Evidence, others: Sequence[Variant]) -> bool:
         """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with
-        the others. What is common counts as beside nothing on its joint that is rare, behind which it would hide.
+        the others; and without what else is rare on their joints, behind which what is common may hide.
         """
-        joints = usual.variant.joints
-        besides = [one for one in others if one.joints != joints or likely(one, others)]
-        alone = self.weighing.beside(usual.variant, besides)[1]
-        margin = _BETTER + _RARE * max(alone, usual.drop)
-        return rare.believed and rare.bic > usual.bic + margin and rare.score > usual.score + margin
+        margin = _BETTER + _RARE * usual.drop
+        if not rare.believed or rare.bic <= usual.bic + margin or rare.score <= usual.score + margin:
+            return False
+        hiding = [one for one in others if _share_joints(usual, one) and not likely(one, others)]
+        if not hiding or not _share_joints(rare, usual):
+            return True
+        besides = [one for one in others if one not in hiding]
+        alone, without = (self.weighing.beside(one.variant, besides)[1] for one in (usual, rare))
+        return without > alone + _BETTER + _RARE * alone
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
@@ -337,6 +355,11 @@ class Selection:
         unlike = [each for each in same if any(each.shape[name] != one.shape[name] for name in tried)]
         drops = [self.weighing.beside(each.only(one.used), others)[1] for each in unlike]
         return all(drop < mine.drop - _BETTER for drop in drops)
+
+
+def _share_joints(one: Evidence, other: Evidence | Variant) -> bool:
+    variant = other.variant if isinstance(other, Evidence) else other
+    return not set(one.variant.joints).isdisjoint(variant.joints)
 
 
 def _form(one: Variant) -> tuple[tuple[str, float | None], ...]:

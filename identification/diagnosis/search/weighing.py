@@ -29,11 +29,11 @@ from identification.diagnosis.columns.normal_equations import (
     told_apart,
 )
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
-from identification.diagnosis.search import known_friction
+from identification.diagnosis.search import known_friction, more_friction
 from identification.diagnosis.search.evidence import SMALL, Evidence
 from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
-from identification.diagnosis.search.imperfect_laws import FRICTION, lacking, refined
+from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
 from identification.diagnosis.search.tried import at_end, chance
 
@@ -195,7 +195,7 @@ class Weighing:
         return max(self.misfit(chosen) - self.normal.rows, 0.0)
 
     def misfit(self, chosen: Sequence[Variant]) -> float:
-        """The sum of squares that is left."""
+        """The sum of squares that is left, without that of known values."""
         solution, _ = self.normal.solution(columns_of(chosen))
         return self.normal.misfit(columns_of(chosen), solution)
 
@@ -231,13 +231,22 @@ class Weighing:
         share = _SHARE if common(variant) else _LIKELY_SHARE if likely(variant, others) else _RARE_SHARE
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
-        if drop < max(lacking(variant, others, self._drops(others)), self._friction_lacks(variant, others)):
+        if drop < lacking(variant, others, self._drops(others)):
             return replace(one, why_not="may be what another effect's law lacks")
+        refines = more_friction.refines(variant, others)
+        if refines and drop < more_friction.left(self.bank, self.normal, self.train, variant, others):
+            return replace(one, why_not="may be a part of what the joint's friction lacks")
         if at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         if small(one, self.few):
             return replace(one, why_not=SMALL)
         return replace(one, passes=True)
+
+    def cost(self, chosen: Sequence[Variant]) -> float:
+        """The sum of squares that is left, with that of known values and the price of what was chosen: the less, the
+        better.
+        """
+        return float(self.normal.part([], columns_of(chosen))[0, 0]) + sum(map(self.price, chosen))
 
     def price(self, variant: Variant) -> float:
         """What the sum of squares must drop for each value that is fitted, and for the shapes that are tried."""
@@ -361,12 +370,6 @@ class Weighing:
                 self.beside(other, [one for one in chosen if one is not other])[1] for other in chosen
             ]
         return self._known_drops[key]
-
-    def _friction_lacks(self, variant: Variant, others: Sequence[Variant]) -> float:
-        """What the laws of the friction that a variant would refine may lack, on the joint where that is least."""
-        left = self.misfit(others)
-        each = ([one for one in others if one not in same] for same in refined(variant, others))
-        return FRICTION * min((self.misfit(rest) - left for rest in each), default=0.0)
 
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""

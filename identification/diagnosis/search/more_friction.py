@@ -1,0 +1,38 @@
+"""What adds to common friction that was found: where more is left than it explains, that may lack it as well."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from identification.diagnosis.columns.bank import Bank, Variant, columns_of
+from identification.diagnosis.columns.normal_equations import Normal
+from identification.diagnosis.search.imperfect_laws import OF_SPEED
+from identification.diagnosis.search.likely import common
+
+#: Part of the noise's power from which what is left of a joint is told from it, though nothing repeats.
+_TOLD = 0.25
+
+
+def refines(variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether a variant is not common and would add to common friction among ``others`` on all of its joints."""
+    found = {one.joints for one in others if common(one) and _over_speed(one)}
+    return _over_speed(variant) and not common(variant) and all((k,) in found for k in variant.joints)
+
+
+def left(bank: Bank, normal: Normal, runs: Sequence[int], variant: Variant, others: Sequence[Variant]) -> float:
+    """The sum of squares beyond the noise's that a variant and ``others``, fitted by ``normal`` equations of some runs,
+    leave of its joints, without what may be noise.
+    """
+    chosen = columns_of([*others, variant])
+    weights = dict(zip([*range(normal.base), *chosen], normal.solution(chosen)[0].tolist(), strict=True))
+    result = 0.0
+    for k in variant.joints:
+        each = [bank.residual(r, k, weights) for r in runs]
+        rows = sum(map(len, each))
+        beyond = sum(float(e @ e) for e in each) - rows
+        result += beyond if beyond > _TOLD * rows else 0.0
+    return result
+
+
+def _over_speed(variant: Variant) -> bool:
+    return variant.hypothesis.variable in OF_SPEED
