@@ -69,7 +69,8 @@ def test_all_torques_are_late_by_a_quarter_of_a_period(delay: int, tmp_path: Pat
     assert one.parameters["torque_delay"].value == pytest.approx(1e-3 * delay, abs=2e-4)
 
 
-@pytest.mark.parametrize("motor", [1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("motor", [1, 2])
 def test_one_motor_is_late_by_a_quarter_of_a_period(motor: int, tmp_path: Path) -> None:
     """It drives a joint that another motor drives as well, of which nothing is late."""
     delays = (18 * (motor == 1), 18 * (motor == 2))

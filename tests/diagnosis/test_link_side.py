@@ -79,7 +79,9 @@ def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> 
     assert all(inertia.low < one["Iam"] < 1.1 * inertia.high for one in untold.variants)
 
 
-@pytest.mark.parametrize(("errors", "off"), [((0.0,), 0.03), (backlash.ERRORS, 0.05)])
+@pytest.mark.parametrize(
+    ("errors", "off"), [pytest.param((0.0,), 0.03, marks=pytest.mark.long), (backlash.ERRORS, 0.05)]
+)
 def test_swings_settle_beside_the_base_parameters(
     errors: tuple[float, ...], off: float, loose: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:

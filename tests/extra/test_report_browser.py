@@ -14,7 +14,8 @@ from tests.diagnosis.diagnosed_arm import case
 from tests.extra.browser import document, visit
 from tests.reports import pages
 
-KINDS = ("identify", "gains", "steps", "locked", "links", "compare", "excite", "output_error", "diagnose")
+#: What make test-extra looks at, and what only make test-long does.
+KINDS, FURTHER = ("identify", "compare", "excite", "diagnose"), ("gains", "steps", "locked", "links", "output_error")
 
 #: Run in a copy of the page: where the charts are and what they say of themselves; then all buttons are pressed.
 _MEASURE = """
@@ -57,7 +58,7 @@ def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [*KINDS, *(pytest.param(kind, marks=pytest.mark.long) for kind in FURTHER)])
 def test_a_report_is_quiet_and_its_charts_are_drawn(written: dict[str, bytes], kind: str, tmp_path: Path) -> None:
     told = measured(written[kind], tmp_path, 1440)
     assert told["undrawn"] == []
