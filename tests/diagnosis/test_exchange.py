@@ -71,6 +71,15 @@ def test_what_a_search_loses_is_what_it_began_with() -> None:
     assert astray.search() == []
 
 
+def test_what_passes_is_found_though_it_costs_more_than_nothing() -> None:
+    data = Data(35)
+    columns = [data.column() for _ in range(12)]
+    many = several("many", [Coefficient(f"c{i}", "1") for i in range(12)], columns)
+    weighing = Weighing(data.bank(0.05 * sum(columns), [many]), TRAIN, VALIDATE, None)
+    (one,) = Selection(weighing).search()
+    assert one.evidence.drop < weighing.price(one.evidence.variant)
+
+
 def test_what_only_known_values_show_is_found_though_it_leaves_as_much_of_the_torque() -> None:
     """The model takes up a column: without it values contradict what is known of them, and the torque fits all the
     same.

@@ -95,7 +95,8 @@ class Selection:
                 refused.clear()
         found = self.choices(self._exchanged(chosen, None, _ROUNDS), replacing=True)
         begun = self._standing(start)
-        return self.choices(begun) if self._lost([one.evidence.variant for one in found], begun) else found
+        lost = bool(begun) and self._lost([one.evidence.variant for one in found], begun)
+        return self.choices(begun) if lost else found
 
     def _lost(self, found: Sequence[Variant], begun: Sequence[Variant]) -> bool:
         """Whether a search has lost more of what it began with than it may leave for what is common."""
@@ -152,10 +153,10 @@ class Selection:
             weakest = min(failing, key=lambda k: found[k].drop)
             seen.add(frozenset(one.key for one in chosen))
             again = replacing and len(seen) < most
-            chosen[weakest : weakest + 1] = self._instead_of(found[weakest], rest[weakest], seen) if again else []
+            chosen[weakest : weakest + 1] = self._in_place_of(found[weakest], rest[weakest], seen) if again else []
         return chosen
 
-    def _instead_of(self, fallen: Evidence, others: list[Variant], seen: Collection[frozenset[Key]]) -> list[Variant]:
+    def _in_place_of(self, fallen: Evidence, others: list[Variant], seen: Collection[frozenset[Key]]) -> list[Variant]:
         """What passes beside ``others`` on the joints of what has fallen, if that has not been ``seen`` together."""
         there = {one.key for one in others}
         rivals = [
