@@ -49,11 +49,24 @@ DRY = ("coulomb_friction", "dahl_friction", "lugre_friction")
 OPEN = {("torque_delay", (6,)), ("torque_gain", (6,))}
 
 
+def rewritten(source: Path, folder: Path, digits: int) -> Path:
+    """The recording with so many significant digits."""
+    names = source.open(encoding="utf-8").readline().strip()
+    path = folder / source.name
+    rows = np.loadtxt(source, delimiter=",", skiprows=1)
+    np.savetxt(path, rows, f"%.{digits}g", delimiter=",", header=names, comments="")
+    return path
+
+
 @pytest.mark.long
-def test_friction_payload_and_balancer_of_a_heavy_arm_are_named(tmp_path: Path) -> None:
-    """About 150 kg are mounted, which the set does not know."""
+@pytest.mark.parametrize("digits", [9, 8, 7])
+def test_friction_payload_and_balancer_of_a_heavy_arm_are_named(digits: int, tmp_path: Path) -> None:
+    """About 150 kg are mounted, which the set does not know. The last digits change how links bounce in gaps that are
+    only tried, and must not change what is named.
+    """
     path = without("kr300", tmp_path, "viscous_friction", "coulomb_friction", "gas_balancer")
-    found, new = diagnosis(path, Request(data(A, B), prior="a_priori"))
+    runs = [str(rewritten(Path(one), tmp_path, digits)) for one in data(A, B)]
+    found, new = diagnosis(path, Request(runs, prior="a_priori"))
     assert found.verdict == NAMED
     named = {(one.hypothesis.effect, one.joints): one for one in found.findings}
     balancer = {key for key in named if key[0] in ("gas_balancer", "spring_balancer")}
