@@ -30,20 +30,28 @@ def test_on_other_joints_what_is_found_beside_it_is_no_rival(
 
 
 @pytest.mark.parametrize(
-    ("alone", "joint", "outweighs"), [(1050.0, 0, False), (1200.0, 0, True), (1050.0, 1, True), (1200.0, 1, True)]
+    ("alone", "hides", "joint", "outweighs"),
+    [
+        (1050.0, "gradual_friction", 0, False),
+        (1200.0, "gradual_friction", 0, True),
+        (1050.0, "gradual_friction", 1, True),
+        (1050.0, "gas_balancer", 0, True),
+        (1050.0, "coulomb_friction", 0, True),
+    ],
 )
 def test_what_is_rare_outweighs_what_is_common_without_what_hides_that(
-    alone: float, joint: int, outweighs: bool
+    alone: float, hides: str, joint: int, outweighs: bool
 ) -> None:
     """Beside a rare effect on some joint it explains half as much again; on theirs only that hides what is common."""
 
     def effect(name: str, *joints: int) -> Any:
-        return SimpleNamespace(hypothesis=SimpleNamespace(effect=name, kind="effect", stated=False), joints=joints)
+        hypothesis = SimpleNamespace(effect=name, kind="effect", stated=False, usual=True, coefficients=())
+        return SimpleNamespace(hypothesis=hypothesis, joints=joints, used=())
 
     def found(name: str, drop: float) -> Evidence:
         return Evidence(effect(name, 0), np.ones(1), drop, 0.0, drop, drop, {}, True, "", True)
 
-    hiding, usual, rare = effect("gradual_friction", joint), found("viscous_friction", 100), found("torque_gain", 150)
+    hiding, usual, rare = effect(hides, joint), found("viscous_friction", 100), found("torque_gain", 150)
     drops = {id(usual.variant): 1000.0, id(rare.variant): alone}
-    weighing: Any = SimpleNamespace(beside=lambda variant, others: (None, drops[id(variant)]))
+    weighing: Any = SimpleNamespace(beside=lambda variant, others: (None, 0.0 if others else drops[id(variant)]))
     assert Selection(weighing)._outweighs(rare, usual, [hiding]) == outweighs

@@ -1,4 +1,4 @@
-"""What adds to common friction that was found: where more is left than it explains, that may lack it as well."""
+"""Rarer friction beside common friction that was found: where more is left than it explains, it may be a part of it."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ from identification.diagnosis.columns.normal_equations import Normal
 from identification.diagnosis.search.imperfect_laws import OF_SPEED
 from identification.diagnosis.search.likely import common
 
-#: Part of the noise's power from which what is left of a joint is told from it, though nothing repeats.
+#: Part of the noise's power from which what is left of a joint counts: where no motion repeats, the noise is not known
+#: apart from it.
 _TOLD = 0.25
 
 
-def refines(variant: Variant, others: Sequence[Variant]) -> bool:
-    """Whether a variant is not common and would add to common friction among ``others`` on all of its joints."""
+def adds(variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether a variant is not common, shows over the speed, and adds to common friction among ``others`` on each of
+    its joints.
+    """
     found = {one.joints for one in others if common(one) and _over_speed(one)}
     return _over_speed(variant) and not common(variant) and all((k,) in found for k in variant.joints)
 

@@ -30,9 +30,10 @@ _BETTER, _EQUAL = 6.0, 0.01
 _RARE = 0.1
 #: Most effects that are not common, of a robot and of a joint; rounds of exchange at the end.
 _MOST, _MOST_OF_JOINT, _ROUNDS = 12, 3, 3
-#: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have.
+#: Rivals of a choice whose shapes are refined before they are compared, and the part of its drop that they must have;
+#: the same part of a rare effect's for a common one to be preferred.
 _RIVALS, _RIVAL = 3, 0.4
-#: Times the effects that were chosen that what falls among them may be replaced.
+#: Falls for each effect that was chosen, up to which what falls is replaced.
 _REPLACED = 3
 #: Hypotheses whose pairs are tried when single ones do not do.
 _PAIRED = 20
@@ -63,8 +64,8 @@ class Selection:
         self._refined: set[tuple[Key, frozenset[Key]]] = set()
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
-        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do; what stands of
-        ``start`` where that was lost on the way.
+        """Forward selection with exchange and refinement, then pairs where single hypotheses do not do. What passes of
+        ``start`` is returned instead if the result is clearly worse.
         """
         chosen = list(start) or self._first()
         paired = False
@@ -95,11 +96,14 @@ class Selection:
                 refused.clear()
         found = self.choices(self._exchanged(chosen, None, _ROUNDS), replacing=True)
         begun = self._standing(start)
-        lost = bool(begun) and self._lost([one.evidence.variant for one in found], begun)
-        return self.choices(begun) if lost else found
+        return self.choices(begun) if self._lost([one.evidence.variant for one in found], begun) else found
 
     def _lost(self, found: Sequence[Variant], begun: Sequence[Variant]) -> bool:
-        """Whether a search has lost more of what it began with than it may leave for what is common."""
+        """Whether some of ``begun`` is not ``found`` any more, and what is found costs more than ``begun`` by more than
+        may be given up for common effects.
+        """
+        if {one.key for one in begun} <= {one.key for one in found}:
+            return False
         nothing, now, before = map(self.weighing.cost, ([], found, begun))
         return now - before > _BETTER + _RARE * (nothing - now)
 
@@ -140,7 +144,8 @@ class Selection:
 
     def _standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other. Where
-        ``replacing``, what passes there takes its place: beside a gap, others would seem too small.
+        ``replacing``, what passes on its joints takes its place: beside all that it leaves unexplained, others would
+        seem too small.
         """
         chosen, seen = list(chosen), set[frozenset[Key]]()
         most = _REPLACED * len(chosen)
@@ -152,8 +157,9 @@ class Selection:
                 return [one.variant for one in found]
             weakest = min(failing, key=lambda k: found[k].drop)
             seen.add(frozenset(one.key for one in chosen))
-            again = replacing and len(seen) < most
-            chosen[weakest : weakest + 1] = self._in_place_of(found[weakest], rest[weakest], seen) if again else []
+            again = replacing and len(seen) <= most
+            place = self._in_place_of(found[weakest], rest[weakest], seen) if again else []
+            chosen[weakest : weakest + 1] = place
         return chosen
 
     def _in_place_of(self, fallen: Evidence, others: list[Variant], seen: Collection[frozenset[Key]]) -> list[Variant]:
@@ -162,7 +168,7 @@ class Selection:
         rivals = [
             one
             for one in self._rivals(fallen, others)
-            if _share_joints(one, fallen) and there | {one.variant.key} not in seen
+            if _agrees(one) and _share_joints(one.variant, fallen.variant) and there | {one.variant.key} not in seen
         ]
         best = self._best(rivals, replace(fallen, passes=False), others)
         return [] if best is None else [self._shaped(best.variant, others)]
@@ -174,7 +180,7 @@ class Selection:
         for _ in range(rounds):
             before = list(chosen)
             for one in before:
-                if one not in chosen or (new is not None and not set(one.joints) & set(new.joints)):
+                if one not in chosen or (new is not None and not _share_joints(one, new)):
                     continue
                 others = [other for other in chosen if other is not one]
                 mine = self.weighing.of(self._shaped(self._entire(one), others), others)
@@ -194,13 +200,15 @@ class Selection:
         return self.weighing.bank.add(one.hypothesis, one.shape, offered=False) or one
 
     def _best(self, rivals: Sequence[Evidence], mine: Evidence, others: Sequence[Variant]) -> Evidence | None:
-        """Of ``rivals``, the best first, what should stand in the place of ``mine``, whichever of the two came first: a
-        common one before what is not and explains little more on the same joints.
+        """The best of ``rivals``, which come best first, that should stand in the place of ``mine``, whichever of the
+        two came first: rather a common one than a rare one on the same joints that does not outweigh it.
         """
         best: Evidence | None = None
         for one in rivals:
             usual = likely(one.variant, others)
-            if best is not None and not (usual and _share_joints(one, best) and one.drop > _RIVAL * best.drop):
+            if best is not None and not (
+                usual and _share_joints(one.variant, best.variant) and one.drop > _RIVAL * best.drop
+            ):
                 continue
             one = self._whole(one, others)
             if not self._sound(one, others) or (mine.passes and not self._displaces(one, mine, others)):
@@ -221,17 +229,18 @@ class Selection:
 
     def _outweighs(self, rare: Evidence, usual: Evidence, others: Sequence[Variant]) -> bool:
         """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with
-        the others; and without what else is rare on their joints, behind which what is common may hide.
+        the others; where they share joints also without other rare effects on those of the common one, behind which
+        it may hide.
         """
         margin = _BETTER + _RARE * usual.drop
         if not rare.believed or rare.bic <= usual.bic + margin or rare.score <= usual.score + margin:
             return False
-        hiding = [one for one in others if _share_joints(usual, one) and not likely(one, others)]
-        if not hiding or not _share_joints(rare, usual):
+        hiding = [one for one in others if _share_joints(one, usual.variant) and _rare(one, others)]
+        if not hiding or not _share_joints(rare.variant, usual.variant):
             return True
         besides = [one for one in others if one not in hiding]
-        alone, without = (self.weighing.beside(one.variant, besides)[1] for one in (usual, rare))
-        return without > alone + _BETTER + _RARE * alone
+        of_usual, of_rare = (self.weighing.beside(one.variant, besides)[1] for one in (usual, rare))
+        return of_rare > of_usual + _BETTER + _RARE * of_usual
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
@@ -342,7 +351,7 @@ class Selection:
 
     def _instead(self, other: Variant, one: Variant, others: Sequence[Variant]) -> bool:
         """Whether ``other`` may stand in the place of ``one``: on other joints only what is not found beside it too."""
-        return bool(set(other.joints) & set(one.joints)) or not self.weighing.of(other, [*others, one]).passes
+        return _share_joints(one, other) or not self.weighing.of(other, [*others, one]).passes
 
     def _apart(self, mine: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it explains clearly more than its hypothesis with another value of a shape that is not searched."""
@@ -358,9 +367,12 @@ class Selection:
         return all(drop < mine.drop - _BETTER for drop in drops)
 
 
-def _share_joints(one: Evidence, other: Evidence | Variant) -> bool:
-    variant = other.variant if isinstance(other, Evidence) else other
-    return not set(one.variant.joints).isdisjoint(variant.joints)
+def _share_joints(one: Variant, other: Variant) -> bool:
+    return not set(one.joints).isdisjoint(other.joints)
+
+
+def _rare(one: Variant, among: Sequence[Variant]) -> bool:
+    return not likely(one, [other for other in among if other is not one])
 
 
 def _form(one: Variant) -> tuple[tuple[str, float | None], ...]:

@@ -233,8 +233,8 @@ class Weighing:
             return replace(one, why_not="too small beside what is left")
         if drop < lacking(variant, others, self._drops(others)):
             return replace(one, why_not="may be what another effect's law lacks")
-        refines = more_friction.refines(variant, others)
-        if refines and drop < more_friction.left(self.bank, self.normal, self.train, variant, others):
+        more = more_friction.adds(variant, others)
+        if more and drop < more_friction.left(self.bank, self.normal, self.train, variant, others):
             return replace(one, why_not="may be a part of what the joint's friction lacks")
         if at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
@@ -249,7 +249,7 @@ class Weighing:
         return float(self.normal.part([], columns_of(chosen))[0, 0]) + sum(map(self.price, chosen))
 
     def price(self, variant: Variant) -> float:
-        """What the sum of squares must drop for each value that is fitted, and for the shapes that are tried."""
+        """What the information criterion charges for the values that are fitted and the shapes that are tried."""
         free = len(variant.columns) + variant.hypothesis.free
         return float(free * np.log(self.normal.rows) + 2 * np.log(variant.tries))
 
