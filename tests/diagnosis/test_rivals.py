@@ -54,4 +54,6 @@ def test_what_is_rare_outweighs_what_is_common_without_what_hides_that(
     hiding, usual, rare = effect(hides, joint), found("viscous_friction", 100), found("torque_gain", 150)
     drops = {id(usual.variant): 1000.0, id(rare.variant): alone}
     weighing: Any = SimpleNamespace(beside=lambda variant, others: (None, 0.0 if others else drops[id(variant)]))
-    assert Selection(weighing)._outweighs(rare, usual, [hiding]) == outweighs
+    assert Selection(weighing)._displaces(rare, usual, [hiding]) == outweighs
+    # What is common does not come back for what it would explain without a right one.
+    assert not Selection(weighing)._displaces(usual, rare, [hiding])

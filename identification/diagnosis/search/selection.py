@@ -225,22 +225,18 @@ class Selection:
         usual, mine_usual = (likely(each.variant, others) for each in (one, mine))
         if usual == mine_usual:
             return one.score > mine.score + _BETTER
-        return not self._outweighs(mine, one, others) if usual else self._outweighs(one, mine, others)
+        return not _outweighs(mine, one) if usual else _outweighs(one, mine) and not self._hidden(mine, one, others)
 
-    def _outweighs(self, rare: Evidence, usual: Evidence, others: Sequence[Variant]) -> bool:
-        """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with
-        the others; where they share joints also without other rare effects on those of the common one, behind which
-        it may hide.
+    def _hidden(self, usual: Evidence, rare: Evidence, others: Sequence[Variant]) -> bool:
+        """Whether what is common is nearly as much as what is rare without other rare effects on its joints, behind
+        which it hides.
         """
-        margin = _BETTER + _RARE * usual.drop
-        if not rare.believed or rare.bic <= usual.bic + margin or rare.score <= usual.score + margin:
-            return False
         hiding = [one for one in others if _share_joints(one, usual.variant) and _rare(one, others)]
         if not hiding or not _share_joints(rare.variant, usual.variant):
-            return True
+            return False
         besides = [one for one in others if one not in hiding]
         of_usual, of_rare = (self.weighing.beside(one.variant, besides)[1] for one in (usual, rare))
-        return of_rare > of_usual + _BETTER + _RARE * of_usual
+        return of_rare <= of_usual + _BETTER + _RARE * of_usual
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
         """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
@@ -384,3 +380,11 @@ def _agrees(one: Evidence) -> bool:
     """Whether what its coefficients and its shape tell of the same may be of one thing."""
     agrees = one.variant.hypothesis.agrees
     return agrees is None or agrees(one.coefficients, one.variant.shape)
+
+
+def _outweighs(rare: Evidence, usual: Evidence) -> bool:
+    """Whether what is rare is believed and explains more than what is common by far, in the fitted runs and with the
+    others.
+    """
+    margin = _BETTER + _RARE * usual.drop
+    return rare.believed and rare.bic > usual.bic + margin and rare.score > usual.score + margin
