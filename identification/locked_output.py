@@ -74,7 +74,6 @@ def locked_output(
     sources: Sequence[str],
     balancer: Mapping[str, float] | None = None,
     recipe: Recipe = RECIPE,
-    ratio: float = RATIO,
 ) -> LockedOutput:
     """Stiffness of joint ``number`` from runs in which its output is blocked.
 
@@ -101,7 +100,7 @@ def locked_output(
     factor = Factor(k, names, triangular(rows), len(rows), float(rows[:, -1].sum()))
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()
-    reduced, best = essential(problem, ratio, GROWTH)
+    reduced, best = essential(problem, RATIO, GROWTH)
     name = f"k{number}"
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
     if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from generator.robot.description import ParameterValue
 from identification.dataset import Run
 from identification.recipe import Filters
-from identification.residuals import Residual
+from identification.residuals import Residual, Residuals
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,11 @@ def norms(per_joint: Mapping[int, Residual], total: Residual) -> dict[str, Any]:
     """Residuals by the joint's number and in total."""
     each = [{"joint": number, **_norm(one)} for number, one in sorted(per_joint.items())]
     return {"per_joint": each, "total": _norm(total)}
+
+
+def norms_by_number(of: Residuals, numbers: Sequence[int]) -> dict[str, Any]:
+    """``norms`` of residuals by coordinate, whose joints have ``numbers``."""
+    return norms({numbers[k]: one for k, one in of.per_joint.items()}, of.total)
 
 
 def values_of_set(values: Mapping[str, Value]) -> dict[str, ParameterValue]:

@@ -26,6 +26,15 @@ def left_out(file: str, words: Sequence[str]) -> tuple[str, ...]:
     return (f"{file}: {listed(words)} held no number and is left out",) if words else ()
 
 
+def by_count(file: str, names: Sequence[str]) -> Where:
+    """The place of a value of a file without lines: row and column count as line and column."""
+
+    def place(row: int | None, column: str) -> Place:
+        return Place(file, 1 if row is None else row + 1, names.index(column) + 1 if column in names else 1)
+
+    return place
+
+
 @dataclass(frozen=True)
 class Recording:
     """Columns by name (N each), as written.

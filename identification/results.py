@@ -15,7 +15,6 @@ from generator.writing import replace
 from identification import outcome
 from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Estimate, Identification
-from identification.residuals import Residuals
 from identification.robot_file import with_parameter_set
 from identification.sensitivity import Variation
 from identification.sidecar import UNITS
@@ -196,8 +195,8 @@ def _payload_values(found: Identification) -> dict[str, Any]:
 def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
     numbers = found.robot.numbers
     return {
-        "train": _norms(estimate.train, numbers),
-        "test": None if estimate.test is None else _norms(estimate.test, numbers),
+        "train": outcome.norms_by_number(estimate.train, numbers),
+        "test": None if estimate.test is None else outcome.norms_by_number(estimate.test, numbers),
     }
 
 
@@ -210,14 +209,10 @@ def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
         "parameters": {p.name: {"value": fit.standard[p.name], "unit": p.unit} for p in model.standard_parameters},
         "base_parameters": {p.name: {"value": fit.base[p.name], "unit": p.unit} for p in model.base_parameters},
         "residual": {
-            "train": _norms(fit.train, numbers),
-            "test": None if fit.test is None else _norms(fit.test, numbers),
+            "train": outcome.norms_by_number(fit.train, numbers),
+            "test": None if fit.test is None else outcome.norms_by_number(fit.test, numbers),
         },
     }
-
-
-def _norms(of: Residuals, numbers: Sequence[int]) -> dict[str, Any]:
-    return outcome.norms({numbers[k]: one for k, one in of.per_joint.items()}, of.total)
 
 
 def _marked(value: Any) -> Any:

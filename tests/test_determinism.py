@@ -15,7 +15,11 @@ from tests.commands import ROOT, process, tree
 
 
 @pytest.mark.parametrize(
-    "name", [*(pytest.param(name, marks=pytest.mark.long) for name in ("kr270", "puma560")), "tree_two_arms"]
+    "name",
+    [
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("kr270", "puma560", "tree_two_arms")),
+        "tilted_two_link",
+    ],
 )
 def test_hash_seed_folder_locale_and_time_zone_do_not_matter(name: str, tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"

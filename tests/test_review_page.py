@@ -111,6 +111,7 @@ def test_cells_lie_in_the_row_and_column_they_name() -> None:
         for cell in picture.iter(f"{SVG}rect")
         if "cell" in cell.attrib["class"]
     }
+    assert cells
     order = [p.name for p in of.base_parameters]
     for name, (across, down) in cells.items():
         torque, parameter = name.split(", ")

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import sympy
 from hypothesis import strategies as st
 
 from generator.backends.printing.prepared import index, signal_of
@@ -37,6 +38,10 @@ class Toy:
             description='ends a comment */ and a """docstring""" \\',
             digest="0" * 64,
             moving=(1, 2, 3),
+            joints=(),
+            lengths=(),
+            gravity=sympy.Matrix([0, 0, -sympy.Rational("9.81")]),
+            base=sympy.eye(4),
             parameter_sets={"first": ParameterSet("first", "made up", "a table", given)},
         )
 
@@ -45,7 +50,7 @@ class Toy:
         return _parameters(PARAMETER_NAMES)
 
     base_parameters = all_parameters = parameters
-    grouping = SimpleNamespace(numbers={})
+    grouping = SimpleNamespace(numbers={}, base=(), numeric=dict)
 
     @property
     def standard_parameters(self) -> tuple[Parameter, ...]:

@@ -59,7 +59,7 @@ def markdown(model: Model) -> Document:
         tuple(
             (gone.name, gone.rule, ", ".join(gone.into) or "nothing: no effect") for gone in model.grouping.eliminated
         ),
-        _geometry(model.robot),
+        geometry(model.robot),
         stated.gravity(model.robot),
         stated.base(model.robot),
         stated.effects(model),
@@ -108,7 +108,8 @@ def _by_joint(names: Iterable[str], joints: dict[str, int]) -> tuple[str, ...]:
     return tuple(f"joint {joint}: {' '.join(listed)}" for joint, listed in lines.items())
 
 
-def _geometry(robot: Robot) -> stated.Table:
+def geometry(robot: Robot) -> stated.Table:
+    """The Denavit-Hartenberg table with the limits of the joints; empty without joints."""
     table = rows(robot)
     head = ("j", "a(j)", "sigma", *(name for name, _ in table[0].cells), "limits") if table else ()
     body = (
@@ -121,7 +122,7 @@ def _geometry(robot: Robot) -> stated.Table:
         )
         for row in table
     )
-    return (head, *body)
+    return (head, *body) if table else ()
 
 
 def _aligned(equation: Equation) -> str:

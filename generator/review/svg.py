@@ -44,13 +44,13 @@ def text(x: float, y: float, *content: Content, kind: str, anchor: str = "middle
     return element("text", *content, x=pixel(x), y=pixel(y), class_=kind, text_anchor=anchor, **attributes)
 
 
-def subscripted(names: Iterable[Name], by: str = ", ") -> list[Content]:
+def subscripted(names: Iterable[Name]) -> list[Content]:
     """Names with their subscripts lowered, for use inside ``text``."""
     content: list[Content] = []
     for index, name in enumerate(names):
         stem, below = name.parts
         if index:
-            content.append(by)
+            content.append(", ")
         content.append(element("tspan", GREEK.get(stem, stem), class_="variable"))
         if below:
             content += [element("tspan", below, dy="0.3em", class_="below"), element("tspan", "\u200b", dy="-0.3em")]

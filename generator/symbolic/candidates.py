@@ -48,7 +48,7 @@ def slid_otherwise(chain: Chain, best: Strategy) -> list[Strategy]:
 
 def balanced(chain: Chain, best: Strategy) -> list[Strategy]:
     """The same with a mass kept behind a joint, whose frame then stays where it is."""
-    joints = [frame.number for frame in chain.frames if _balances(chain, frame)][:_TRIED]
+    joints = [frame.number for frame in chain.frames if _balances(frame)][:_TRIED]
     return [replace(best, gauge=Gauge(best.gauge.slide - {j}, frozenset({j}))) for j in joints]
 
 
@@ -63,7 +63,7 @@ def in_units(chain: Chain, gauge: Gauge) -> list[Gauge]:
     return [replace(gauge, unit=length) for length in lengths]
 
 
-def _balances(chain: Chain, frame: Frame) -> bool:
+def _balances(frame: Frame) -> bool:
     """Whether a mass behind a joint can balance its antecedent: the joint turns and stands away from it, across z."""
     if not frame.revolute or frame.parent is None:
         return False

@@ -141,8 +141,8 @@ def cosine_sine(angle: sympy.Expr, program: Program, values: Mapping[sympy.Symbo
     return turns[int(quarters) % 4]
 
 
-def axis(frame: Frame, program: Program) -> Array:
-    """The joint's axis z_j in frame j."""
+def axis(program: Program) -> Array:
+    """The axis z_j of any joint in its frame j."""
     z = zeros(program, 3)
     z[2] = program.one
     return z

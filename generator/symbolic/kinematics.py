@@ -21,7 +21,7 @@ def velocities(chain: Chain, qd: Nodes) -> dict[int, Velocity]:
     program = chain.program
     result: dict[int, Velocity] = {}
     for frame in chain.frames:
-        z = axis(frame, program)
+        z = axis(program)
         before = result[frame.parent.number] if frame.parent else Velocity(zeros(program, 3), zeros(program, 3))
         w = frame.rotation.T @ before.w
         v = frame.rotation.T @ (before.v + cross(before.w, frame.position))

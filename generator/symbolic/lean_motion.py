@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.symbolic.frames import Chain, Frame
+from generator.symbolic.frames import Chain
 from generator.symbolic.gauge import Origins
 from generator.symbolic.newton_euler import Motion
 from generator.symbolic.segments import Spun, segments
@@ -57,7 +57,7 @@ def motions(
             carried, a = entered(link, standing(program)), link.entry.T @ -gravity
             a_carried = a
         else:
-            carried, a_carried, a = _carried(frame, link, spun[frame.parent.number], positions[j], result)
+            carried, a_carried, a = _carried(link, spun[frame.parent.number], positions[j], result)
         rotation = carried
         if frame.coordinate is not None:
             rate, acceleration = qd[frame.coordinate], qdd[frame.coordinate]
@@ -76,9 +76,7 @@ def motions(
     return result
 
 
-def _carried(
-    frame: Frame, link: Spun, below: Spun, position: Array, result: Mapping[int, LeanMotion]
-) -> tuple[Spin, Array, Array]:
+def _carried(link: Spun, below: Spun, position: Array, result: Mapping[int, LeanMotion]) -> tuple[Spin, Array, Array]:
     """The antecedent's rotation and the accelerations of its origin and of the frame's, in the frame's unspun axes."""
     before = result[below.frame.number]
     if link.continues:

@@ -56,7 +56,7 @@ def motions(chain: Chain, qd: Nodes, qdd: Nodes, gravity: Array | None = None) -
 def _step(chain: Chain, frame: Frame, before: Motion, qd: Nodes, qdd: Nodes) -> Motion:
     to_frame = frame.rotation.T
     j = frame.number
-    z = axis(frame, chain.program)
+    z = axis(chain.program)
     w = to_frame @ before.w
     wd = to_frame @ before.wd
     a = to_frame @ (before.a + before.u @ frame.position)

@@ -99,6 +99,7 @@ def summary(found: Diagnosis) -> list[str]:
         lines += [f"                 {_value(each)}" for each in one.told]
         if not one.determined:
             lines.append("                 the runs tell its torque, but not these values one by one")
+        lines += [f"                 not firm: {doubt}" for doubt in one.doubts]
         for other in one.alternatives:
             text = f"or {other.named}; to tell them apart: {other.separating_experiment}"
             lines.append(f"                 {text}")

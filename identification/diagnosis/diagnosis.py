@@ -18,9 +18,10 @@ from identification.diagnosis.search.scaling import taken_up
 from identification.diagnosis.verdict import few_rows, odd_run, remarks, trembling
 from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, doubted, note
-from identification.diagnosis.verdict.finding import Finding, findings
+from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.homogeneity import disagreements
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
+from identification.diagnosis.verdict.named import findings
 from identification.diagnosis.verdict.trial import along
 from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
 from identification.diagnosis.verdict.waterfall import Steps, steps
@@ -103,7 +104,7 @@ def diagnose(
         *roles.notes,
         *few_rows.notes(few, robot, small),
         *remarks.of_tests(found, trial, test),
-        *note(other, named),
+        *note(other),
         *remarks.of_elasticity(found),
         *remarks.of_motion(runs, bool(named) and not found.repeats),
         *(() if dry else remarks.of_warmth(found)),

@@ -74,6 +74,7 @@ def _finding(one: Finding, new: Mended | None) -> dict[str, Any]:
         "title": one.hypothesis.title,
         "joints": list(one.joints),
         "status": one.status,
+        "doubts": list(one.doubts),
         "written": None if new is None else one in new.written,
         "parameters": {each.name: {"value": each.value, "std": each.std, "unit": each.unit} for each in one.told},
         "determined": one.determined,

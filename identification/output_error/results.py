@@ -16,7 +16,6 @@ from identification import outcome
 from identification.outcome import Value
 from identification.output_error.methods import methods
 from identification.output_error.multi_start import OutputError
-from identification.residuals import Residuals
 from identification.results import RESULTS, written
 from identification.robot_file import with_parameter_set
 
@@ -45,9 +44,6 @@ def document(found: OutputError) -> dict[str, Any]:
         if name in units
     }
 
-    def norms(of: Residuals) -> dict[str, Any]:
-        return outcome.norms({numbers[k]: one for k, one in of.per_joint.items()}, of.total)
-
     return {
         "robot": found.robot.name,
         "robot_sha256": found.robot.digest,
@@ -69,7 +65,10 @@ def document(found: OutputError) -> dict[str, Any]:
         },
         "condition": best.condition,
         "parameters": {**outcome.parameters(parameters(found)), **fixed},
-        "residual": {"train": norms(best.train), "test": None if best.test is None else norms(best.test)},
+        "residual": {
+            "train": outcome.norms_by_number(best.train, numbers),
+            "test": None if best.test is None else outcome.norms_by_number(best.test, numbers),
+        },
         "starts": {"chosen": found.chosen, "scores": dict(found.scores)},
         "inertia": {
             "smallest": float(best.eigenvalues.min()),

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.io
 
 from generator.errors import InputError, Place
-from identification.recording import Array, Recording, digest
+from identification.recording import Array, Recording, by_count, digest
 
 EXTENSIONS = (".mat",)
 
@@ -43,7 +43,7 @@ def read(path: Path) -> Recording:
         if twice := columns.keys() & found.keys():
             raise InputError(Place(file), f"column {min(twice)} is there twice", "each column once")
         columns |= found
-    return Recording(file, columns, digest(path), lambda row, column: _place(file, list(columns), row, column))
+    return Recording(file, columns, digest(path), by_count(file, list(columns)))
 
 
 def _columns(name: str, value: Array, length: int) -> dict[str, Array]:
@@ -55,8 +55,3 @@ def _columns(name: str, value: Array, length: int) -> dict[str, Array]:
     if upright.shape[1] == 1:
         return {name: np.ascontiguousarray(upright[:, 0])}
     return {f"{name}{k}": np.ascontiguousarray(column) for k, column in enumerate(upright.T, start=1)}
-
-
-def _place(file: str, names: list[str], row: int | None, column: str) -> Place:
-    """Sample and variable count as line and column."""
-    return Place(file, 1 if row is None else row + 1, names.index(column) + 1 if column in names else 1)

@@ -9,7 +9,7 @@ import numpy as np
 
 from generator.errors import InputError, Place
 from identification.extras import needing
-from identification.recording import Array, Recording, digest, left_out
+from identification.recording import Array, Recording, by_count, digest, left_out
 
 EXTENSIONS = (".parquet",)
 
@@ -37,9 +37,4 @@ def read(path: Path) -> Recording:
         with suppress(TypeError, ValueError):
             columns[name] = np.asarray(table.column(name).to_numpy(), dtype=float)
     notes = left_out(file, [name for name in names if name not in columns])
-    return Recording(file, columns, digest(path), lambda row, column: _place(file, names, row, column), notes)
-
-
-def _place(file: str, names: list[str], row: int | None, column: str) -> Place:
-    """Row and column of the table count as line and column."""
-    return Place(file, 1 if row is None else row + 1, names.index(column) + 1 if column in names else 1)
+    return Recording(file, columns, digest(path), by_count(file, names), notes)

@@ -13,7 +13,7 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import corrections
 from identification.drive_train import coupling
-from identification.signals import WRENCH
+from identification.signals import EFFORTS, WRENCH
 from identification.simulation.checks import check, chosen, each, pose, trajectory_of
 from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
 from identification.simulation.machine import Machine
@@ -21,8 +21,6 @@ from identification.simulation.payload import carried, whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectory import Array, Reference, Task, Value
 
-#: Stems of the columns of efforts.
-_EFFORTS = ("tau", "taum", "i")
 #: Part of a torque that is rounding.
 _ROUNDING = 1e-12
 
@@ -75,7 +73,7 @@ def noisy(run: Simulated, noise: Sequence[float], wrench_noise: Sequence[float] 
     """
     if any(run.settings.noise) or any(run.settings.wrench_noise):
         raise ValueError("this run has its noise already")
-    efforts = [name for name in run.columns if name.rstrip("0123456789") in _EFFORTS]
+    efforts = [name for name in run.columns if name.rstrip("0123456789") in EFFORTS]
     wrench = [name for name in run.columns if name in WRENCH]
     forces, moments = (*wrench_noise, 0.0)[:2]
     columns = dict(run.columns)

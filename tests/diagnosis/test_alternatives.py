@@ -9,7 +9,7 @@ import pytest
 
 from generator.effects.library import library
 from identification.diagnosis.columns.hypothesis import Hypothesis
-from identification.diagnosis.verdict.finding import separating
+from identification.diagnosis.verdict.alternatives import separating
 
 
 def effect(

@@ -10,7 +10,8 @@ from scipy.signal import lfilter
 from generator.robot.readers import read
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.noise import noise_floor
-from identification.diagnosis.verdict.finding import OTHER_TORQUE, TENTATIVE
+from identification.diagnosis.verdict.alternatives import OTHER_TORQUE
+from identification.diagnosis.verdict.finding import TENTATIVE
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import ARM, NOISE, STAYS, TRUTH, diagnosis_of, recorded, torque
 from tests.recorded import Array, Recorded, fourier
@@ -25,6 +26,7 @@ def test_a_soft_contact_is_firmly_no_balancer_and_no_spring(tmp_path: Path) -> N
     (one,) = found.findings
     assert (one.hypothesis.effect, one.status) == ("gas_balancer", TENTATIVE)
     assert OTHER_TORQUE in [other.effect for other in one.alternatives]
+    assert one.doubts
 
 
 def loaded(folder: Path, share: float, rotor: float) -> Diagnosis:

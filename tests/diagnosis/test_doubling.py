@@ -31,7 +31,7 @@ parameters:
     [
         pytest.param(0.6, 0.4, marks=pytest.mark.long),
         pytest.param(1.2, 0.4, marks=pytest.mark.long),
-        (1.7, 0.4),
+        pytest.param(1.7, 0.4, marks=pytest.mark.long),
         pytest.param(-0.45, 1.6, marks=pytest.mark.long),
         (-0.6, 0.4),
         pytest.param(0.45, 0.1, marks=pytest.mark.long),

@@ -56,7 +56,7 @@ def diagnosis(folder: Path, hidden: Sequence[Hidden]) -> Diagnosis:
     return diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})[0]
 
 
-@pytest.mark.parametrize("hidden", [bump, spot])
+@pytest.mark.parametrize("hidden", [bump, pytest.param(spot, marks=pytest.mark.long)])
 def test_what_acts_at_a_place_alone_stays_unexplained(hidden: Hidden, tmp_path: Path) -> None:
     found = diagnosis(tmp_path, [hidden] * 4)
     assert found.verdict == UNEXPLAINED

@@ -59,7 +59,7 @@ def test_runs_without_noise_lack_nothing(period: float, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("periods", [1.9, 2.6, 3.0])
-def test_noisebetween_periods_keeps_its_freedom(periods: float) -> None:
+def test_noise_between_periods_keeps_its_freedom(periods: float) -> None:
     """Squares over what is not common are the power of white noise, wherever the last period ends."""
     draw, period = np.random.default_rng(2), 200
     kept = np.arange(round(periods * period)) % 7 != 3

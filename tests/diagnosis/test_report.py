@@ -125,7 +125,7 @@ def test_an_effect_on_several_joints_is_told_once(named: Case) -> None:
     other = replace(one, joints=(2,), hypothesis=replace(one.hypothesis, joint=2, joints=(2,)))
     both = Case(found := replace(named.found, findings=(other, one)), None, report(found))
     assert f"The model lacks {one.hypothesis.title} on joints 1 and 2." in both.words
-    apart = replace(named.found, findings=(replace(other, status="tentative"), one))
+    apart = replace(named.found, findings=(replace(other, doubts=("it is small",)), one))
     assert f"lacks {one.hypothesis.title} on joint 2 and {one.hypothesis.title} on joint 1." in " ".join(
         verdict(Subject(apart))
     )

@@ -48,7 +48,7 @@ def diagnosis(
     return found, new
 
 
-@pytest.mark.parametrize("seconds", [2.5, 3.0])
+@pytest.mark.parametrize("seconds", [2.5, pytest.param(3.0, marks=pytest.mark.long)])
 def test_what_is_missing_has_its_own_value(seconds: float, tmp_path: Path) -> None:
     """Rows are too few for all that may act to be taken out of the noise, which would hold a part of the spring."""
     found, new = diagnosis(tmp_path, UPRIGHT, seconds, SPRING)

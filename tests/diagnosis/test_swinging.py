@@ -11,7 +11,8 @@ import pytest
 
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
-from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding, _doubted, _swinging
+from identification.diagnosis.verdict.doubts import doubted, swinging
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.diagnosis.verdict.unexplained import _loose
 from identification.outcome import Value
 
@@ -24,7 +25,6 @@ def finding(effect: str, kind: str, std: float) -> Finding:
     evidence: Any = SimpleNamespace(score=100.0, size=5.0)
     return Finding(
         hypothesis=hypothesis,
-        status=FIRM,
         joints=(2,),
         shape={},
         parameters={"c": Value(1e-3, std, "rad")},
@@ -46,7 +46,7 @@ def finding(effect: str, kind: str, std: float) -> Finding:
     ],
 )
 def test_far_more_than_noise_is_left(effect: str, kind: str, left: dict[int, float], status: str) -> None:
-    assert _swinging(finding(effect, kind, 1e-5), left, 0.1).status == status
+    assert swinging(finding(effect, kind, 1e-5), left, 0.1).status == status
 
 
 @pytest.mark.parametrize(
@@ -56,12 +56,12 @@ def test_values_that_are_not_told_one_by_one_are_not_firm_without_repetition(
     repeats: bool, apart: bool, status: str
 ) -> None:
     one = replace(finding("warm_friction", EFFECT, 1e-5), apart=apart)
-    assert _doubted(one, 0.0, (), repeats).status == status
+    assert doubted(one, 0.0, (), repeats).status == status
 
 
 @pytest.mark.parametrize(("remains", "status"), [(0.25, FIRM), (0.35, TENTATIVE)])
 def test_much_of_what_was_explained_is_left(remains: float, status: str) -> None:
-    assert _swinging(finding("backlash", ELASTIC, 1e-5), {2: 0.9}, remains).status == status
+    assert swinging(finding("backlash", ELASTIC, 1e-5), {2: 0.9}, remains).status == status
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_a_gap_that_is_told_alike_twice_lets_a_link_bounce(effect: str, size: fl
 
 
 def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:
-    one = _swinging(finding("backlash", ELASTIC, 4e-4), {}, 0.0)
+    one = swinging(finding("backlash", ELASTIC, 4e-4), {}, 0.0)
     assert (one.status, [other.effect for other in one.alternatives]) == (TENTATIVE, ["joint_elasticity"])
-    assert _swinging(finding("backlash", ELASTIC, 1e-4), {}, 0.0).status == FIRM
-    assert _swinging(finding("joint_elasticity", ELASTIC, 4e-4), {}, 0.0).alternatives == ()
+    assert swinging(finding("backlash", ELASTIC, 1e-4), {}, 0.0).status == FIRM
+    assert swinging(finding("joint_elasticity", ELASTIC, 4e-4), {}, 0.0).alternatives == ()

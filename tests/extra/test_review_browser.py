@@ -45,8 +45,8 @@ document.body.append(holder);
 """
 
 
-#: Robots whose page is looked at each time: the report's, a branch and a slide.
-ALWAYS = ("kr270", "kr500", "stanford", "tree_two_arms")
+#: Robots whose page is looked at each time: one of the report's, and a branch with a slide.
+ALWAYS = ("kr500", "tree_two_arms")
 
 
 @dataclass(frozen=True)

@@ -15,14 +15,15 @@ from generator.robot.readers import read
 from tests.compiled import run, write
 from tests.extra.tools import tool
 
-ROBOTS = ("kr500", "kr270", "scara", "tree_two_arms")
+#: Robots that are compiled each time, and those of make test-long alone.
+ALWAYS, FURTHER = ("kr500", "scara"), ("kr270", "tree_two_arms")
 PRECISIONS = ("double", "float")
 
 #: What the library may ask of the target's C library: mathematics, nothing else.
 MATHEMATICS = {"sin", "cos", "sqrt", "log", "exp", "tanh", "pow", "fabs"}
 
 
-@pytest.fixture(scope="module", params=ROBOTS)
+@pytest.fixture(scope="module", params=[*ALWAYS, *(pytest.param(name, marks=pytest.mark.long) for name in FURTHER)])
 def library(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a robot's generated C, named after the robot."""
     folder = tmp_path_factory.mktemp("c") / request.param

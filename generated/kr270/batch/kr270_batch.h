@@ -15,7 +15,7 @@
  * Compile  kr270_batch.c as C99 or later, with the folder of kr270.h among the include paths, for example
  *          cc -O2 -march=native -ffp-contract=fast -fno-math-errno -fopenmp. GCC and Clang compute with the widest
  *          vectors that -march allows; other compilers sample by sample.
- * Types    kr270_real and KR270_USE_FLOAT are those of kr270.h.
+ * Units, frames, order of joints, signs and precision are those of kr270.h.
  */
 #ifndef KR270_BATCH_H
 #define KR270_BATCH_H

@@ -15,7 +15,7 @@
  * Compile  kr500_batch.c as C99 or later, with the folder of kr500.h among the include paths, for example
  *          cc -O2 -march=native -ffp-contract=fast -fno-math-errno -fopenmp. GCC and Clang compute with the widest
  *          vectors that -march allows; other compilers sample by sample.
- * Types    kr500_real and KR500_USE_FLOAT are those of kr500.h.
+ * Units, frames, order of joints, signs and precision are those of kr500.h.
  */
 #ifndef KR500_BATCH_H
 #define KR500_BATCH_H

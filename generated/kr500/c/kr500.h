@@ -12,10 +12,6 @@
  *   Arrays    every signal is an array of fixed size, a matrix flat and row-major: entry (i, j) of an array of shape
  *             (r, c) is [c*i + j]; a number is an array of one. The arrays of one call must not overlap.
  *   Signs     torques are those that the motors supply; gravity acts. sign(0) = 0.
- *   Names     intermediate values carry a quantity, a frame and a component: W angular velocity, WP its derivative,
- *             U = skew(WP) + skew(W)^2, VP acceleration of the origin (gravity included), F and N force and moment
- *             that move a body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and
- *             first moment; u marks axes that do not spin with the joint, a trailing n the negative.
  *   Report    COROUSSO deliverable 4.2 (HAL hal-01091400), whose equations are cited below.
  *   Precision double, or float with KR500_USE_FLOAT defined for the library and all of its users.
  *   Angles    sine and cosine are computed here, four angles side by side: wrong by at most 2 units in the last place
@@ -23,6 +19,39 @@
  *             infinities and NaN go to <math.h>; with KR500_USE_LIBM all do, as under -ffast-math and in excess
  *             precision. -Dkr500_sin=my_sin -Dkr500_cos=my_cos takes yours. Rounding is to nearest.
  *             Vectors are types of GCC and Clang; with KR500_LANES=1 the code is standard C throughout.
+ *
+ * Model
+ *   Gravity   Free fall is (0, 0, -9.81) m/s2 in the world frame, which is frame 0.
+ *   Geometry  Frame j follows from its antecedent a(j) by Rot(z, gamma) Trans(z, b) Rot(x, alpha)
+ *             Trans(x, d) Rot(z, theta) Trans(z, r), in which gamma and b are 0 if they are not
+ *             shown. sigma is 0 for a revolute joint, 1 for a prismatic one, 2 for a fixed frame.
+ *             j      a(j)  sigma  alpha  d   theta      r    limits
+ *             1      0     0      pi     0   q1         rl1  -185 to 185 deg
+ *             2      1     0      pi/2   d2  q2         0    -130 to 20 deg
+ *             3      2     0      0      d3  q3 + pi/2  0    -94 to 144 deg
+ *             4      3     0      -pi/2  d4  q4         rl4  -350 to 350 deg
+ *             5      4     0      pi/2   0   q5         0    -118 to 118 deg
+ *             6      5     0      -pi/2  0   q6 - pi/2  rl6  -350 to 350 deg
+ *             7 (L)  6     2      0      0   0          0    none
+ *             rl1 = -1.045 m, d2 = 0.5 m, d3 = 1.3 m, d4 = -0.055 m, rl4 = -1.025 m, rl6 = -0.29 m
+ *   Groupings ZZ1R = ZZ1 + Ia1 + YY2 + d2^2 M2 + YY3 + (d2^2 + d3^2) M3 + (d2^2 + d3^2 + d4^2) (M4
+ *                 + M5 + M6)
+ *             XX2R = XX2 - YY2 - d3^2 (M3 + M4 + M5 + M6)
+ *             XZ2R = XZ2 - d3 MZ3
+ *             ZZ2R = ZZ2 + Ia2 + d3^2 (M3 + M4 + M5 + M6)
+ *             MX2R = MX2 + d3 (M3 + M4 + M5 + M6)
+ *             XX3R = XX3 - YY3 + YY4 + 2 rl4 MZ4 + (rl4^2 - d4^2) (M4 + M5 + M6)
+ *             XY3R = XY3 - d4 MZ4 - d4 rl4 (M4 + M5 + M6)
+ *             ZZ3R = ZZ3 + YY4 + 2 rl4 MZ4 + (d4^2 + rl4^2) (M4 + M5 + M6)
+ *             MX3R = MX3 + d4 (M4 + M5 + M6)
+ *             MY3R = MY3 + MZ4 + rl4 (M4 + M5 + M6)
+ *             XX4R = XX4 - YY4 + YY5
+ *             ZZ4R = ZZ4 + YY5
+ *             MY4R = MY4 - MZ5
+ *             XX5R = XX5 - YY5 + YY6 + 2 rl6 MZ6 + rl6^2 M6
+ *             ZZ5R = ZZ5 + YY6 + 2 rl6 MZ6 + rl6^2 M6
+ *             MY5R = MY5 + MZ6 + rl6 M6
+ *             XX6R = XX6 - YY6
  *
  * Use: fill a kr500_params, call kr500_prepare() once, then any function, from any thread. Nothing is
  * allocated, and no state is kept. Compile kr500.c as C99 or later with -O2 -ffp-contract=fast and for your

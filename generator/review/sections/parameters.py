@@ -16,7 +16,7 @@ ORDER = 125
 
 
 def render(model: Model) -> Markup:
-    standard = _table(model.standard_parameters, model)
+    standard = _table(model.standard_parameters)
     return join(
         _built_in(model) if model.constants else _vector(model),
         element(
@@ -26,7 +26,7 @@ def render(model: Model) -> Markup:
 
 
 def _vector(model: Model) -> Markup:
-    vector = _table(model.parameters, model)
+    vector = _table(model.parameters)
     return join(
         element(
             "p",
@@ -53,7 +53,7 @@ def _built_in(model: Model) -> Markup:
     )
 
 
-def _table(parameters: Iterable[Parameter], model: Model) -> Markup:
+def _table(parameters: Iterable[Parameter]) -> Markup:
     rows = (
         (
             str(index),

@@ -6,7 +6,7 @@ An effect of a joint may have another value than it once had; where a body has, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.verdict.finding import TENTATIVE, Finding
+from identification.diagnosis.verdict.finding import Finding
 
 #: How many values are told by name.
 _NAMED = 6
@@ -76,7 +76,12 @@ def doubted(named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Fin
     """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
     as it is known.
     """
-    return tuple(replace(one, status=TENTATIVE) if _instead_of(one, ones) else one for one in named)
+    return tuple(one.doubted(*_other_law(one, ones)) for one in named)
+
+
+def _other_law(one: Finding, ones: Sequence[Contradicted]) -> list[str]:
+    names = _instead_of(one, ones)
+    return [f"the runs contradict {listed(names)}, which another law may leave as known"] if names else []
 
 
 def _instead_of(one: Finding, ones: Sequence[Contradicted]) -> list[str]:
@@ -100,17 +105,11 @@ def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
     return most if size[most] > _LITTLE else None
 
 
-def note(ones: Sequence[Contradicted], named: Sequence[Finding]) -> list[str]:
-    """What is to be told of them, and of what was ``named`` on their joints."""
+def note(ones: Sequence[Contradicted]) -> list[str]:
+    """What is to be told of them."""
     if not ones:
         return []
     told = [one.text for one in ones[:_NAMED]]
     more = len(ones) - len(told)
     rest = [f"{more} more"] if more else []
-    doubts = [
-        f"{one.hypothesis.named} may be another law, which leaves {listed(names)} as known"
-        for one in named
-        if (names := _instead_of(one, ones))
-    ]
-    those = f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"
-    return [those, *doubts]
+    return [f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from generator.review.words import listed
 from generator.robot.description import Robot
@@ -11,7 +10,10 @@ from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.search.evidence import SMALL
 from identification.diagnosis.search.few_rows import LEAST, Few
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.verdict.finding import TENTATIVE, Finding
+from identification.diagnosis.verdict.finding import Finding
+
+#: Why what is found on a joint of few rows is not sure.
+_BESIDE = "rows are too few on its joint, and something small was left out there"
 
 
 def left_out(found: Search) -> list[Variant]:
@@ -49,6 +51,4 @@ def doubted(few: Few, robot: Robot, named: Sequence[Finding], small: Sequence[Va
     """Findings, tentative where they act on a joint of few rows on which what was ``small`` was left out of the fit."""
     beside = {k for one in small for k in one.joints} & few.keys()
     numbers = {robot.numbers[k] for k in beside}
-    return tuple(
-        one if numbers.isdisjoint(one.amplitude) else replace(one, status=TENTATIVE, sure=False) for one in named
-    )
+    return tuple(one if numbers.isdisjoint(one.amplitude) else one.doubted(_BESIDE, sure=False) for one in named)

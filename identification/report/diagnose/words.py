@@ -35,7 +35,7 @@ def alike(found: Sequence[Finding]) -> list[list[Finding]]:
     groups: dict[tuple[object, ...], list[Finding]] = {}
     for one in found:
         own = one.joints if one.alternatives or not one.homogeneous or not one.determined else ()
-        groups.setdefault((one.hypothesis.effect, one.hypothesis.title, one.status, own), []).append(one)
+        groups.setdefault((one.hypothesis.effect, one.hypothesis.title, one.doubts, own), []).append(one)
     return [sorted(group, key=lambda one: one.joints) for group in groups.values()]
 
 
@@ -123,8 +123,9 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
     yield f"{size} times the noise."
     p, validation = max(each.evidence.p for each in group), min(each.evidence.validation for each in group)
     least = " or more for each joint" if several else ""
-    yield f"It is {one.status}: chance would explain as much with a probability {_probability(p)}, and the sum of"
-    yield f"squares of runs that were not fitted falls by {plain(validation, 3)}{least}, in variances of the noise."
+    yield f"It is {one.status}{_because(one.doubts)}. Chance would explain as much with a probability"
+    yield f"{_probability(p)}, and the sum of squares of runs that were not fitted falls by"
+    yield f"{plain(validation, 3)}{least}, in variances of the noise."
     if one.alternatives:
         others = [other.named for other in one.alternatives]
         yield f"This data cannot tell it from {listed(others)}."
@@ -136,6 +137,10 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
         yield "Such a torque acts for certain; that this effect makes it is not certain."
     if one.disagreement:
         yield f"Its size {one.disagreement}: it drifts, or something else makes it."
+
+
+def _because(doubts: Sequence[str]) -> str:
+    return f" because {listed(doubts)}" if doubts else ""
 
 
 def change(subject: Subject) -> Iterator[str]:

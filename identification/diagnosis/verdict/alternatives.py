@@ -1,0 +1,50 @@
+"""What may stand in the place of a finding, and the experiment that tells the two apart."""
+
+from __future__ import annotations
+
+from generator.effects.library import library
+from identification.diagnosis.columns.hypothesis import Hypothesis, on_joints
+from identification.diagnosis.search.evidence import Evidence
+from identification.diagnosis.search.selection import Choice
+from identification.diagnosis.search.whole_orders import UNSURE
+from identification.diagnosis.verdict.finding import Alternative
+
+#: Stand for whatever makes a ripple, a torque of the position, or friction that changes along the range, that is none
+#: of the library's.
+OTHER_RIPPLE, OTHER_TORQUE, OTHER_FRICTION = "other_ripple", "other_torque", "other_friction"
+
+
+def alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
+    """What explains as much in the place of ``mine``, which is that of a choice."""
+    found = [_alternative(mine, other) for other in one.alternatives]
+    if one.odds < UNSURE:
+        title = "ripple whose order is no whole number"
+        turns = "more turns of the joint in one run: they tell the order more closely"
+        found.append(outside(OTHER_RIPPLE, title, mine.numbers, one.evidence, turns))
+    return tuple(found)
+
+
+def outside(effect: str, title: str, joints: tuple[int, ...], evidence: Evidence, experiment: str) -> Alternative:
+    """Something of no law of the library that explains as much."""
+    return Alternative(effect, title, joints, f"{title} on {on_joints(joints)}", evidence.score, experiment)
+
+
+def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
+    one = other.variant.hypothesis
+    return Alternative(one.effect, one.title, one.numbers, one.named, other.score, separating(mine, one))
+
+
+def separating(mine: Hypothesis, other: Hypothesis) -> str:
+    """The experiment that tells two effects apart, in words."""
+    return (
+        mine.separating.get(other.effect)
+        or other.separating.get(mine.effect)
+        or _resemblance(mine.effect, other.effect)
+        or _resemblance(other.effect, mine.effect)
+        or other.would_show
+        or "more motion of the joint: other ranges, speeds and loads"
+    )
+
+
+def _resemblance(one: str, other: str) -> str:
+    return effect.resembles.get(other, "") if (effect := library().get(one)) else ""

@@ -1,0 +1,108 @@
+"""Why a finding may stand for something else: rules by which it is tentative, each with its reason in words."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SINCE_REVERSAL
+from identification.diagnosis.search.likely import balances, pulls
+from identification.diagnosis.verdict.alternatives import OTHER_FRICTION, OTHER_TORQUE, outside
+from identification.diagnosis.verdict.finding import TENTATIVE, Finding, vague
+from identification.outcome import Value
+
+#: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
+#: to where it rests, and of friction over the position, which any torque of the position looks like.
+_LEFT, _PULLED = 1.0, 0.15
+#: Size, in parts of the noise's rms, below which a torque of the position is any; what is left on its joint, in those
+#: parts too, and standard deviation of its values, in parts of them, from which it is.
+_FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
+#: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
+#: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
+_SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
+#: Reasons of several rules.
+_MUCH = "much is left on its joint beside what it explains there"
+_UNDETERMINED = "the runs do not determine its values"
+
+
+def doubted(one: Finding, remains: float, several: Collection[int], repeats: bool) -> Finding:
+    """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
+    it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
+    balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
+    ``repeats`` those of any effect.
+    """
+    effect, kind = one.hypothesis.effect, one.hypothesis.kind
+    if reasons := _any_torque(one, remains, several):
+        whole = "motion over the joint's whole range, with another payload"
+        other = outside(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
+        return one.doubted(*reasons, alternatives=[other])
+    if effect == "position_friction" and _much(one, remains):
+        loads = "the same motion with another payload, which changes friction under load"
+        other = outside(OTHER_FRICTION, "other friction that changes along the range", one.joints, one.evidence, loads)
+        return one.doubted(_MUCH, alternatives=[other])
+    if all(map(_unknown, one.main)):
+        return one.doubted("its values are no larger than their standard deviations", sure=False)
+    if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
+        return one.doubted(_UNDETERMINED)
+    if kind == EFFECT and not one.determined and not repeats:
+        return one.doubted(f"{_UNDETERMINED}, and no motion repeats")
+    if remains > _LEFT:
+        return one.doubted("it leaves more on its joint than it explains there")
+    if kind == BODY and vague(one.main[0]):
+        return one.doubted("the runs do not determine its mass")
+    if all(map(vague, one.main)):
+        return one.doubted("the standard deviations of its values are more than half of them")
+    return one
+
+
+def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[str]:
+    """Why it may be any torque of the position, if it pulls a link to where it rests."""
+    effect = one.hypothesis.effect
+    if not pulls(effect):
+        return []
+    loose = any(vague(value, _LOOSE) for value in one.main) or (balances(effect) and not one.determined)
+    reasons = {
+        _MUCH: _much(one, remains),
+        "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
+        _UNDETERMINED: loose,
+        "it is small beside the noise": one.evidence.size < _FAINT,
+    }
+    return [reason for reason, holds in reasons.items() if holds]
+
+
+def _much(one: Finding, remains: float) -> bool:
+    return remains > min(_PULLED, _SHOWS / one.evidence.size)
+
+
+def beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
+    """With offsets as sure as the torques of the position beside them: another law there takes another offset."""
+    tentative = {
+        number for one in told if pulls(one.hypothesis.effect) and one.status == TENTATIVE for number in one.joints
+    }
+    why = "another law in the place of the torque of the position on its joint takes another offset"
+    return [
+        one.doubted(why) if one.hypothesis.effect == "offset" and not tentative.isdisjoint(one.joints) else one
+        for one in told
+    ]
+
+
+def swinging(one: Finding, left: Mapping[int, float], remains: float) -> Finding:
+    """Tentative where a drive train explains how a link swings and far more than noise is ``left`` all the same on a
+    joint that its torque reaches, or much ``remains`` where it is largest, in parts of it; and where its gap is hardly
+    more than none.
+    """
+    if one.hypothesis.kind != ELASTIC:
+        return one
+    (main, *_) = one.main
+    if one.hypothesis.effect == "backlash" and (main.std or 0.0) > _GAP * abs(main.value or 0.0):
+        title, experiment = "elasticity of the drive train without a gap", "motion in which the load changes its sign"
+        other = outside("joint_elasticity", title, one.joints, one.evidence, experiment)
+        return one.doubted("its gap is hardly larger than its standard deviation", alternatives=[other])
+    if remains > _SWUNG_OF:
+        return one.doubted(_MUCH)
+    if any(left.get(number, 0.0) > _SWUNG for number in one.amplitude):
+        return one.doubted("more than the noise is left on a joint that its torque reaches")
+    return one
+
+
+def _unknown(one: Value) -> bool:
+    return (one.std or 0.0) >= abs(one.value or 0.0)
