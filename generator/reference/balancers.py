@@ -6,11 +6,10 @@ with q21 = phi + q (report eq. 22, 23 and Table 6). No angle of the balancer its
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from decimal import Decimal
 
 from generator.reference.arithmetic import cosine, sine
-from generator.reference.law import At, Columns, Law, Values
+from generator.reference.law import Values
 
 
 def length(shape: Values, q: Decimal) -> Decimal:
@@ -65,20 +64,3 @@ def _between(shape: Values, q: Decimal) -> tuple[Decimal, Decimal]:
 def _chamber(shape: Values, q: Decimal) -> Decimal:
     """Length of the gas chamber [m] (eq. 35)."""
     return shape["l0"] - length(shape, q) + length(shape, Decimal(0))
-
-
-def _law(
-    stems: tuple[str, ...], forces: Callable[[Values, Decimal], Columns], energies: Callable[[Values, Decimal], Columns]
-) -> Law:
-    def torque(at: At) -> Columns:
-        arm = lever_arm(at.shape, at.q)
-        return tuple(arm * force for force in forces(at.shape, at.q))
-
-    return Law(stems, torque, lambda at: forces(at.shape, at.q), lambda at: energies(at.shape, at.q), loads=True)
-
-
-#: By the effects' ids.
-LAWS: Mapping[str, Law] = {
-    "spring_balancer": _law(("Kr", "K0"), spring_forces, spring_energies),
-    "gas_balancer": _law(("F0",), gas_forces, gas_energies),
-}

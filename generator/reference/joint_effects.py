@@ -8,47 +8,14 @@ from decimal import Decimal
 
 import numpy as np
 
-from generator.reference import balancers, friction, presliding, ripple
+from generator.discovery import modules
+from generator.reference import laws
 from generator.reference.arithmetic import Array, decimals, exact, sign, zeros
 from generator.reference.law import At, Law, Values
 from generator.robot.description import EffectUse, Robot
 
-#: Report eq. 5 (rotor, friction), eq. 4 (offset), eq. 19-38 (balancers), and the laws of the other files; sign(0) = 0.
-LAWS: Mapping[str, Law] = {
-    "rotor_inertia": Law(("Ia",), lambda at: (at.qdd,), kinetic=lambda at: (at.qd * at.qd / 2,)),
-    "coupled_rotor": Law(
-        ("Iar", "Fvr", "Fcr"),
-        lambda at: (at.qdd, at.qd, at.direction),
-        kinetic=lambda at: (at.qd * at.qd / 2, Decimal(0), Decimal(0)),
-        along="pair",
-    ),
-    # Of the flexible robot alone, with its own parameters: see ``flexible``.
-    "joint_elasticity": Law((), lambda at: ()),
-    "offset": Law(("Off",), lambda at: (Decimal(1),), loads=True),
-    "joint_spring": Law(("ks",), lambda at: (at.q,), potential=lambda at: (at.q * at.q / 2,), loads=True),
-    "cable_spring": Law(
-        ("kc", "kch"),
-        lambda at: tuple((at.q - at.shape["neutral"]) ** n for n in (1, 3)),
-        potential=lambda at: tuple(((at.q - at.shape["neutral"]) ** n - at.shape["neutral"] ** n) / n for n in (2, 4)),
-        loads=True,
-    ),
-    **friction.LAWS,
-    **presliding.LAWS,
-    **ripple.LAWS,
-    **balancers.LAWS,
-}
-
-#: What the robot file may leave out.
-_DEFAULTS: Mapping[str, Mapping[str, Decimal]] = {
-    "gas_balancer": {"exponent": Decimal(1)},
-    "power_friction": {"v": Decimal(1), "exponent": Decimal(2)},
-    "load_friction": {"rotor": Decimal(0)},
-    "stribeck_friction": {"exponent": Decimal(2)},
-    "position_friction": {"order": Decimal(1)},
-    "hysteresis": {"exponent": Decimal(2)},
-    "motor_ripple": {"order": Decimal(1)},
-    "wave_generator_ripple": {"order": Decimal(2)},
-}
+#: By the effects' ids; sign(0) = 0.
+LAWS: Mapping[str, Law] = {name: law for module in modules(laws) for name, law in module.LAWS.items()}
 
 
 @dataclass(frozen=True)
@@ -161,4 +128,4 @@ def _of_motor(robot: Robot, k: int) -> tuple[Array, Decimal]:
 
 def _shape(use: EffectUse) -> Values:
     """The fixed values, those that the file leaves out included."""
-    return {**_DEFAULTS.get(use.effect, {}), **{name: exact(given.value) for name, given in use.values.items()}}
+    return {**LAWS[use.effect].defaults, **{name: exact(given.value) for name, given in use.values.items()}}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Literal
 
 Values = Mapping[str, Decimal]
 Columns = tuple[Decimal, ...]
+Ranges = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,8 @@ class Law:
     ``states`` are the stems of its states, ``rates`` their derivatives. ``along`` is "joint", "motor" or
     "pair" (of joints that turn a rotor together): motor and pair share the torque by equal power. ``loads`` tells that
     it is a part of the drive's load at rest, ``by_load`` that it is proportional to the size of what loads the gear.
+    ``ranges`` are those of its parameters in a mid-sized arm, by stem [SI], for the self-tests; ``defaults`` the fixed
+    values that a robot file may leave out.
     """
 
     stems: tuple[str, ...]
@@ -53,3 +56,5 @@ class Law:
     along: Literal["joint", "motor", "pair"] = "joint"
     loads: bool = False
     by_load: bool = False
+    ranges: Ranges = field(default_factory=dict)
+    defaults: Values = field(default_factory=dict)

@@ -22,42 +22,16 @@ _TRIES = 1000
 #: enough to stay away from the edge, where torques grow without bound.
 _ROOM = 0.1
 
-#: Range of a parameter that is not listed below.
+#: Range of a parameter for which no law gives one.
 _USUAL = (0.5, 2.0)
-#: Ranges of the effects' parameters by stem [SI], those of a mid-sized arm.
+#: Ranges of parameters by stem [SI], those of elastic drive trains and those of the effects.
 _RANGES = {
-    "Ia": (0.5, 3.0),
-    "Fv": (1.0, 9.0),
-    "Fc": (2.0, 15.0),
-    "Off": (-4.0, 4.0),
-    "Iar": (0.5, 3.0),
-    "Fvr": (1.0, 9.0),
-    "Fcr": (2.0, 15.0),
-    "Kr": (500.0, 900.0),
-    "K0": (-80.0, 80.0),
-    "F0": (300.0, 700.0),
     "Iam": (0.5, 3.0),
     "Fvm": (1.0, 9.0),
     "Fcm": (2.0, 15.0),
     "Offm": (-4.0, 4.0),
     "k": (2e3, 9e3),
-    "Fvp": (1.0, 9.0),
-    "Fvn": (1.0, 9.0),
-    "Fcp": (2.0, 15.0),
-    "Fcn": (2.0, 15.0),
-    "Fp": (1.0, 5.0),
-    "Fst": (1.0, 8.0),
-    "Fg": (1.0, 8.0),
-    **{f"Fq{part}": (-2.0, 2.0) for part in ("c", "s", "2c", "2s")},
-    "kc": (5.0, 50.0),
-    "Fl": (0.01, 0.2),
-    "Fd": (2.0, 15.0),
-    "Fz": (2.0, 15.0),
-    "Dz": (0.1, 2.0),
-    "Fh": (2.0, 15.0),
-    "Fvw": (-3.0, -0.5),
-    "Fcw": (-4.0, -0.5),
-    **{f"R{part}{phase}": (-3.0, 3.0) for part in "mwy" for phase in ("c", "s", "2c", "2s")},
+    **{stem: limits for law in LAWS.values() for stem, limits in law.ranges.items()},
 }
 
 

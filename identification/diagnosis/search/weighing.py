@@ -1,9 +1,9 @@
 """What speaks for a hypothesis beside others: its drop of the sum of squares, chance, and a run that was not fitted.
 
-A hypothesis may be taken when all of this holds: its drop is beyond chance for all that was tried; it lowers the sum of
-squares of a run that was not fitted, or tells why the runs contradict what is known; it is not tiny beside the noise,
-nor beside what is still unexplained; its shape is not at the end of what was tried, and its coefficients are within
-their physical bounds.
+A hypothesis may be taken when nothing speaks against it. ``Weighing._judged`` asks in this order: chance, for all that
+was tried; another effect, known friction or noise of the positions, of which its drop may be a part; a run that was not
+fitted; its size, beside the noise and beside what is still unexplained; what laws that were taken lack; the end of what
+was tried of its shape; and joints of few rows.
 """
 
 from __future__ import annotations

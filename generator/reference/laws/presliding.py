@@ -32,12 +32,20 @@ def _bouc_wen_rate(at: At) -> Columns:
 
 #: By the effects' ids; sources as in ``generator.effects``.
 LAWS: Mapping[str, Law] = {
-    "dahl_friction": Law(("Fd",), lambda at: at.states, states=("zd",), rates=_dahl_rate),
+    "dahl_friction": Law(("Fd",), lambda at: at.states, states=("zd",), rates=_dahl_rate, ranges={"Fd": (2.0, 15.0)}),
     "lugre_friction": Law(
         ("Fz", "Dz"),
         lambda at: (at.states[0], _bristle_speed(at)),
         states=("zl",),
         rates=lambda at: (_bristle_speed(at) / at.shape["xs"],),
+        ranges={"Fz": (2.0, 15.0), "Dz": (0.1, 2.0)},
     ),
-    "hysteresis": Law(("Fh",), lambda at: at.states, states=("zh",), rates=_bouc_wen_rate),
+    "hysteresis": Law(
+        ("Fh",),
+        lambda at: at.states,
+        states=("zh",),
+        rates=_bouc_wen_rate,
+        ranges={"Fh": (2.0, 15.0)},
+        defaults={"exponent": Decimal(2)},
+    ),
 }
