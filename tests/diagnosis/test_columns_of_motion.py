@@ -52,9 +52,9 @@ def test_they_are_the_same_for_other_values(robot: Known) -> None:
             pair = [bank.add(one, shape) for bank in (again, afresh)]
             assert (pair[0] is None) == (pair[1] is None)
             if pair[0] is not None and pair[1] is not None:
-                assert pair[0].joints == pair[1].joints
+                assert pair[0].coordinates == pair[1].coordinates
                 kept += 1
-                for j in pair[0].joints:
+                for j in pair[0].coordinates:
                     rows = [bank.columns(0, j, two.columns) for bank, two in zip((again, afresh), pair, strict=True)]
                     np.testing.assert_array_equal(*rows)
     assert kept > 50

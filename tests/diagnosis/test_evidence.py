@@ -98,9 +98,9 @@ def test_an_effect_is_as_large_as_on_the_joints_on_which_it_acts(tmp_path: Path)
         bank.whiten([[WHITE] * 2] * 2)
         found = Weighing(bank, [0], [1], None).of(variant, [])
         left = np.array([one @ one for one in beside_the_model(bank, found.coefficients[0])])
-        own = left[list(variant.joints)]
-        sizes = np.sqrt(left.sum() * own / own.sum() / bank.rows(0)[list(variant.joints)])
-        assert [found.sizes[k] for k in variant.joints] == pytest.approx(sizes.tolist(), rel=0.01)
+        own = left[list(variant.coordinates)]
+        sizes = np.sqrt(left.sum() * own / own.sum() / bank.rows(0)[list(variant.coordinates)])
+        assert [found.sizes[k] for k in variant.coordinates] == pytest.approx(sizes.tolist(), rel=0.01)
         return found.size
 
     alone = size(0.0)

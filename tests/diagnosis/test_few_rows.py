@@ -20,7 +20,7 @@ FEW = {1: (90, 12)}
 
 def variant(effect: str, joints: tuple[int, ...], preset: bool = False) -> Any:
     hypothesis = SimpleNamespace(kind="effect", effect=effect, stated=False, named=f"{effect} of a joint")
-    return SimpleNamespace(joints=joints, hypothesis=hypothesis, preset=[0.1] if preset else None)
+    return SimpleNamespace(coordinates=joints, hypothesis=hypothesis, preset=[0.1] if preset else None)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_of_what_was_left_out_the_best_is_told_on_each_joint() -> None:
         ]
 
     found: Any = SimpleNamespace(variants=[], weighing=SimpleNamespace(few={**FEW, 2: (80, 11)}, evidence=evidence))
-    told = [(one.hypothesis.effect, one.joints) for one in few_rows.left_out(found)]
+    told = [(one.hypothesis.effect, one.coordinates) for one in few_rows.left_out(found)]
     assert told == [("torque_delay", (0, 1)), ("stribeck_friction", (2,))]
     found.weighing.few = {}
     assert few_rows.left_out(found) == []

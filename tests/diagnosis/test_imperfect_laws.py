@@ -29,7 +29,7 @@ def variant(
         preset=preset or {},
         beyond=(),
     )
-    return SimpleNamespace(hypothesis=hypothesis, joints=joints, coefficients=(), used=(), key=(effect, joint))
+    return SimpleNamespace(hypothesis=hypothesis, coordinates=joints, coefficients=(), used=(), key=(effect, joint))
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from identification.diagnosis.search.selection import Selection
 
 def instead(joints: tuple[int, ...], beside: bool) -> bool:
     """Whether a rival on some joints stands for a finding on joints 0 and 1, if it passes ``beside`` it or not."""
-    finding, rival = (SimpleNamespace(joints=each) for each in ((0, 1), joints))
+    finding, rival = (SimpleNamespace(coordinates=each) for each in ((0, 1), joints))
     weighing: Any = SimpleNamespace(of=lambda one, others: SimpleNamespace(passes=beside and finding in others))
     return Selection(weighing)._instead(rival, finding, [])  # type: ignore[arg-type]
 
@@ -46,7 +46,7 @@ def test_what_is_rare_outweighs_what_is_common_without_what_hides_that(
 
     def effect(name: str, *joints: int) -> Any:
         hypothesis = SimpleNamespace(effect=name, kind="effect", stated=False, usual=True, coefficients=())
-        return SimpleNamespace(hypothesis=hypothesis, joints=joints, used=())
+        return SimpleNamespace(hypothesis=hypothesis, coordinates=joints, used=())
 
     def found(name: str, drop: float) -> Evidence:
         return Evidence(effect(name, 0), np.ones(1), drop, 0.0, drop, drop, {}, True, "", True)

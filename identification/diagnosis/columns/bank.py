@@ -44,7 +44,7 @@ class Variant:
     hypothesis: Hypothesis
     shape: Mapping[str, float]
     columns: tuple[int, ...]
-    joints: tuple[int, ...]
+    coordinates: tuple[int, ...]
     used: tuple[int, ...] = ()
 
     @property
@@ -93,7 +93,7 @@ class Variant:
             self.hypothesis,
             self.shape,
             tuple(self.columns[i] for i in used),
-            self.joints,
+            self.coordinates,
             tuple(self.used[i] for i in used),
         )
 
@@ -213,7 +213,7 @@ class Bank:
             return None
         if hypothesis.of_motion:
             self._lasting[_key(hypothesis, shape)] = found
-        if not found.joints:
+        if not found.coordinates:
             if offered:
                 self.nowhere[hypothesis.effect, hypothesis.joint] = hypothesis
             return None
@@ -225,9 +225,9 @@ class Bank:
         for r, per_joint in enumerate(found.rows):
             if self._colours:
                 self.grams[r] = _grown(self.grams[r], len(numbers))
-            for j, rows in zip(found.joints, per_joint, strict=True):
+            for j, rows in zip(found.coordinates, per_joint, strict=True):
                 self._extend(r, j, numbers, rows)
-        return Variant(hypothesis, dict(shape), numbers, found.joints, tuple(range(len(numbers))))
+        return Variant(hypothesis, dict(shape), numbers, found.coordinates, tuple(range(len(numbers))))
 
     def _extend(self, run: int, joint: int, numbers: tuple[int, ...], rows: Array) -> None:
         one = self._joints[run][joint]

@@ -24,11 +24,11 @@ _ENDLESS = 1e30
 
 @dataclass(frozen=True)
 class Torques:
-    """The coordinates of the ``joints`` on which a hypothesis with k coefficients acts, none where it makes no torque,
+    """The ``coordinates`` on which a hypothesis with k coefficients acts, none where it makes no torque,
     and of each run each one's ``rows`` (k x N) [N m, N per unit].
     """
 
-    joints: tuple[int, ...] = ()
+    coordinates: tuple[int, ...] = ()
     rows: tuple[tuple[Array, ...], ...] = ()
 
 

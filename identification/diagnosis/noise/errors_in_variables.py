@@ -63,13 +63,13 @@ class Redrawn:
         """
         old = bank.columns(r, k, variant.columns)
         rows = self._rows(variant)
-        return np.zeros_like(old) if rows is None else rows[variant.joints.index(k)] - old
+        return np.zeros_like(old) if rows is None else rows[variant.coordinates.index(k)] - old
 
     def _rows(self, variant: Variant) -> list[Array] | None:
         if variant.columns not in self._known:
             columns = made(variant.hypothesis, self._scene, variant.shape)
             used = list(variant.used)
-            rows = None if columns is None else [self._run.decimated(columns[used, j]) for j in variant.joints]
+            rows = None if columns is None else [self._run.decimated(columns[used, j]) for j in variant.coordinates]
             self._known[variant.columns] = rows
         return self._known[variant.columns]
 
@@ -117,7 +117,7 @@ class Pretence:
             parts = [
                 self._products(r, k, one.of(variant, self._bank, r, k))
                 for r, one in self._redrawn.items()
-                for k in variant.joints
+                for k in variant.coordinates
             ]
             self._known[variant.columns] = np.sum([np.zeros(len(variant.columns)), *parts], axis=0)
         return self._known[variant.columns]

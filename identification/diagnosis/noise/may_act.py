@@ -43,7 +43,7 @@ def without_record(bank: Bank, run: int, joint: int) -> Rows:
 
 def with_noise(parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn]) -> list[Rows]:
     """With what noise of the positions makes of the rows of a joint in each run."""
-    acting = [one for one in bank.variants if joint in one.joints]
+    acting = [one for one in bank.variants if joint in one.coordinates]
     result = []
     for r, part in enumerate(parts):
         noise = np.zeros((len(part.numbers) + 1, len(part.tau)))

@@ -37,7 +37,7 @@ def outstanding(parts: Sequence[Rows], bank: Bank, joint: int) -> list[int]:
     known = [number for number in every.place if number < len(bank.base)]
     if len(every.place) <= allowed(every.count):
         return []
-    acting = [one for one in bank.variants if joint in one.joints and every.place.keys() >= {*one.columns}]
+    acting = [one for one in bank.variants if joint in one.coordinates and every.place.keys() >= {*one.columns}]
     left, result = every.without(known), list[int]()
     for _ in range(_MOST):
         best = left.standing_out(acting, every, left.count - len(known) - len(result))

@@ -33,6 +33,6 @@ def small(one: Evidence, few: Few) -> bool:
     """Whether it acts on a joint of few rows, is small beside its noise or not believed, and is neither what every
     robot has nor what another fit than that of the columns tells.
     """
-    if few.keys().isdisjoint(one.variant.joints) or common(one.variant) or one.variant.preset is not None:
+    if few.keys().isdisjoint(one.variant.coordinates) or common(one.variant) or one.variant.preset is not None:
         return False
     return one.size < LEAST or not one.believed

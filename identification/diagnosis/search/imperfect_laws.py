@@ -46,7 +46,7 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
             least = max(least, _SECOND * drop)
         elif not common(one):
             part = _part(mine, theirs)
-            near = bool(set(one.joints) & set(variant.joints))
+            near = bool(set(one.coordinates) & set(variant.coordinates))
             least = max(least, (part if near else min(part, _ANYWHERE)) * drop)
     return least
 

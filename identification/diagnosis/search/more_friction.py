@@ -18,8 +18,8 @@ def adds(variant: Variant, others: Sequence[Variant]) -> bool:
     """Whether a variant is not common, shows over the speed, and adds to common friction among ``others`` on each of
     its joints.
     """
-    found = {one.joints for one in others if common(one) and _over_speed(one)}
-    return _over_speed(variant) and not common(variant) and all((k,) in found for k in variant.joints)
+    found = {one.coordinates for one in others if common(one) and _over_speed(one)}
+    return _over_speed(variant) and not common(variant) and all((k,) in found for k in variant.coordinates)
 
 
 def left(bank: Bank, normal: Normal, runs: Sequence[int], variant: Variant, others: Sequence[Variant]) -> float:
@@ -29,7 +29,7 @@ def left(bank: Bank, normal: Normal, runs: Sequence[int], variant: Variant, othe
     chosen = columns_of([*others, variant])
     weights = dict(zip([*range(normal.base), *chosen], normal.solution(chosen)[0].tolist(), strict=True))
     result = 0.0
-    for k in variant.joints:
+    for k in variant.coordinates:
         each = [bank.residual(r, k, weights) for r in runs]
         rows = sum(map(len, each))
         beyond = sum(float(e @ e) for e in each) - rows

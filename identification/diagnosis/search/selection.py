@@ -287,7 +287,7 @@ class Selection:
         if not mine.variant.hypothesis.shapes and not pulls(mine.variant.hypothesis.effect):
             return found
         near = [one for one in found if one.drop > _RIVAL * mine.drop and one.variant.hypothesis.shapes]
-        near = [one for one in near if one.variant.joints == mine.variant.joints][:_RIVALS]
+        near = [one for one in near if one.variant.coordinates == mine.variant.coordinates][:_RIVALS]
         beside = frozenset(each.key for each in others)
         for one in near:
             if (one.variant.key, beside) not in self._refined:
@@ -307,7 +307,7 @@ class Selection:
             return []
         taken = {one.key for one in others}
         bank = self.weighing.bank
-        same = [one for one in bank.variants if common(one) and one.joints == mine.variant.joints]
+        same = [one for one in bank.variants if common(one) and one.coordinates == mine.variant.coordinates]
         drop, pair = self._best_pair([one for one in same if one.key not in taken], others)
         bic = drop - sum(len(one.columns) for one in pair) * np.log(self.weighing.normal.rows)
         return [] if mine.bic > bic + _BETTER + _RARE * drop else pair
@@ -364,7 +364,7 @@ class Selection:
 
 
 def _share_joints(one: Variant, other: Variant) -> bool:
-    return not set(one.joints).isdisjoint(other.joints)
+    return not set(one.coordinates).isdisjoint(other.coordinates)
 
 
 def _rare(one: Variant, among: Sequence[Variant]) -> bool:

@@ -288,11 +288,11 @@ class Weighing:
         """By coordinate, the rms beside the noise's of what lowers the sum of squares: it is shared by the joints as
         that is which the model and ``others`` leave of the torque of coefficients x.
         """
-        rows = {k: max(self.rows[k], 1) for k in variant.joints}
+        rows = {k: max(self.rows[k], 1) for k in variant.coordinates}
         if len(rows) == 1:
             return {k: float(np.sqrt(drop / count)) for k, count in rows.items()}
         weights = dict(zip(variant.columns, x.tolist(), strict=True))
-        power = self.powers(weights, self._fitted_beside(others), variant.joints)
+        power = self.powers(weights, self._fitted_beside(others), variant.coordinates)
         whole = max(sum(power.values()), _TINY)
         return {k: float(np.sqrt(drop * power[k] / whole / count)) for k, count in rows.items()}
 

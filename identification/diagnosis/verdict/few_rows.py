@@ -22,7 +22,7 @@ def left_out(found: Search) -> list[Variant]:
     result: list[Variant] = []
     told: set[int] = set()
     for one in weighed:
-        there = found.weighing.few.keys() & {*one.variant.joints}
+        there = found.weighing.few.keys() & {*one.variant.coordinates}
         if one.why_not == SMALL and not there <= told:
             result.append(one.variant)
             told |= there
@@ -49,6 +49,6 @@ def notes(few: Few, robot: Robot, small: Sequence[Variant]) -> list[str]:
 
 def doubted(few: Few, robot: Robot, named: Sequence[Finding], small: Sequence[Variant]) -> tuple[Finding, ...]:
     """Findings, tentative where they act on a joint of few rows on which what was ``small`` was left out of the fit."""
-    beside = {k for one in small for k in one.joints} & few.keys()
+    beside = {k for one in small for k in one.coordinates} & few.keys()
     numbers = {robot.numbers[k] for k in beside}
     return tuple(one if numbers.isdisjoint(one.amplitude) else one.doubted(_BESIDE, sure=False) for one in named)

@@ -68,7 +68,7 @@ def _periods(bank: Bank, r: int, variant: Variant, weights: Mapping[int, float])
     rows = np.arange(len(run.t))
     period = rows // run.period if run.period else 0 * rows
     result = np.zeros((2, int(period[-1]) + 1))
-    for k in variant.joints:
+    for k in variant.coordinates:
         numbers, white = bank.white(r, k)
         effect = np.sum([weights[column] * white[numbers.index(column)] for column in variant.columns], axis=0)
         for row, other in zip(result, (effect, bank.residual(r, k, weights)), strict=True):

@@ -95,7 +95,7 @@ def _small(found: Search, one: Evidence) -> list[str]:
     if found.repeats:
         return []
     bank = found.bank
-    taken = all(maps_taken(bank, found.maps, k) for k in one.variant.joints)
+    taken = all(maps_taken(bank, found.maps, k) for k in one.variant.coordinates)
     least, rows = (_APERIODIC, "") if taken else (_SHORT, ", and rows are few")
     if one.size >= least:
         return []
@@ -112,7 +112,7 @@ def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
     variant = one.evidence.variant
     moving = found.bank.robot.moving
     result = {}
-    for j in variant.joints:
+    for j in variant.coordinates:
         power, rows = 0.0, 0
         for r in found.train:
             kept = found.bank.runs[r].kept[j]

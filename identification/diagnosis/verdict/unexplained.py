@@ -139,7 +139,7 @@ def _explained(found: Search) -> dict[int, float]:
 def _taken_back(found: Search, gone: Sequence[Choice]) -> dict[int, float]:
     """Nothing, by the joint's number, where findings are ``gone``: what stands in their place explains too much."""
     numbers = found.bank.robot.numbers
-    return {numbers[k]: 0.0 for one in gone for k in one.evidence.variant.joints}
+    return {numbers[k]: 0.0 for one in gone for k in one.evidence.variant.coordinates}
 
 
 def _large(lack: Lack, stays: float) -> bool:
@@ -151,7 +151,7 @@ def _large(lack: Lack, stays: float) -> bool:
 
 def _doubtful(found: Search, last: Where, disagreeing: Collection[Key]) -> list[Lack]:
     """Of the joints on which findings act of whose amplitude the runs disagree."""
-    return [last.lack[k] for one in found.variants if one.key in disagreeing for k in one.joints]
+    return [last.lack[k] for one in found.variants if one.key in disagreeing for k in one.coordinates]
 
 
 def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
