@@ -99,7 +99,7 @@ def diagnose(
     named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)
     named = doubted(named, other)
     if named:
-        before = led(before, named[0])
+        before = led(before, named[0], last)
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.rotor_share import rotor_range, tried
 from identification.diagnosis.noise.torque_band import end
-from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_fitted, rotor_is_told
+from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.residuals import rms
@@ -23,15 +24,15 @@ Array = NDArray[np.float64]
 _QUICKEST, _SLOWEST = 0.01, 0.2
 #: Stiffnesses, damping ratios and gaps that are looked at.
 _STEPS, _DAMPINGS, _GAPS = 10, 3, 24
-#: Step of the logarithm by which a gap is searched between them; of a rotor's inertia, in parts of the link's.
+#: Step of the logarithm by which a gap is searched between them.
 _FINE = 0.1
 #: Errors of the load, in parts of its spread, over which the torque is a mean: how a link bounces they change.
 ERRORS = (-0.0025, 0.0, 0.0025)
 #: Part of the gap of the fall's time that the torque's size must tell at least, and the other way round: a link that
 #: falls is missing with all its load.
 _ALIKE = 0.1
-#: Parts of an inertia that are a rotor's where nothing tells it, and the least part of it that a rotor or a link has.
-_PARTS, _LEAST = (0.3, 0.6, 0.9), 0.02
+#: Part of what the drive train gives way under its load, below which a gap is none: elasticity alone does as much.
+_OPEN = 0.02
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -53,15 +54,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [_hypothesis(*one, *seen) for one, seen in zip(sides, swinging, strict=True)]
 
 
-def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[list[ShapeRange], Alike]:
+def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
     """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
-    sides = LinkSides(side)
-    lightest = min(float(np.min(sides.along(scene, side.rotor).inertia)) for scene in scenes)
-    grouped = side.rotor > 0 and lightest > 0 and not rotor_is_fitted(side.scene, side.k)
-    rotor = [_rotor(side.rotor, lightest, joint.inertia_unit)] if grouped else []
-    untold = [] if rotor_is_told(side.scene, side.k) else rotor
+    rotor = rotor_range(side, scenes, joint.inertia_unit)
     found = alike(
-        [sides.along(side.scene, part * one.high) for one in untold for part in _PARTS] or [side],
+        tried(side, rotor),
         [
             np.geomspace(*stiffnesses(side), _STEPS),
             np.geomspace(*DAMPING, _DAMPINGS),
@@ -71,7 +68,7 @@ def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[li
     return rotor, found
 
 
-def _hypothesis(joint: Joint, side: LinkSide, rotor: Sequence[ShapeRange], found: Alike) -> Hypothesis:
+def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
     return Hypothesis(
@@ -81,7 +78,7 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: Sequence[ShapeRange], found
         (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
         partial(_columns, LinkSides(side)),
         shapes=(
-            *rotor,
+            *([rotor] if rotor else []),
             ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),
             ShapeRange("k", joint.stiffness_unit, softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
@@ -98,7 +95,7 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: Sequence[ShapeRange], found
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
-        agrees=_agrees,
+        agrees=partial(_agrees, rms(side.load)),
         twice={f"gap{joint.number}": ("gap", 1)},
         starts=tuple(
             {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
@@ -107,17 +104,12 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: Sequence[ShapeRange], found
     )
 
 
-def _agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
-    """Whether the size of the torque tells nearly the gap that the time of the fall tells."""
-    return bool(_ALIKE < coefficients[0] / shape["gap"] < 1 / _ALIKE)
-
-
-def _rotor(inertia: float, lightest: float, unit: str) -> ShapeRange:
-    """Of the drive train's ``inertia``, where no base parameter tells it from that of the link, the ``lightest`` on its
-    way: how the link falls through the gap tells its own.
+def _agrees(load: float, coefficients: Array, shape: Mapping[str, float]) -> bool:
+    """Whether the size of the torque tells nearly the gap that the time of the fall tells, beside which the drive train
+    is not as if it had none under the rms of its ``load`` [N m, N].
     """
-    whole = inertia + lightest
-    return ShapeRange("Iam", unit, _LEAST * whole, whole - _LEAST * lightest, log=False, step=_FINE * lightest)
+    opens = shape["gap"] > _OPEN * load / shape["k"]
+    return bool(opens and _ALIKE < coefficients[0] / shape["gap"] < 1 / _ALIKE)
 
 
 def _changes_sign(side: LinkSide) -> bool:

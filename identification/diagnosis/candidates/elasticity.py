@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
 from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
@@ -45,18 +46,22 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         if k not in known and not watched(scenes, k)
         if (side := liveliest(scenes, k)) is not None
     ]
-    swinging = side_by_side(_alike, [side for _, side in sides])
-    return [_hypothesis(*one, found) for one, found in zip(sides, swinging, strict=True)]
+    swinging = side_by_side(lambda one: _swinging(*one, scenes), sides)
+    return [_hypothesis(*one, *seen) for one, seen in zip(sides, swinging, strict=True)]
 
 
-def _alike(side: LinkSide) -> Alike:
-    return alike([side], [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)])
+def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
+    """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
+    told = rotor_is_told(side.scene, side.k)
+    rotor = None if told else rotor_range(side, scenes, joint.inertia_unit)
+    grids = [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)]
+    return rotor, alike([side], grids)
 
 
-def _hypothesis(joint: Joint, side: LinkSide, found: Alike) -> Hypothesis:
+def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
     low, high = stiffnesses(side)
     # The stiffest swings too fast to be seen and shows its deflection alone.
-    starts = {(stiffness, damping) for _, stiffness, damping, _ in found} | {(high, found[0][2])}
+    starts = {one[:3] for one in found} | {(found[0][0], high, found[0][2])}
     told = rotor_is_told(side.scene, side.k)
     return Hypothesis(
         "joint_elasticity",
@@ -65,10 +70,11 @@ def _hypothesis(joint: Joint, side: LinkSide, found: Alike) -> Hypothesis:
         (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
         partial(_columns, LinkSides(side)),
         shapes=(
+            *([rotor] if rotor else []),
             ShapeRange("k", joint.stiffness_unit, low, high, step=_FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
-        given={"Iam": side.rotor},
+        given={} if rotor else {"Iam": side.rotor},
         units={"Iam": joint.inertia_unit},
         kind=ELASTIC,
         joints=(joint.number,),
@@ -84,7 +90,9 @@ def _hypothesis(joint: Joint, side: LinkSide, found: Alike) -> Hypothesis:
         tries=_STEPS * _DAMPINGS,
         agrees=partial(_agrees, _ALIKE if told else _ROUGHLY),
         twice={f"compliance{joint.number}": ("k", -1)},
-        starts=tuple({"k": stiffness, "damping": damping} for stiffness, damping in sorted(starts)),
+        starts=tuple(
+            {"Iam": inertia, "k": stiffness, "damping": damping} for inertia, stiffness, damping in sorted(starts)
+        ),
     )
 
 

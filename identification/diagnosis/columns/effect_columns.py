@@ -22,8 +22,9 @@ Array = NDArray[np.float64]
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 #: Steps a second in which states are integrated.
 _STEPS = 500.0
-#: Positions over a joint's limits at which lengths must be positive, and by how much [m].
-_STEPS_OVER, _ROOM = 200, 1e-4
+#: Positions over a joint's limits at which lengths are looked at that must be positive; and the part of the value by
+#: whose name they go that is left of them at least: no cylinder is squeezed to a tenth.
+_STEPS_OVER, _ROOM = 200, 0.1
 #: Slope times step below which (e^x - 1)/x is 1.
 _LINEAR = 1e-9
 #: What the rates of states are made of, by the names that they are printed with.
@@ -64,7 +65,8 @@ class EffectColumns:
         signals = self._signals(scene, shape.get("warm_up_time"), warm)
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
-        if any(np.min(length(*values, self._anywhere(motion.q[self._k]))) < _ROOM for length in self._positive):
+        anywhere = self._anywhere(motion.q[self._k])
+        if any(np.min(left(*values, anywhere)) < _ROOM * shape[name] for name, left in self._positive.items()):
             return np.full_like(result, np.nan)
         with np.errstate(invalid="ignore", over="ignore"):
             found = self._function(*values, *signals, *states)
@@ -87,7 +89,7 @@ class EffectColumns:
         self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
         lengths = {} if effect.positive is None else effect.positive(at)
         given = [*(at.values[name] for name in self._names), at.q]
-        self._positive = [sympy.lambdify(given, one, "numpy") for one in lengths.values()]
+        self._positive = {name: sympy.lambdify(given, one, "numpy") for name, one in lengths.items()}
         if effect.rates is not None:
             self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 

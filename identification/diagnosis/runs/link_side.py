@@ -28,7 +28,7 @@ Value: TypeAlias = Any
 
 #: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
 _SMALL = 1e-4
-#: Part of a base parameter that is the rotor's inertia where nothing tells how much of it is.
+#: Part of an inertia that is the rotor's where nothing tells how much of it is.
 _SHARE = 0.5
 
 
@@ -208,16 +208,26 @@ def rotor_is_told(scene: Scene, k: int) -> bool:
 
 def rotor_inertia(scene: Scene, k: int) -> float:
     """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
-    half of the base parameter that it is grouped in, 0 where the model has none.
+    half of the base parameter that it is grouped in, or of the whole inertia about the joint where that is ever less;
+    0 where the model has none.
     """
     if (known := _told_rotor(scene, k)) is not None:
         return known
     model = scene.regressors.model
     name = f"Ia{model.robot.moving[k].number}"
-    for title, terms in model.grouping.numeric().items():
-        if name in terms:
-            return max(_SHARE * scene.values.get(title, 0.0) / terms[name], 0.0)
-    return 0.0
+    grouped = [(title, terms[name]) for title, terms in model.grouping.numeric().items() if name in terms]
+    if not grouped:
+        return 0.0
+    # Links that fold back have larger base parameters than the arm has an inertia; what is below zero is not known.
+    several = [scene.values.get(title, 0.0) / coefficient for title, coefficient in grouped]
+    least = min([float(np.min(_whole_inertia(scene, k))), *(one for one in several if one > 0)])
+    return max(_SHARE * least, 0.0)
+
+
+def _whole_inertia(scene: Scene, k: int) -> Array:
+    """That of links and drive train about joint ``k`` (N) [kg m2, kg]."""
+    still, quick = (scene.torque_of(scene.values, one) for one in (scene.motion, quicker(scene.motion, k)))
+    return np.asarray((quick - still)[k])
 
 
 def _told_rotor(scene: Scene, k: int) -> float | None:

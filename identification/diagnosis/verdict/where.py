@@ -112,10 +112,11 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
     return replace(seen, joint=worst.joint, variable=variable, region=region, shares=shares)
 
 
-def led(before: Where, first: Finding) -> Where:
+def led(before: Where, first: Finding, after: Where) -> Where:
     """With the joint of the leading finding, which has been told from all others, and with its variable.
 
-    Another variable that orders far more of the residual stays where means over both would show it.
+    Another variable that orders far more of the residual stays where means over both would show it. What seemed to
+    happen once is a part of the finding where ``after`` it nothing does.
     """
     joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
     joint = first.hypothesis.joint or joints[0]
@@ -126,7 +127,9 @@ def led(before: Where, first: Finding) -> Where:
     if of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
     region = _region(mine, variable)
-    return replace(before, joint=joint, variable=variable, region=region, shares=shares)
+    happens = [one.joint for one in after.lack if one.burst is not None]
+    lack = [one if one.joint != joint or joint in happens else replace(one, burst=None) for one in before.lack]
+    return replace(before, joint=joint, variable=variable, region=region, shares=shares, lack=tuple(lack))
 
 
 def _region(found: Sequence[View], variable: str) -> str:

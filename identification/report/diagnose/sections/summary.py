@@ -41,7 +41,8 @@ def _cards(subject: Subject) -> Iterator[Markup]:
             f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs"
         )
     if subject.tried:
-        number = max(subject.tried, key=lambda k: subject.tried[k].before.rms - subject.tried[k].after.rms)
+        closed = {k: one.before.rms - one.after.rms for k, one in subject.tried.items()}
+        number = max(closed, key=lambda k: (closed[k], k == found.before.joint))
         one = subject.tried[number]
         change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
         yield card(change, f"left on joint {number}", f"{subject.found.roles.tested}, of the spread")
