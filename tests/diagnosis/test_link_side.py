@@ -6,15 +6,16 @@ The simulated robot integrates its drive trains as differential equations and sh
 from __future__ import annotations
 
 from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
 import pytest
 
-from identification.diagnosis.candidates import backlash
+from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.whitening import Colour
-from identification.diagnosis.runs.link_side import LinkSides, Train, link_side
+from identification.diagnosis.runs.link_side import LinkSides, Train, link_side, rotor_inertia
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.settling import settled, swinging
@@ -27,6 +28,7 @@ from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
 
 NAME, GAP = "scara_like", 4e-4
+COMPLIANCE = Effect("joint_flexibility", 1).amount(ROBOTS["scara_like"])
 ROTOR = ROBOTS[NAME].chain[0].rotor
 
 
@@ -42,8 +44,22 @@ def loose(robot: Known) -> Scene:
     return robot.scene(make_run(ROBOTS[NAME], way, [Effect("backlash", 1, GAP)], sensors=CLEAN))
 
 
-def offered(scene: Scene, joint: int) -> Hypothesis:
-    (found,) = [one for one in backlash.hypotheses([scene]) if one.joint == joint]
+@pytest.fixture(scope="module")
+def soft(robot: Known) -> Scene:
+    """A run with a soft first drive train, of a robot of which no parameter set tells the rotors."""
+    way = fourier(2, period=10.0, periods=1, before=2.0)
+    effect = Effect("joint_flexibility", 1)
+    return untold(
+        robot.scene(make_run(ROBOTS[NAME], way, [effect.sized(COMPLIANCE)], sensors=replace(CLEAN, noise=0.01)))
+    )
+
+
+def untold(scene: Scene) -> Scene:
+    return with_robot(scene, replace(scene.robot, parameter_sets={}))
+
+
+def offered(scene: Scene, joint: int, candidate: ModuleType = backlash) -> Hypothesis:
+    (found,) = [one for one in candidate.hypotheses([scene]) if one.joint == joint]
     return found
 
 
@@ -74,9 +90,42 @@ def test_a_rotor_is_searched_where_it_is_grouped_with_its_link(loose: Scene) -> 
     assert all(one["Iam"] == pytest.approx(ROTOR) for one in told.variants)
     (inertia,) = [one for one in told.shapes if one.name == "Iam"]
     assert inertia.low < ROTOR < inertia.high
-    untold = offered(with_robot(loose, replace(loose.robot, parameter_sets={})), 1)
-    assert {one["Iam"] for one in untold.variants} != {ROTOR}
-    assert all(inertia.low < one["Iam"] < 1.1 * inertia.high for one in untold.variants)
+    sought = offered(untold(loose), 1)
+    assert {one["Iam"] for one in sought.variants} != {ROTOR}
+    assert all(inertia.low < one["Iam"] < 1.1 * inertia.high for one in sought.variants)
+
+
+@pytest.mark.parametrize(("name", "value"), [("ZZ1R", 1.0), ("ZZ1R", -1.0), ("ZZ2R", 0.5), ("MX2R", -1.5)])
+def test_a_rotor_of_which_nothing_is_known_is_half_of_the_least_inertia(name: str, value: float, loose: Scene) -> None:
+    """Whatever the base parameters are: those of a free fit need not be possible."""
+    scene = replace(untold(loose), values={**loose.values, name: value * loose.values[name]})
+    rotor = rotor_inertia(scene, 0)
+    assert rotor == pytest.approx(0.5 * float(link_side(scene, 0, 0.0).inertia.min()))
+    assert float(link_side(scene, 0, rotor).inertia.min()) == pytest.approx(rotor)
+
+
+def test_how_a_soft_link_swings_tells_the_rotors_share(soft: Scene) -> None:
+    """From half of the inertia, beside base parameters that hold both."""
+    found = offered(soft, 1, elasticity)
+    assert [one.name for one in found.shapes] == ["Iam", "k", "damping"]
+    assert all(one["Iam"] != pytest.approx(ROTOR, rel=0.1) for one in found.variants)
+    one = prepared(soft.sampled.run, Recipe(), soft.regressors)
+    bank = Bank([one, one], [replace(soft, sampled=one.sampled)] * 2)
+    begun = [bank.add(found, shape) for shape in found.variants]
+    bank.whiten([[Colour((np.ones(1),), (0.05,))] * bank.dof] * 2)
+    weighing = Weighing(bank, [0], [1], None)
+    start = weighing.best_shape([one for one in begun if one is not None], []).variant
+    (settled_train,), _, acting = settled(weighing, [start])
+    assert settled_train.shape["Iam"] == pytest.approx(ROTOR, rel=0.1)
+    assert settled_train.shape["k"] == pytest.approx(1 / COMPLIANCE, rel=0.05)
+    assert acting.coefficients["compliance1"] == pytest.approx(COMPLIANCE, rel=0.05)
+
+
+@pytest.mark.parametrize(("gap", "agrees"), [(4e-4, True), (1e-7, False)])
+def test_a_gap_that_opens_less_than_the_drive_train_gives_way_is_none(gap: float, agrees: bool, loose: Scene) -> None:
+    one = offered(loose, 1)
+    assert one.agrees is not None
+    assert one.agrees(np.array([gap]), {**one.variants[0], "gap": gap, "k": 1e5}) == agrees
 
 
 @pytest.mark.parametrize(

@@ -208,20 +208,16 @@ def rotor_is_told(scene: Scene, k: int) -> bool:
 
 def rotor_inertia(scene: Scene, k: int) -> float:
     """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
-    half of the base parameter that it is grouped in, or of the whole inertia about the joint where that is ever less;
-    0 where the model has none.
+    half of the least inertia about the joint along the run, 0 where the model has none.
+
+    The base parameter that holds it tells no more: what else is grouped there may be more, or less than nothing.
     """
     if (known := _told_rotor(scene, k)) is not None:
         return known
-    model = scene.regressors.model
-    name = f"Ia{model.robot.moving[k].number}"
-    grouped = [(title, terms[name]) for title, terms in model.grouping.numeric().items() if name in terms]
-    if not grouped:
+    name = f"Ia{scene.robot.moving[k].number}"
+    if not any(name in terms for terms in scene.regressors.model.grouping.numeric().values()):
         return 0.0
-    # Links that fold back have larger base parameters than the arm has an inertia; what is below zero is not known.
-    several = [scene.values.get(title, 0.0) / coefficient for title, coefficient in grouped]
-    least = min([float(np.min(_whole_inertia(scene, k))), *(one for one in several if one > 0)])
-    return max(_SHARE * least, 0.0)
+    return max(_SHARE * float(np.min(_whole_inertia(scene, k))), 0.0)
 
 
 def _whole_inertia(scene: Scene, k: int) -> Array:
