@@ -90,7 +90,7 @@ def finding(variable: str) -> Any:
     ("variable", "told"), [("qd", "qd"), ("load", "q"), ("time", "time"), ("frequency", "frequency"), ("", "q")]
 )
 def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
-    found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable))
+    found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable), seen(BY_CHANCE, SIGNIFICANT))
     assert (found.joint, found.variable) == (2, told)
 
 
@@ -98,9 +98,18 @@ def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, 
 def test_time_that_orders_a_motion_says_nothing_of_a_weight(of_speed: float, told: str) -> None:
     """Motion that does not repeat is ordered by time, whatever makes the torque."""
     views = view(2, "q", 0.05), view(2, "qd", of_speed), view(2, "time", 0.6)
-    found = led(Where(2, "time", "", {}, (SIGNIFICANT,), {2: views}), finding("q"))
+    found = led(Where(2, "time", "", {}, (SIGNIFICANT,), {2: views}), finding("q"), seen(SIGNIFICANT))
     assert found.variable == told
     assert found.shares == {"q": 0.05, "qd": of_speed, "time": 0.6}
+
+
+@pytest.mark.parametrize("happens", [True, False])
+def test_what_a_finding_explains_did_not_happen_once(happens: bool) -> None:
+    """The largest of a spring's torque looks like an event until it is taken away."""
+    pulse = replace(SIGNIFICANT, burst=("A.csv", 12.4))
+    after = seen(BY_CHANCE, pulse if happens else SIGNIFICANT)
+    found = led(located(seen(BY_CHANCE, pulse), [pulse]), finding("q"), after)
+    assert (found.event != "") == happens
 
 
 def test_a_jump_between_two_samples_may_come_late() -> None:
