@@ -44,7 +44,7 @@ EFFECT = Effect(
     rank=65,
     role=SPRING,
     resembles={
-        "joint_spring": "a look at where nothing pulls: beside an offset they are one torque, but for a hose that "
-        "hardens"
+        "joint_spring": "the position in which the hose hangs loose: beside an offset both are one torque, unless it "
+        "stiffens as it bends"
     },
 )
