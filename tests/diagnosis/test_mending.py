@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ from identification import recipe as recipes
 from identification.dataset import load
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, diagnose
-from identification.diagnosis.mending.mended import Mended, mended
+from identification.diagnosis.mending.mended import Mended, _gain, mended
 from identification.diagnosis.runs.played import Player, play
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
@@ -112,3 +114,24 @@ def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp
     again = play(one, Player(written), resolved_sets(written.model)["diagnosed"]).model
     (after,) = new.after
     np.testing.assert_allclose(after.model, again, atol=1e-4 * np.abs(again).max())
+
+
+@pytest.mark.parametrize(
+    ("left", "now", "rigid", "why"),
+    [
+        (5.0, 3.0, False, ""),
+        (5.0, 7.0, False, ""),
+        (5.0, 4.99, False, ": parameters that move away from the prior may explain as much"),
+        (5.0, 5.01, True, ": the rigid model plays both"),
+    ],
+)
+def test_what_changes_nothing_beside_a_prior_is_explained(
+    left: float, now: float, rigid: bool, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def together(played: Any) -> Any:
+        return SimpleNamespace(total=SimpleNamespace(rows=10, relative_to_mean=played[0]))
+
+    monkeypatch.setattr("identification.diagnosis.mending.mended.together", together)
+    pair: list[Any] = [[left], [now]]
+    (said,) = _gain(*pair, "untouched runs", rigid)
+    assert said.endswith(f"leaves {left:.3g} % of the untouched runs, the one with it {now:.3g} %{why}")

@@ -11,6 +11,7 @@ import pytest
 
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
+from identification.diagnosis.verdict.alternatives import OTHER_TORQUE
 from identification.diagnosis.verdict.doubts import doubted, swinging
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.diagnosis.verdict.unexplained import _loose
@@ -76,6 +77,29 @@ def test_a_gap_that_is_told_alike_twice_lets_a_link_bounce(effect: str, size: fl
     evidence = SimpleNamespace(variant=variant, sizes={0: 0.4, 1: 2.0, 2: 0.1})
     found: Any = SimpleNamespace(weights={7: size}, bank=bank, choices=[SimpleNamespace(evidence=evidence)])
     assert _loose(found) == loose
+
+
+def test_each_doubt_says_why() -> None:
+    """Of friction whose values are not determined, that leaves too much, that is hardly known; of a loose spring."""
+    friction, spring = finding("stribeck_friction", EFFECT, 1e-5), finding("joint_spring", EFFECT, 3e-4)
+    assert doubted(replace(friction, apart=False), 0.0, (), False).doubts == (
+        "the runs do not determine its values, and no motion repeats",
+    )
+    assert doubted(friction, 1.2, (), True).doubts == ("it leaves more on its joint than it explains there",)
+    assert doubted(finding("stribeck_friction", EFFECT, 7e-4), 0.0, (), True).doubts == (
+        "the standard deviations of its values are more than half of them",
+    )
+    one = doubted(finding("stribeck_friction", EFFECT, 2e-3), 0.0, (), True)
+    assert (one.doubts, one.sure) == (("its values are no larger than their standard deviations",), False)
+    assert doubted(spring, 0.2, (2,), True).doubts == (
+        "much is left on its joint beside what it explains there",
+        "another torque of the position was found on its joint",
+        "the runs do not determine its values to a fifth",
+    )
+    assert doubted(spring, 0.0, (), True).alternatives[0].effect == OTHER_TORQUE
+    assert swinging(finding("backlash", ELASTIC, 1e-5), {1: 1.5}, 0.0).doubts == (
+        "more than the noise is left on a joint that its torque reaches",
+    )
 
 
 def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:

@@ -24,7 +24,8 @@
  *   Gravity   Free fall is (0, 0, -9.81) m/s2 in the world frame, which is frame 0.
  *   Geometry  Frame j follows from its antecedent a(j) by Rot(z, gamma) Trans(z, b) Rot(x, alpha)
  *             Trans(x, d) Rot(z, theta) Trans(z, r), in which gamma and b are 0 if they are not
- *             shown. sigma is 0 for a revolute joint, 1 for a prismatic one, 2 for a fixed frame.
+ *             shown. sigma is 0 for a revolute joint, 1 for a prismatic one, 2 for a fixed frame; a
+ *             frame's name follows its number.
  *             j      a(j)  sigma  alpha  d   theta      r    limits
  *             1      0     0      pi     0   q1         rl1  -185 to 185 deg
  *             2      1     0      pi/2   d2  q2         0    -130 to 20 deg

@@ -16,7 +16,7 @@ from generator.symbolic.model import Model
 _FRAMES = (
     "Frame j follows from its antecedent a(j) by Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) "
     "Trans(z, r), in which gamma and b are 0 if they are not shown. sigma is 0 for a revolute joint, 1 for a prismatic "
-    "one, 2 for a fixed frame."
+    "one, 2 for a fixed frame; a frame's name follows its number."
 )
 #: Columns before a line of the comment, and how far a title's text is indented in it.
 _BEFORE, _INDENT = 5, 10

@@ -79,7 +79,15 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: A
         partial(_columns, LinkSides(side)),
         shapes=(
             *([rotor] if rotor else []),
-            ShapeRange("gap", joint.position_unit, narrow, wide, step=_FINE, vanishing=True),
+            ShapeRange(
+                "gap",
+                joint.position_unit,
+                narrow,
+                wide,
+                step=_FINE,
+                vanishing=True,
+                vanishes=partial(_closed, rms(side.load)),
+            ),
             ShapeRange("k", joint.stiffness_unit, softest, stiffest, step=2 * _FINE),
             ShapeRange("damping", "1", *DAMPING, step=5 * _FINE),
         ),
@@ -95,7 +103,7 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: A
             "hysteresis": "reversals under a load that keeps its sign: hysteresis shows at each, backlash at none",
         },
         tries=_STEPS * _DAMPINGS * _GAPS,
-        agrees=partial(_agrees, rms(side.load)),
+        agrees=_agrees,
         twice={f"gap{joint.number}": ("gap", 1)},
         starts=tuple(
             {"Iam": inertia, "gap": gap, "k": stiffness, "damping": damping}
@@ -104,12 +112,14 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: A
     )
 
 
-def _agrees(load: float, coefficients: Array, shape: Mapping[str, float]) -> bool:
-    """Whether the size of the torque tells nearly the gap that the time of the fall tells, beside which the drive train
-    is not as if it had none under the rms of its ``load`` [N m, N].
-    """
-    opens = shape["gap"] > _OPEN * load / shape["k"]
-    return bool(opens and _ALIKE < coefficients[0] / shape["gap"] < 1 / _ALIKE)
+def _agrees(coefficients: Array, shape: Mapping[str, float]) -> bool:
+    """Whether the size of the torque tells nearly the gap that the time of the fall tells."""
+    return bool(_ALIKE < coefficients[0] / shape["gap"] < 1 / _ALIKE)
+
+
+def _closed(load: float, shape: Mapping[str, float]) -> bool:
+    """Whether a gap is little beside what the drive train gives way under the rms of its ``load`` [N m, N]."""
+    return shape["gap"] <= _OPEN * load / shape["k"]
 
 
 def _changes_sign(side: LinkSide) -> bool:

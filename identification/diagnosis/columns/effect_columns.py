@@ -55,7 +55,7 @@ class EffectColumns:
 
     def __call__(self, scene: Scene, shape: Mapping[str, float], warm: bool = False) -> Array:
         """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
-        limits in the robot's file.
+        limits in the robot's file, or squeezes a cylinder to less than a tenth.
         """
         if self._function is None:
             self._prepare()

@@ -52,7 +52,8 @@ class ShapeRange:
     ``points`` are tried instead where they are given, even over the logarithm if ``log``; with a ``step`` (of the
     logarithm if ``log``) the search goes on anywhere in the range. ``whole`` tells that nothing lies between
     them, ``exact`` that what fits better there is another effect, ``scale`` that any value will do, others counting in
-    units of it, and ``vanishing`` that at its low end the effect is another one without it.
+    units of it, and ``vanishing`` that at its low end the effect is another one without it; so it is where
+    ``vanishes`` says so of all shape values.
     """
 
     name: str
@@ -67,6 +68,7 @@ class ShapeRange:
     exact: bool = False
     scale: bool = False
     vanishing: bool = False
+    vanishes: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False, compare=False)
 
     def grid(self) -> list[float]:
         """The points that are tried first."""

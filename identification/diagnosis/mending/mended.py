@@ -29,7 +29,7 @@ from identification.sampling import Sampled
 
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
-#: Part of what the model leaves without the findings, from which they change nothing there.
+#: Part of what the model leaves without the findings, within which they change nothing there, either way.
 _ALIKE = 0.98
 _FITTED = "nothing was added to the model: before and after differ by the fit of its parameters near the prior alone"
 _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
@@ -99,7 +99,8 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *sets, *notes]
     if prior is not None:
-        told += _gain(*without, found.roles.tested, elastic) if model.findings else [_FITTED]
+        rigid = all(one.hypothesis.kind == ELASTIC for one in model.findings)
+        told += _gain(*without, found.roles.tested, rigid) if model.findings else [_FITTED]
     told += objections(untouched(bank, *without), found.roles.tested, elastic, left_out)
     return Mended(
         text=text,
@@ -136,22 +137,20 @@ def _beside(
     return before, after
 
 
-def _gain(without: Sequence[Played], after: Sequence[Played], runs: str, elastic: bool) -> Iterator[str]:
+def _gain(without: Sequence[Played], after: Sequence[Played], runs: str, rigid: bool) -> Iterator[str]:
     """What the findings do on ``runs``, in words, beside a fit: a prior's values alone are further off than what the
-    runs make of them.
+    runs make of them. ``rigid`` tells that all findings are of drive trains, which the model that plays leaves out.
     """
     old, new = (together(one).total for one in (without, after))
-    if old.rows and new.rows:
-        # A torque that parameters can stand for shows by what they would have to be.
-        why = (
-            "the rigid model plays them" if elastic else "without it parameters leave what is known to explain as much"
-        )
-        alike = new.relative_to_mean > _ALIKE * old.relative_to_mean
-        yield (
-            "fitted to the same runs near the same prior, the model without what was found leaves "
-            f"{old.relative_to_mean:.3g} % of the {runs}, the one with it {new.relative_to_mean:.3g} %"
-            f"{f': {why}' if alike else ''}"
-        )
+    if not (old.rows and new.rows):
+        return
+    left, now = old.relative_to_mean, new.relative_to_mean
+    alike = _ALIKE * left < now < left / _ALIKE
+    why = "the rigid model plays both" if rigid else "parameters that move away from the prior may explain as much"
+    yield (
+        f"fitted to the same runs near the same prior, the model without what was found leaves {left:.3g} % of the "
+        f"{runs}, the one with it {now:.3g} %{f': {why}' if alike else ''}"
+    )
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

@@ -187,7 +187,8 @@ class _Links:
         """Base parameters without what turns with the motors."""
         scene = self.scene
         for k in self.at:
-            scene = Scene(scene.sampled, scene.regressors, without_drive_train(scene, k, rotor_inertia(scene, k)))
+            rotor = rotor_inertia(self.scene, k)
+            scene = Scene(scene.sampled, scene.regressors, without_drive_train(scene, k, rotor))
         return dict(scene.values)
 
     def torque_on(self, motion: Motion) -> Array:

@@ -20,7 +20,7 @@ def chance(drop: float, variant: Variant) -> float:
 def at_end(variant: Variant) -> bool:
     """Whether a shape is at or beyond the end of what was tried: then it is another effect."""
     for shape in variant.hypothesis.shapes:
-        if shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED:
+        if (shape.vanishing and variant.shape[shape.name] <= shape.low * _VANISHED) or shape.vanishes(variant.shape):
             return True
         points = shape.grid()
         if shape.whole or shape.step or len(points) < _FEWEST or not shape.log:

@@ -63,7 +63,7 @@ def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[
     reasons = {
         _MUCH: _much(one, remains),
         "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
-        _UNDETERMINED: loose,
+        "the runs do not determine its values to a fifth": loose,
         "it is small beside the noise": one.evidence.size < _FAINT,
     }
     return [reason for reason, holds in reasons.items() if holds]

@@ -96,11 +96,12 @@ def _small(found: Search, one: Evidence) -> list[str]:
         return []
     bank = found.bank
     taken = all(maps_taken(bank, found.maps, k) for k in one.variant.coordinates)
-    least, rows = (_APERIODIC, "") if taken else (_SHORT, ", and rows are few")
+    least, rows = (_APERIODIC, "") if taken else (_SHORT, " and rows are few")
     if one.size >= least:
         return []
-    why = f"no motion repeats{rows}, so that noise is not known apart from the model"
-    return [f"{why}, and it is less than {least:g} of the noise"]
+    return [
+        f"it is smaller than {least:g} times the noise's rms, which no motion that repeats tells from the model{rows}"
+    ]
 
 
 def _remains(found: Search, one: Finding, left: Mapping[int, float]) -> float:

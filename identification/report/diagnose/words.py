@@ -140,7 +140,7 @@ def finding(subject: Subject, group: Sequence[Finding]) -> Iterator[str]:
 
 
 def _because(doubts: Sequence[str]) -> str:
-    return f" because {listed(doubts)}" if doubts else ""
+    return f" because {'; and because '.join(doubts)}" if doubts else ""
 
 
 def change(subject: Subject) -> Iterator[str]:
