@@ -39,7 +39,7 @@ CHAINS = {f"chain{seed}": seed for seed in range(6)}
 
 # The suite must say the same twice; HYPOTHESIS_PROFILE=explore looks for new chains.
 _COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "print_blob": True}
-settings.register_profile("steady", derandomize=True, max_examples=10, **_COMMON)
+settings.register_profile("steady", derandomize=True, max_examples=8, **_COMMON)
 settings.register_profile("explore", max_examples=300, **_COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
 

@@ -122,6 +122,7 @@ def starts_of(folder: Path, executor: Any, counted: Callable[[int, int], None] =
     return {"scores": found.scores, "chosen": found.chosen, "values": found.best.values, "hidden": found.best.hidden}
 
 
+@pytest.mark.long
 def test_a_cluster_that_loses_a_worker_gives_the_same_result(folder: Path, serial: dict[str, Any]) -> None:
     """A worker is killed when the first start is done; the others are done by the one that is left."""
     killed: list[int] = []

@@ -75,7 +75,7 @@ def test_every_table_has_its_rows(results: Results) -> None:
 # -- played anew ------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module", params=PLAYED)
+@pytest.fixture(scope="module", params=["idim_ls", pytest.param("gains", marks=pytest.mark.long)])
 def fresh(request: pytest.FixtureRequest) -> tuple[str, list[Found]]:
     return request.param, played(request.param, range(PLAYED[request.param]))
 
