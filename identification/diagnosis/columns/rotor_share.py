@@ -11,7 +11,7 @@ from identification.diagnosis.runs.link_side import LinkSide, LinkSides, rotor_i
 from identification.diagnosis.runs.scene import Scene
 
 #: Parts of an inertia that are a rotor's where nothing tells it, and the least part of it that a rotor or a link has.
-_PARTS, _LEAST = (0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9), 0.02
+_PARTS, _LEAST = (0.3, 0.6, 0.9), 0.02
 #: Step by which a rotor's inertia is searched, in parts of the link's.
 _STEP = 0.1
 
