@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from math import inf
 from typing import Any
 
-from benchmarks.diagnosis_study.archive import archived, restore, store
+from benchmarks.diagnosis_study.archive import archived, asked, restore, store
 from benchmarks.diagnosis_study.drawing import MODES, cells
 from benchmarks.diagnosis_study.pages.page import JSON, tables, write
 from benchmarks.diagnosis_study.runner import Plan, folder_of_results, kept, run
@@ -25,9 +25,18 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=inf, help="after which no case begins")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--development", action="store_true", help="without the reserved laws, and nothing is written")
+    parser.add_argument("--new", action="store_true", help="draws behind those that any code was asked about")
     told = parser.parse_args()
     wanted = tuple((cell, mode) for cell in told.cells for mode in told.modes)
-    plan = Plan(wanted, told.cases, told.baselines, told.minutes, not told.development, told.processes)
+    plan = Plan(
+        wanted,
+        told.cases,
+        told.baselines,
+        told.minutes,
+        reserved=not told.development,
+        processes=told.processes,
+        asked=asked() if told.new else frozenset(),
+    )
     made, folder = [], folder_of_results(plan.reserved)
     restore(folder)
     for one in run(plan, folder):

@@ -40,6 +40,11 @@ def store(code: str, results: Iterable[Mapping[str, Any]], archive: Path = ARCHI
     archive.write_text(text, encoding="utf-8")
 
 
+def asked(archive: Path = ARCHIVE) -> frozenset[str]:
+    """Names of the cases that are in the archive."""
+    return frozenset(map(_name, archived(archive)))
+
+
 def _name(one: Mapping[str, Any]) -> str:
     return case(one["case"]).name
 

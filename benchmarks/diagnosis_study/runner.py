@@ -89,7 +89,8 @@ def folder_of_results(reserved: bool = True) -> Path:
 class Plan:
     """``count`` cases of each of ``cells`` (with its mode), of which ``baselines`` are given to simpler ways too.
 
-    No case begins after ``minutes``. Without ``reserved`` laws that are kept from the development are left out.
+    No case begins after ``minutes``. Without ``reserved`` laws that are kept from the development are left out. Draws
+    of a cell begin behind the last one whose name was ``asked`` before.
     """
 
     cells: tuple[tuple[str, str], ...]
@@ -98,6 +99,12 @@ class Plan:
     minutes: float = inf
     reserved: bool = True
     processes: int = 1
+    asked: frozenset[str] = frozenset()
+
+    def draws(self, cell: str, mode: str) -> list[Case]:
+        """The cases that may be asked of a cell."""
+        drawn = list(islice(cases(cell, mode, self.reserved), _DRAWS * self.count))
+        return drawn[max((i + 1 for i, one in enumerate(drawn) if one.name in self.asked), default=0) :]
 
 
 def run(plan: Plan, folder: Path) -> Iterator[dict[str, Any]]:
@@ -133,7 +140,7 @@ def _queue(plan: Plan, counted: Mapping[tuple[str, str], int], barren: Container
 
     A law that did not reach its size in a place is not tried there again.
     """
-    draws = {key: islice(cases(*key, plan.reserved), _DRAWS * plan.count) for key in plan.cells}
+    draws = {key: iter(plan.draws(*key)) for key in plan.cells}
     while draws:
         for key in list(draws):
             possible = (one for one in draws[key] if not any(_place(one, what) in barren for what in one.hidden))

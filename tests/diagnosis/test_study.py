@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.diagnosis_study.archive import archived, restore, store
+from benchmarks.diagnosis_study.archive import archived, asked, restore, store
 from benchmarks.diagnosis_study.baselines import named_by_baselines
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
 from benchmarks.diagnosis_study.drawing import cases, cells
@@ -21,7 +21,7 @@ from benchmarks.diagnosis_study.making import file_of, invisible, made
 from benchmarks.diagnosis_study.pages.intervals import Share
 from benchmarks.diagnosis_study.pages.page import JSON, PAGE, page, tables
 from benchmarks.diagnosis_study.pages.power_curve import power_curve
-from benchmarks.diagnosis_study.runner import MISMATCH, result
+from benchmarks.diagnosis_study.runner import MISMATCH, Plan, result
 from benchmarks.diagnosis_study.scoring import NAMED, NOTHING, UNEXPLAINED, scored
 from benchmarks.diagnosis_study.sizing import Fit, Size
 from benchmarks.diagnosis_study.study import STUDY
@@ -265,6 +265,15 @@ def test_the_archive_keeps_the_last_answer_to_each_case(tmp_path: Path) -> None:
     assert (broken["code"], broken["failed"]) == ("def", "exit status 1")
     store("jkl", [{"case": one, "skipped": "no size"}], archive)
     assert [(kept["code"], kept["case"]["seed"]) for kept in archived(archive)] == [("jkl", 1), ("def", 2)]
+
+
+def test_new_draws_begin_behind_those_that_were_asked(tmp_path: Path) -> None:
+    archive, key = tmp_path / "cases.jsonl", ("null", FREE)
+    every = Plan((key,), 2, 0).draws(*key)
+    store("abc", [{"case": every[k].record(), "score": {}} for k in (0, 3)], archive)
+    assert asked(archive) == {every[0].name, every[3].name}
+    assert Plan((key,), 2, 0, asked=asked(archive)).draws(*key) == every[4:]
+    assert Plan((key,), 2, 0, asked=asked(tmp_path / "none.jsonl")).draws(*key) == every
 
 
 def test_the_power_curve_is_drawn() -> None:

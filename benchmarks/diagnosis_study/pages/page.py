@@ -54,8 +54,9 @@ def page(found: Mapping[str, Any]) -> str:
         table(found["cells"]),
         "## Every case that was ever drawn",
         f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
-        "state that was asked about it answered: a study goes through the draws from the first on, whatever came out "
-        "before. The diagnosis was worked on between them. All tables from here on are of these cases.",
+        "state that was asked about it answered: a study goes through the draws from the first on, or, with `--new`, "
+        "from behind the last that was asked, whatever came out before. The diagnosis was worked on between them. All "
+        "tables from here on are of these cases.",
         table(found["every cell"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.columns.rotor_share import rotor_range, tried
+from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
-from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train
+from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.residuals import rms
@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 _QUICKEST, _SLOWEST = 0.01, 0.2
 #: Stiffnesses, damping ratios and gaps that are looked at.
 _STEPS, _DAMPINGS, _GAPS = 10, 3, 24
+#: Parts of an inertia that are a rotor's where nothing tells it, which are tried first.
+_PARTS = (0.3, 0.6, 0.9)
 #: Step of the logarithm by which a gap is searched between them.
 _FINE = 0.1
 #: Errors of the load, in parts of its spread, over which the torque is a mean: how a link bounces they change.
@@ -45,7 +47,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes or np.isfinite(end(scenes)):
         return []
     sides = [
-        (joint, side)
+        (joint, LinkSides(side))
         for k, joint in enumerate(scenes[0].robot.moving)
         if not _has_gap(scenes[0].robot, joint.number) and not watched(scenes, k)
         if (side := liveliest(scenes, k)) is not None and _changes_sign(side)
@@ -54,11 +56,11 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [_hypothesis(*one, *seen) for one, seen in zip(sides, swinging, strict=True)]
 
 
-def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
+def _swinging(joint: Joint, sides: LinkSides, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
     """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
-    rotor = rotor_range(side, scenes, joint.inertia_unit)
+    side, rotor = sides.first, rotor_range(sides, scenes, joint.inertia_unit)
     found = alike(
-        tried(side, rotor),
+        _tried(sides, rotor),
         [
             np.geomspace(*stiffnesses(side), _STEPS),
             np.geomspace(*DAMPING, _DAMPINGS),
@@ -68,7 +70,16 @@ def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[Sh
     return rotor, found
 
 
-def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
+def _tried(sides: LinkSides, rotor: ShapeRange | None) -> list[LinkSide]:
+    """Those past drive trains of the inertias that are tried first; as it is where that is known."""
+    side = sides.first
+    if rotor is None or rotor_is_told(side.scene, side.k):
+        return [side]
+    return [sides.along(side.scene, part * rotor.high) for part in _PARTS]
+
+
+def _hypothesis(joint: Joint, sides: LinkSides, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
+    side = sides.first
     softest, stiffest = stiffnesses(side)
     narrow, wide = _gaps(side)
     return Hypothesis(
@@ -76,7 +87,7 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: A
         "backlash",
         joint.number,
         (Coefficient(f"gap{joint.number}", joint.position_unit, 0.0),),
-        partial(_columns, LinkSides(side)),
+        partial(_columns, sides),
         shapes=(
             *([rotor] if rotor else []),
             ShapeRange(

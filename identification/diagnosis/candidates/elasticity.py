@@ -12,7 +12,7 @@ from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
-from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
+from identification.diagnosis.runs.link_side import LinkSides, Train, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
@@ -41,7 +41,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         return []
     known = [one.k for one in stated(scenes[0].robot)]
     sides = [
-        (joint, side)
+        (joint, LinkSides(side))
         for k, joint in enumerate(scenes[0].robot.moving)
         if k not in known and not watched(scenes, k)
         if (side := liveliest(scenes, k)) is not None
@@ -50,15 +50,16 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [_hypothesis(*one, *seen) for one, seen in zip(sides, swinging, strict=True)]
 
 
-def _swinging(joint: Joint, side: LinkSide, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
+def _swinging(joint: Joint, sides: LinkSides, scenes: Sequence[Scene]) -> tuple[ShapeRange | None, Alike]:
     """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
-    told = rotor_is_told(side.scene, side.k)
-    rotor = None if told else rotor_range(side, scenes, joint.inertia_unit)
+    side = sides.first
+    rotor = None if rotor_is_told(side.scene, side.k) else rotor_range(sides, scenes, joint.inertia_unit)
     grids = [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)]
     return rotor, alike([side], grids)
 
 
-def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
+def _hypothesis(joint: Joint, sides: LinkSides, rotor: ShapeRange | None, found: Alike) -> Hypothesis:
+    side = sides.first
     low, high = stiffnesses(side)
     # The stiffest swings too fast to be seen and shows its deflection alone.
     starts = {one[:3] for one in found} | {(found[0][0], high, found[0][2])}
@@ -68,7 +69,7 @@ def _hypothesis(joint: Joint, side: LinkSide, rotor: ShapeRange | None, found: A
         "elasticity of the drive train",
         joint.number,
         (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
-        partial(_columns, LinkSides(side)),
+        partial(_columns, sides),
         shapes=(
             *([rotor] if rotor else []),
             ShapeRange("k", joint.stiffness_unit, low, high, step=_FINE),

@@ -16,7 +16,7 @@ from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
-from identification.diagnosis.runs.link_side import link_side, rotor_inertia
+from identification.diagnosis.runs.link_side import rotor_inertia, usual_rotor
 from identification.diagnosis.runs.scene import Scene
 
 Array = NDArray[np.float64]
@@ -34,8 +34,6 @@ _WARMING = 0.2
 _WARM_UP = 60.0
 #: Friction whose values of a file may be of a warm drive.
 _RUBBING = frozenset({"viscous_friction", "coulomb_friction"})
-#: Part of the inertia that a joint feels that is its rotor's where the model has no rotors.
-_SHARE = 0.5
 #: Step of the logarithm of a shape that is searched between ends from one point.
 _STEP = 0.7
 #: What an effect shows in, by what its columns are made of; the first that fits.
@@ -183,7 +181,7 @@ def _points(shape: Shape, values: Sequence[float], k: int, scenes: Sequence[Scen
     """The values, in units of what the shape is relative to; none where that is not known."""
     zero, unit = 0.0, 1.0
     if shape.relative == "rotor":
-        unit = rotor_inertia(scenes[0], k) or _SHARE * float(np.min(link_side(scenes[0], k, 0.0).inertia))
+        unit = rotor_inertia(scenes[0], k) or usual_rotor(scenes[0], k)
         if unit <= 0:
             return ()
     if shape.relative == "speed":

@@ -111,23 +111,29 @@ class ShapeRange:
 class Hypothesis:
     """An effect on ``joint`` (number; 0 for the whole robot) with k coefficients that enter linearly.
 
-    ``effect`` is an id of the generator's library, or of a correction of the robot file. ``columns(scene, shape)``
-    returns k x n x N torques [N m, N] per unit of each coefficient at the recorded rate: what the *measured* torque
-    holds more than the model's says; ``jumps`` are where it jumps with a speed that is not the joint's own.
-    ``shapes`` are searched, from ``starts`` if there are any instead of all
-    combinations of their grids; ``given`` are values that are known, in ``units`` (1 where not told); both are values
-    of the effect in the robot file. ``kind`` tells where a finding is written. ``would_show`` says what data would show
-    the effect where these cannot. ``separating`` maps ids of effects that are easily mistaken for this one to the
-    experiment that tells them apart. ``measured`` are coefficients by name that the runs tell without any torque:
-    there is nothing to search, and the columns are zero. ``preset`` are those that the runs tell by another fit than
-    that of the columns, which are right for that value alone, and ``beyond`` the names of other hypotheses'
-    coefficients without which it is nothing. ``of_model`` are the columns, of an effect that scales all of
-    a drive's torque, for the part of it that the model has without what was found beside it. Columns that are
-    ``recorded`` hold the noise of the record, and so cannot tell how much of it there is. ``agrees`` says whether
-    coefficients in use and a shape, which tell the same twice, may be of one thing; ``twice`` tells of a
-    coefficient by name which shape value, to which power, is the same by another way. ``usual`` is false of a balancer
-    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for. Columns
-    ``of_motion`` are the same whatever the model's values.
+    What it is: ``effect`` is an id of the generator's library, or of a correction of the robot file, and ``kind`` tells
+    where a finding is written. It is named on ``joints``, and shows over ``variable``. ``usual`` is false of a balancer
+    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for.
+
+    Its torque: ``columns(scene, shape)`` returns k x n x N torques [N m, N] per unit of each coefficient at the
+    recorded rate: what the *measured* torque holds more than the model's says. ``jumps`` are where it jumps with a
+    speed that is not the joint's own. ``of_model`` are the columns, of an effect that scales all of a drive's torque,
+    for the part of it that the model has without what was found beside it. Columns that are ``recorded`` hold the noise
+    of the record, and so cannot tell how much of it there is; those ``of_motion`` are the same whatever the model's
+    values.
+
+    Its shape: ``shapes`` are searched, from ``starts`` if there are any instead of all combinations of their grids;
+    ``given`` are values that are known, in ``units`` (1 where not told); both are values of the effect in the robot
+    file. ``tries`` is how many shapes it was chosen from, where those are more than the search begins with.
+
+    What else tells it: ``measured`` are coefficients by name that the runs tell without any torque: there is nothing to
+    search, and the columns are zero. ``preset`` are those that the runs tell by another fit than that of the columns,
+    which are right for that value alone, and ``beyond`` the names of other hypotheses' coefficients without which it is
+    nothing. ``agrees`` says whether coefficients in use and a shape, which tell the same twice, may be of one thing;
+    ``twice`` tells of a coefficient by name which shape value, to which power, is the same by another way.
+
+    Where it is not told: ``would_show`` says what data would show the effect where these cannot, ``separating`` maps
+    ids of effects that are easily mistaken for this one to the experiment that tells them apart.
     """
 
     effect: str
@@ -135,27 +141,27 @@ class Hypothesis:
     joint: int
     coefficients: tuple[Coefficient, ...]
     columns: Callable[[Scene, Mapping[str, float]], Array]
-    shapes: tuple[ShapeRange, ...] = ()
-    given: Mapping[str, float] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
     kind: str = EFFECT
     joints: tuple[int, ...] = ()
     variable: str = ""
-    would_show: str = ""
-    separating: Mapping[str, str] = field(default_factory=dict)
-    tries: int = 0
+    usual: bool = True
+    stated: bool = False
+    jumps: tuple[Jump, ...] = ()
+    of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
+    recorded: bool = False
+    of_motion: bool = False
+    shapes: tuple[ShapeRange, ...] = ()
     starts: tuple[Mapping[str, float], ...] = ()
+    given: Mapping[str, float] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    tries: int = 0
     measured: Mapping[str, Value] = field(default_factory=dict)
     preset: Mapping[str, Value] = field(default_factory=dict)
     beyond: tuple[str, ...] = ()
-    of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
-    recorded: bool = False
     agrees: Callable[[Array, Mapping[str, float]], bool] | None = None
     twice: Mapping[str, tuple[str, int]] = field(default_factory=dict)
-    usual: bool = True
-    stated: bool = False
-    of_motion: bool = False
-    jumps: tuple[Jump, ...] = ()
+    would_show: str = ""
+    separating: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def free(self) -> int:

@@ -146,13 +146,15 @@ class LinkSides:
     """Those of one coordinate along several scenes, which are found once: the ``first`` is."""
 
     def __init__(self, first: LinkSide) -> None:
-        self._k, self._rotor = first.k, first.rotor
+        self.first = first
         self._made = {id(first.scene): first}
 
     def along(self, scene: Scene, rotor: float) -> LinkSide:
         """That of a scene, past a drive train of inertia ``rotor`` [kg m2, kg]."""
         # A scene that is kept by its link side keeps its identity.
-        made = self._made.get(id(scene)) or self._made.setdefault(id(scene), link_side(scene, self._k, self._rotor))
+        made = self._made.get(id(scene))
+        if made is None:
+            made = self._made[id(scene)] = link_side(scene, self.first.k, self.first.rotor)
         return made if made.rotor == rotor else made.with_rotor(rotor)
 
 
@@ -217,13 +219,15 @@ def rotor_inertia(scene: Scene, k: int) -> float:
     name = f"Ia{scene.robot.moving[k].number}"
     if not any(name in terms for terms in scene.regressors.model.grouping.numeric().values()):
         return 0.0
-    return max(_SHARE * float(np.min(_whole_inertia(scene, k))), 0.0)
+    return usual_rotor(scene, k)
 
 
-def _whole_inertia(scene: Scene, k: int) -> Array:
-    """That of links and drive train about joint ``k`` (N) [kg m2, kg]."""
+def usual_rotor(scene: Scene, k: int) -> float:
+    """Half of the least inertia about joint ``k`` along the run, of links and what is told of the drive train
+    [kg m2, kg]; not less than 0.
+    """
     still, quick = (scene.torque_of(scene.values, one) for one in (scene.motion, quicker(scene.motion, k)))
-    return np.asarray((quick - still)[k])
+    return max(_SHARE * float(np.min((quick - still)[k])), 0.0)
 
 
 def _told_rotor(scene: Scene, k: int) -> float | None:

@@ -191,7 +191,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     left_out = np.stack([_standing(x, limit, apart) for x, limit in zip(speed, slow, strict=True)])
     left_out |= (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
     left_out |= _at_rest(speed, regressors.signs, apart)
-    if _FORGOTTEN * run.duration >= _MEMORY:
+    # Whole samples: the period of written times is a little short of what it is.
+    if round(_FORGOTTEN * run.samples) >= round(_MEMORY * run.rate):
         left_out[:, one.times < run.start + _MEMORY] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate

@@ -95,7 +95,8 @@ class Selection:
                 seen.add(known)
                 refused.clear()
         found = self.choices(self._exchanged(chosen, None, _ROUNDS), replacing=True)
-        begun = self._standing(start)
+        lost = {one.key for one in start} - {one.evidence.variant.key for one in found}
+        begun = self._standing(start) if lost else []
         return self.choices(begun) if self._lost([one.evidence.variant for one in found], begun) else found
 
     def _lost(self, found: Sequence[Variant], begun: Sequence[Variant]) -> bool:
