@@ -35,6 +35,8 @@ _on_cores_of_its_own()
 
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
+#: A robot with the structure of another, whose code is compiled by make test-long alone.
+FURTHER = "kr270_table5"
 CHAINS = {f"chain{seed}": seed for seed in range(6)}
 
 # The suite must say the same twice; HYPOTHESIS_PROFILE=explore looks for new chains.
@@ -66,7 +68,10 @@ def arm(request: pytest.FixtureRequest) -> Subject:
     return _robot(name) if name in (*FILES, EVERY) else _chain(name)
 
 
-@pytest.fixture(scope="session", params=[*FILES, EVERY])
+@pytest.fixture(
+    scope="session",
+    params=[pytest.param(name, marks=pytest.mark.long) if name == FURTHER else name for name in (*FILES, EVERY)],
+)
 def robot_arm(request: pytest.FixtureRequest) -> Subject:
     """Each robot file and the robot with every effect, derived."""
     return _robot(request.param)

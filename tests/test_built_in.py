@@ -26,7 +26,12 @@ AT_MOST, WITH_BALANCER = 280, 288
 
 @pytest.mark.parametrize(
     ("robot", "parameter_set"),
-    [("kr500", "report_table_11"), ("kr500", "twin_flexible"), ("kr270", "report_table_7"), ("kr270", "twin")],
+    [
+        ("kr500", "report_table_11"),
+        pytest.param("kr500", "twin_flexible", marks=pytest.mark.long),
+        ("kr270", "report_table_7"),
+        pytest.param("kr270", "twin", marks=pytest.mark.long),
+    ],
 )
 def test_built_in_values_give_what_the_parameter_vector_gives(robot: str, parameter_set: str) -> None:
     described = read(find_robot(robot))

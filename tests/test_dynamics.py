@@ -17,7 +17,7 @@ from tests.newton_euler import Arm
 from tests.pinocchio_model import PinocchioArm
 from tests.subject import LOSSES, SPRINGS, Subject, Vector, close, subject
 
-SEEDS = (1, 2, 3)
+SEEDS = (1, 2, pytest.param(3, marks=pytest.mark.long))
 #: Quantities that tell weight and balancers from each other and from offsets, where the groupings let them.
 FORCES_APART = {"gravity", "potential_energy", "dynamics", "balancer"}
 #: Quantities that are checked through others: packed entries, and the groupings as a function.

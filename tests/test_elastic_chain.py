@@ -21,7 +21,7 @@ def _values(given: dict[str, float]) -> dict[str, ParameterValue]:
 
 
 @pytest.mark.parametrize("name", ["kr500", "kr270"])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_chain_and_reduced_model_accelerate_alike(name: str, seed: int) -> None:
     robot, twelve = read(find_robot(name)), read(find_robot(f"{name}_table5"))
     reduced = derive(robot, ["flexible_direct_dynamics"], check=False)

@@ -91,7 +91,7 @@ def test_operation_counts(name: str) -> None:
     assert _above(_with_effects(robot, FRICTION), AT_MOST_WITH_FRICTION) == {}
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.long) for seed in (1, 2))])
 def test_operation_counts_belong_to_the_structure(seed: int) -> None:
     robot = _with_random_lengths(_robot("kr500"), seed)
     assert _above(robot, AT_MOST) == {}
@@ -100,7 +100,7 @@ def test_operation_counts_belong_to_the_structure(seed: int) -> None:
 
 
 @pytest.mark.parametrize("name", SAVED)
-@pytest.mark.parametrize("seed", [None, 0, 1])
+@pytest.mark.parametrize("seed", [None, 0, pytest.param(1, marks=pytest.mark.long)])
 def test_other_structures_save_too(name: str, seed: int | None) -> None:
     robot = _robot(name) if seed is None else _with_random_lengths(_robot(name), seed)
     names = list(SAVED[name])

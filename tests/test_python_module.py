@@ -64,7 +64,9 @@ def folder_of(arm: Subject, folder: Path) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module", params=["kr500", "scara", "tree_two_arms", "pendulum"])
+@pytest.fixture(
+    scope="module", params=["kr500", "scara", pytest.param("tree_two_arms", marks=pytest.mark.long), "pendulum"]
+)
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
     folder = tmp_path_factory.mktemp(request.param)
     file = folder / "pendulum.yaml"

@@ -92,7 +92,14 @@ def drifting_by_heat(file: Path, folder: Path, usual: float) -> Path:
     return drifting
 
 
-@pytest.mark.parametrize(("beside", "usual", "warmest"), [(0.0, 1.0, 1.0), (-0.2, 1.0, 1.0), (0.0, 0.87, 2.2)])
+@pytest.mark.parametrize(
+    ("beside", "usual", "warmest"),
+    [
+        pytest.param(0.0, 1.0, 1.0, marks=pytest.mark.long),
+        (-0.2, 1.0, 1.0),
+        pytest.param(0.0, 0.87, 2.2, marks=pytest.mark.long),
+    ],
+)
 def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(
     beside: float, usual: float, warmest: float, file: Path, tmp_path: Path
 ) -> None:

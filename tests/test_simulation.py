@@ -34,7 +34,10 @@ def make(tmp_path: Path) -> Make:
 
 
 @pytest.mark.parametrize("method", METHODS, ids=NAMES)
-@pytest.mark.parametrize(("name", "plant"), [("kr500", "rigid"), ("scara", "flexible"), ("tree_two_arms", "rigid")])
+@pytest.mark.parametrize(
+    ("name", "plant"),
+    [("kr500", "rigid"), ("scara", "flexible"), pytest.param("tree_two_arms", "rigid", marks=pytest.mark.long)],
+)
 def test_errors_fall_with_the_order_of_the_method(name: str, plant: str, method: Any, make: Make) -> None:
     of = arm(name)
     simulated = make(of, plant)
@@ -54,7 +57,7 @@ def test_errors_fall_with_the_order_of_the_method(name: str, plant: str, method:
     assert slope > method.order - SLACK
 
 
-@pytest.mark.parametrize("method", NAMES)
+@pytest.mark.parametrize("method", [*NAMES[:1], *(pytest.param(name, marks=pytest.mark.long) for name in NAMES[1:])])
 @pytest.mark.parametrize(("name", "plant"), PLANTS)
 def test_an_undriven_robot_without_friction_keeps_its_energy(name: str, plant: str, method: str, make: Make) -> None:
     of = arm(name).without("Fv", "Fc", "Off", "Fvm", "Fcm", "Offm")

@@ -35,7 +35,7 @@ parameters:
         pytest.param(-0.45, 1.6, marks=pytest.mark.long),
         (-0.6, 0.4),
         pytest.param(0.45, 0.1, marks=pytest.mark.long),
-        (-0.3, 0.1),
+        pytest.param(-0.3, 0.1, marks=pytest.mark.long),
     ],
 )
 def test_a_gain_is_found_beside_what_is_known(error: float, noise: float, tmp_path: Path) -> None:

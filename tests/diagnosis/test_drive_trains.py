@@ -32,7 +32,9 @@ def drive_train(name: str, effect: Effect, scene: Scene, stiffness: float) -> di
     return {"Iam": rotor, "k": stiffness, "damping": damping}
 
 
-@pytest.mark.parametrize(("name", "joint", "part"), [(HEAVY, 1, 0.3), (HEAVY, 3, 1.0), (SCARA, 2, 1.0)])
+@pytest.mark.parametrize(
+    ("name", "joint", "part"), [(HEAVY, 1, 0.3), pytest.param(HEAVY, 3, 1.0, marks=pytest.mark.long), (SCARA, 2, 1.0)]
+)
 def test_an_elastic_drive_train_gives_way_and_swings(
     name: str, joint: int, part: float, known_robots: Callable[[str], Known]
 ) -> None:
@@ -52,7 +54,7 @@ def test_an_elastic_drive_train_gives_way_and_swings(
     assert any(shape["k"] * compliance == pytest.approx(1, rel=0.1) for shape in hypothesis.variants)
 
 
-@pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), (HEAVY, 2), (SCARA, 1)])
+@pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), pytest.param(HEAVY, 2, marks=pytest.mark.long), (SCARA, 1)])
 def test_a_link_falls_through_its_gap(name: str, joint: int, known_robots: Callable[[str], Known]) -> None:
     """Looser than the others: each landing depends on the speed of the one before, which the log's motor, sampled and
     filtered, does not tell to the last digit. On some motions a landing goes the other way and leaves 0.85.

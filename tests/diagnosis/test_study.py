@@ -157,14 +157,9 @@ def test_nothing_is_named_where_nothing_is_hidden(tmp_path: Path) -> None:
     assert simpler["held-out gate"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
-    "hidden",
-    [
-        Hidden("stribeck", 2, 3.0),
-        pytest.param(Hidden("ripple_motor", 3, 3.0), marks=pytest.mark.long),
-        pytest.param(Hidden("cable_spring", 3, 3.0), marks=pytest.mark.long),
-    ],
-    ids=str,
+    "hidden", [Hidden("stribeck", 2, 3.0), Hidden("ripple_motor", 3, 3.0), Hidden("cable_spring", 3, 3.0)], ids=str
 )
 def test_a_clear_effect_is_found(hidden: Hidden, tmp_path: Path) -> None:
     found = result(Case("single", "three_axis", FREE, 4, (hidden,), "short"), keep=tmp_path)

@@ -15,7 +15,7 @@ from tests.extra.browser import document, visit
 from tests.reports import pages
 
 #: What make test-extra looks at, and what only make test-long does.
-KINDS, FURTHER = ("identify", "compare", "excite", "diagnose"), ("gains", "steps", "locked", "links", "output_error")
+KINDS, FURTHER = ("identify", "diagnose"), ("compare", "excite", "gains", "steps", "locked", "links", "output_error")
 
 #: Run in a copy of the page: where the charts are and what they say of themselves; then all buttons are pressed.
 _MEASURE = """
