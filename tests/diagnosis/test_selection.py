@@ -117,6 +117,21 @@ def test_a_shape_is_refined_between_the_tried_ones() -> None:
     assert abs(np.log(found.evidence.variant.shape["v"] / 0.29)) < abs(np.log(0.45 / 0.29))
 
 
+def test_a_steep_valley_is_followed_though_one_value_is_farther_than_the_other() -> None:
+    """Three steps of one for each of the other: a step of both would leave it, be it as short as it may."""
+    data = Data(23)
+    plain, steep, flat = data.column(), data.column(), data.column()
+
+    def law(r: int, shape: Mapping[str, float]) -> Array:
+        return np.asarray(plain[r] + 10 * (shape["a"] - 3 * shape["b"]) * steep[r] + shape["b"] * flat[r])
+
+    ranges = [ShapeRange(name, "1", -10.0, 10.0, log=False, step=1.0) for name in ("a", "b")]
+    true = {"a": 4.5, "b": 1.5}
+    starting = replace(hypothesis("shaped", law, ranges), starts=({"a": 0.0, "b": 0.0},))
+    (found,) = search(data.bank(np.stack([4.0 * law(r, true) for r in range(RUNS)]), [starting]))
+    assert found.evidence.variant.shape == pytest.approx(true, rel=0.05)
+
+
 def test_shapes_that_lean_on_each_other_are_refined_together() -> None:
     """A valley that runs across both values, which steps of one at a time do not follow."""
     data = Data(17)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.weighing import Weighing
 
 Array = NDArray[np.float64]
@@ -33,29 +34,44 @@ def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant], ste
         return variant
     best = weighing.of(variant, others)
     for _ in range(steps):
-        step = _step(weighing, best.variant, free, others)
-        for part in _PARTS:
-            tried = _moved(weighing, best.variant, {name: part * x for name, x in step.items()})
-            again = None if tried is None else weighing.of(tried, others)
-            if again is not None and again.score > best.score + _GAIN:
-                best = again
-                break
-        else:
+        again = _better(weighing, best, _ways(weighing, best.variant, free, others), others)
+        if again is None:
             break
+        best = again
     return best.variant
 
 
-def _step(
+def _better(
+    weighing: Weighing, best: Evidence, ways: Sequence[Mapping[str, float]], others: Sequence[Variant]
+) -> Evidence | None:
+    """The first that is better than the ``best`` so far: the whole or a part of one of the ``ways``; None where all are
+    not.
+    """
+    for way in ways:
+        for part in _PARTS:
+            tried = _moved(weighing, best.variant, {name: part * x for name, x in way.items()})
+            again = None if tried is None else weighing.of(tried, others)
+            if again is not None and again.score > best.score + _GAIN:
+                return again
+    return None
+
+
+def _ways(
     weighing: Weighing, variant: Variant, free: Sequence[ShapeRange], others: Sequence[Variant]
-) -> dict[str, float]:
-    """Of each shape value, in its usual steps."""
+) -> list[dict[str, float]]:
+    """Of each shape value, in its usual steps: each at its longest, and then the way of the tangent, the longest of
+    which is. Where two values hold a third, as stiffness and inertia a frequency, only that stays in the valley.
+    """
     neighbours = [(shape, neighbour(weighing, variant, shape)) for shape in free]
     here = variant.shape
     moved = [(shape, one, shape.steps(here[shape.name], one.shape[shape.name])) for shape, one in neighbours if one]
     A, b = tangent(weighing, variant, [(one, steps) for _, one, steps in moved], others)
     k = len(b) - len(moved)
-    solution = inverse(A + np.diag([0.0] * k + [_DAMPING] * len(moved)), 1e-9) @ b
-    return {shape.name: float(np.clip(solution[k + i], -_LONGEST, _LONGEST)) for i, (shape, _, _) in enumerate(moved)}
+    whole = (inverse(A + np.diag([0.0] * k + [_DAMPING] * len(moved)), 1e-9) @ b)[k:]
+    ways, longest = [np.clip(whole, -_LONGEST, _LONGEST)], float(np.abs(whole).max(initial=0.0))
+    if len(whole) > 1 and longest > _LONGEST:
+        ways.append(whole * _LONGEST / longest)
+    return [{shape.name: float(x) for (shape, _, _), x in zip(moved, way, strict=True)} for way in ways]
 
 
 def tangent(

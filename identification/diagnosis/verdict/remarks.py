@@ -20,6 +20,13 @@ from identification.diagnosis.verdict.unexplained import Unexplained
 #: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
 _ELASTIC, _SURE = 0.5, 4.0
 
+#: What a finding is told with, by its effect: what else makes the same torque.
+_LIKE = {
+    "torque_delay": "a filter of the drive or of the log that lags as long looks like a delay between torque and "
+    "position",
+    "offset": "dry friction that is not alike both ways makes the torque of an offset wherever a joint moves",
+}
+
 
 def of_tests(found: Search, trial: Trial | None, test: Sequence[Prepared]) -> Iterator[str]:
     """Of joints that move in runs that test alone, and of runs that test and cannot show what was found."""
@@ -92,8 +99,12 @@ def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[st
     for each in gone:
         hypothesis = each.evidence.variant.hypothesis
         yield f"{hypothesis.named} is taken back: the runs that test contradict it, or what it stood beside"
-    if any(one.hypothesis.effect == "torque_delay" for one in found):
-        yield "a filter of the drive or of the log that lags as long looks like a delay between torque and position"
+    named = {one.hypothesis.effect for one in found}
+    yield from (text for effect, text in _LIKE.items() if effect in named)
+    tilts = [one for one in found if one.hypothesis.effect == "base_tilt"]
+    unseen = [each.name for one in tilts for each in one.hypothesis.coefficients if not each.essential]
+    if unseen:
+        yield f"{listed(unseen)}: what an upright base does not show of the bodies' first moments, times the tilt"
 
 
 def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]:
