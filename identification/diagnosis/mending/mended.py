@@ -13,6 +13,7 @@ from identification.diagnosis.columns.hypothesis import ELASTIC
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending.addition import Addition
+from identification.diagnosis.mending.beside_swings import beside_swings
 from identification.diagnosis.mending.changes import difference, groupings_difference
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
@@ -87,7 +88,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         whole = model_of(found.findings)
         model, harmful = without_harm(whole, model_of, tried_with)
     new, fit, additions = model.repaired, model.fit, model.additions
-    text, sets = _with_sets(new.text, fit, additions)
+    text, sets = _with_sets(new.text, found, fit, additions)
     replace(folder, {name: text.encode()})
     player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
     with stage("playing the untouched runs"):
@@ -118,14 +119,15 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     )
 
 
-def _with_sets(text: str, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
+def _with_sets(text: str, found: Diagnosis, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
     """The file with the new parameters, once more for elastic drive trains where some are; and what is to be told."""
     text = with_parameter_set(text, fit.parameter_set)
-    model, found = fit.regressors.model, {key: value for one in additions for key, value in one.parameters.items()}
+    model, drive_trains = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
     # A set of an earlier diagnosis would be of other parameters.
-    if not found and FLEXIBLE not in model.robot.parameter_sets:
+    if not drive_trains and FLEXIBLE not in model.robot.parameter_sets:
         return text, []
-    return with_parameter_set(text, flexible_set(model, fit.parameter_set, found)), [_TWO_SETS]
+    bodies = beside_swings(found.search, model, fit.parameter_set, additions)
+    return with_parameter_set(text, flexible_set(model, bodies, drive_trains)), [_TWO_SETS]
 
 
 def _beside(
