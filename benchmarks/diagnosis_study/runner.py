@@ -101,10 +101,13 @@ class Plan:
     processes: int = 1
     asked: frozenset[str] = frozenset()
 
-    def draws(self, cell: str, mode: str) -> list[Case]:
-        """The cases that may be asked of a cell."""
-        drawn = list(islice(cases(cell, mode, self.reserved), _DRAWS * self.count))
-        return drawn[max((i + 1 for i, one in enumerate(drawn) if one.name in self.asked), default=0) :]
+    def draws(self, cell: str, mode: str) -> Iterator[Case]:
+        """The cases that may be asked of a cell, drawn as they are wanted where none was asked before."""
+        drawn = islice(cases(cell, mode, self.reserved), _DRAWS * self.count)
+        if not self.asked:
+            return drawn
+        every = list(drawn)
+        return islice(every, max((i + 1 for i, one in enumerate(every) if one.name in self.asked), default=0), None)
 
 
 def run(plan: Plan, folder: Path) -> Iterator[dict[str, Any]]:
@@ -140,7 +143,7 @@ def _queue(plan: Plan, counted: Mapping[tuple[str, str], int], barren: Container
 
     A law that did not reach its size in a place is not tried there again.
     """
-    draws = {key: iter(plan.draws(*key)) for key in plan.cells}
+    draws = {key: plan.draws(*key) for key in plan.cells}
     while draws:
         for key in list(draws):
             possible = (one for one in draws[key] if not any(_place(one, what) in barren for what in one.hidden))

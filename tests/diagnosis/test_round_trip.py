@@ -116,6 +116,8 @@ def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     assert elastic.keys() - rigid.keys() == {"Iam2", "Fvm2", "Fcm2", "Offm2", "k2"}
     assert rigid.keys() - elastic.keys() == {"Fv2", "Fc2", "Off2"}
     whole = elastic["ZZ2R"].value + elastic["Iam2"].value
+    solution, _ = found.search.weighing.fitted(found.search.variants, True)
+    assert whole == pytest.approx(found.search.bank.values(solution)["ZZ2R"], rel=1e-5)
     assert whole == pytest.approx(known_robots("three_axis").values["ZZ2R"], rel=5e-3)
     assert any("diagnosed_flexible" in note for note in new.notes)
     assert (again.verdict, again.findings) == (NOTHING, ())

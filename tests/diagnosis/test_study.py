@@ -264,11 +264,12 @@ def test_the_archive_keeps_the_last_answer_to_each_case(tmp_path: Path) -> None:
 
 def test_new_draws_begin_behind_those_that_were_asked(tmp_path: Path) -> None:
     archive, key = tmp_path / "cases.jsonl", ("null", FREE)
-    every = Plan((key,), 2, 0).draws(*key)
+    every = list(Plan((key,), 2, 0).draws(*key))
     store("abc", [{"case": every[k].record(), "score": {}} for k in (0, 3)], archive)
     assert asked(archive) == {every[0].name, every[3].name}
-    assert Plan((key,), 2, 0, asked=asked(archive)).draws(*key) == every[4:]
-    assert Plan((key,), 2, 0, asked=asked(tmp_path / "none.jsonl")).draws(*key) == every
+    assert list(Plan((key,), 2, 0, asked=asked(archive)).draws(*key)) == every[4:]
+    assert list(Plan((key,), 2, 0, asked=frozenset({"another"})).draws(*key)) == every
+    assert list(Plan((key,), 2, 0, asked=asked(tmp_path / "none.jsonl")).draws(*key)) == every
 
 
 def test_the_power_curve_is_drawn() -> None:

@@ -27,14 +27,10 @@ def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: S
     solution, covariance = found.weighing.fitted(found.variants, True)
     values, bank = found.bank.values(solution), found.bank
     std = dict(zip(bank.base, np.sqrt(np.maximum(covariance.diagonal(), 0.0)).tolist(), strict=False))
-    searched = bank.scenes[0].regressors.model.grouping.numeric()
-    alike = [name for name, terms in model.grouping.numeric().items() if searched.get(name) == terms and values[name]]
-    return replace(
-        rigid,
-        values={
-            name: replace(one, value=values[name], relative_std=100 * std[name] / abs(values[name]))
-            if name in alike
-            else one
-            for name, one in rigid.values.items()
-        },
-    )
+    searched, own = bank.scenes[0].regressors.model.grouping.numeric(), model.grouping.numeric()
+    told = {
+        name: replace(one, value=values[name], relative_std=100 * std[name] / abs(values[name]))
+        for name, one in rigid.values.items()
+        if searched.get(name) == own.get(name) and values.get(name)
+    }
+    return replace(rigid, values={**rigid.values, **told})
