@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from generator.backends import numpy as numpy_backend
 from generator.derivation import derive
-from generator.robot.description import Robot
+from generator.robot.description import ParameterSet, Robot
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
@@ -88,6 +88,13 @@ class Regressors:
         """The same with the load that ``values`` make."""
         result = copy(self)
         result.values = dict(values)
+        return result
+
+    def of_sets(self, sets: Mapping[str, ParameterSet]) -> Regressors:
+        """The same of a robot whose file has the parameter ``sets``."""
+        result = copy(self)
+        result.model = copy(self.model)
+        result.model.robot = replace(self.model.robot, parameter_sets=sets)
         return result
 
     @property

@@ -120,5 +120,8 @@ def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     assert whole == pytest.approx(found.search.bank.values(solution)["ZZ2R"], rel=1e-5)
     assert whole == pytest.approx(known_robots("three_axis").values["ZZ2R"], rel=5e-3)
     assert any("diagnosed_flexible" in note for note in new.notes)
+    tried = new.tried[2]
+    assert tried.closed is not None
+    assert tried.closed > 0.9 or tried.after.rms < 1.15 * tried.floor
     assert (again.verdict, again.findings) == (NOTHING, ())
     assert any("the drive trains of joint 2 are elastic in the robot's file" in note for note in again.notes)

@@ -18,7 +18,16 @@ from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis, diagno
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.runs.stated_elasticity import Stated, columns, moved, names, precision, stated
+from identification.diagnosis.runs.stated_elasticity import (
+    Stated,
+    columns,
+    damped,
+    moved,
+    names,
+    precision,
+    stated,
+    torque,
+)
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed import CLEAN, Known, known, rows, with_robot
 from tests.plant.effect import Effect
@@ -114,6 +123,21 @@ def test_a_gap_of_the_file_is_crossed(arm: Known) -> None:
     x = np.linalg.lstsq(made[:, moving].T, left[moving], rcond=None)[0]
     assert np.linalg.norm((left - x @ made)[moving]) < 0.5 * np.linalg.norm(left[moving])
     assert x[0] == pytest.approx(1.0, abs=0.2)
+
+
+def test_the_torque_that_plays_is_the_columns_by_what_the_values_say(arm: Known) -> None:
+    """With the weights that a fit of the columns has, and nothing where the values do not say that it shows."""
+    run = make_run(arm.robot, fourier(4, period=5.0, periods=2), soft(ARM), sensors=CLEAN)
+    scene = scene_of(arm, run, {j: one.stiffness / SOFT for j, one in enumerate(arm.robot.chain, 1)})
+    assert not torque(scene).any()
+    said = {**scene.values, "elasticity": 0.7, **damped(1, 0.1), **damped(2, 0.02), "stiffness3": 0.1}
+    usual = columns(replace(scene, values=said))[0]
+    np.testing.assert_allclose(torque(replace(scene, values=said)), 0.7 * usual, rtol=1e-9)
+    loose = scene_of(arm, run, {2: 2e5}, gap=4e-4)
+    assert not torque(loose).any()
+    said = {**scene.values, "backlash2": 0.9, **damped(2, 0.1)}
+    usual = columns(replace(loose, values=said))[0]
+    np.testing.assert_allclose(torque(replace(loose, values=said)), 0.9 * usual, rtol=1e-9)
 
 
 def test_columns_are_nothing_before_the_model_has_values(arm: Known) -> None:

@@ -1,4 +1,6 @@
-"""Base parameters beside the swings of elastic drive trains, of which a fit of the rigid model makes other ones."""
+"""Elastic drive trains beside the rigid model: the base parameters that they leave, of which a fit of the rigid model
+makes other ones, and how far each of them swings.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from generator.robot.description import ParameterSet
 from generator.symbolic.model import Model
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.mending.addition import Addition
+from identification.diagnosis.runs.stated_elasticity import BOUNCING, TOGETHER, damped, names, stated
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.finding import Finding
 
 #: Kinds of what changes no base parameter that the searched model has as well.
 _APART = {EFFECT, ELASTIC}
@@ -19,10 +23,10 @@ _APART = {EFFECT, ELASTIC}
 
 def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: Sequence[Addition]) -> ParameterSet:
     """The set ``rigid`` of ``model`` with those base parameters in it that the searched model has alike, as all runs
-    tell them beside all that was found; as it is where what was added holds no elastic drive train, or changes them.
+    tell them beside all that was found; as it is where no drive train is elastic, or what was added changes them.
     """
     kinds = {one.kind for one in additions}
-    if ELASTIC not in kinds or not kinds <= _APART:
+    if not (ELASTIC in kinds or stated(found.bank.robot)) or not kinds <= _APART:
         return rigid
     solution, covariance = found.weighing.fitted(found.variants, True)
     values, bank = found.bank.values(solution), found.bank
@@ -34,3 +38,22 @@ def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: S
         if searched.get(name) == own.get(name) and values.get(name)
     }
     return replace(rigid, values={**rigid.values, **told})
+
+
+def without_findings(found: Search) -> dict[str, float]:
+    """Base parameters of the searched model [SI], and what the file's elastic drive trains have, as all runs tell them
+    without anything that was found; nothing where the file has none.
+    """
+    robot = found.bank.robot
+    return found.bank.values(found.weighing.fitted((), True)[0]) if stated(robot) else {}
+
+
+def swinging(found: Search, findings: Sequence[Finding] = ()) -> dict[str, float]:
+    """What the elastic drive trains of the file, and of ``findings``, have, by the names of ``stated_elasticity``."""
+    own = {name: found.values[name] for name in names(found.bank.robot) if name in found.values}
+    for one in findings:
+        if one.hypothesis.kind == ELASTIC:
+            (number,) = one.joints
+            own |= damped(number, one.shape["damping"])
+            own[f"{BOUNCING}{number}" if one.hypothesis.effect == "backlash" else TOGETHER] = 1.0
+    return own

@@ -12,11 +12,9 @@ from generator.writing import replace
 from identification.diagnosis.columns.hypothesis import ELASTIC
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.mending.addition import Addition
-from identification.diagnosis.mending.beside_swings import beside_swings
+from identification.diagnosis.mending.beside_swings import swinging, without_findings
 from identification.diagnosis.mending.changes import difference, groupings_difference
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
-from identification.diagnosis.mending.flexible_set import flexible_set
 from identification.diagnosis.mending.refit import SET, Refit, refit
 from identification.diagnosis.mending.untouched import Untouched, objections, untouched
 from identification.diagnosis.mending.without_harm import without_harm
@@ -74,31 +72,35 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("fitting the parameters with what was found"):
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
         refitted = refit(sampled_runs(found.roles.searched, old_regressors), old_regressors, as_known).written
-        values = refitted if as_known is None else dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
+        refitted |= without_findings(found.search)
+        values = refitted
+        if as_known is not None:
+            values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True)) | swinging(found.search)
         runs, old = [*prepared_runs(found.roles.test, old_regressors)], Player(old_regressors)
 
         def model_of(findings: Sequence[Finding]) -> WrittenModel:
             return written_model(old_text, name, found, findings, prior)
 
         def tried_with(model: WrittenModel) -> dict[int, Untouched]:
-            fit = model.fit
-            played = _played(found.roles.test, Player(fit.regressors), fit.written)
+            played = _played(found.roles.test, Player(model.regressors), model.played)
             return untouched(bank, *_beside(runs, old, refitted, played))
 
         whole = model_of(found.findings)
         model, harmful = without_harm(whole, model_of, tried_with)
     new, fit, additions = model.repaired, model.fit, model.additions
-    text, sets = _with_sets(new.text, found, fit, additions)
+    text = with_parameter_set(new.text, fit.parameter_set)
+    if model.flexible is not None:
+        text = with_parameter_set(text, model.flexible)
     replace(folder, {name: text.encode()})
-    player, notes = compiled(folder / name, folder / GENERATED, fit.regressors, stage)
+    player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
-        played = _played(found.roles.test, player, fit.written)
+        played = _played(found.roles.test, player, model.played)
         before, after = _beside(runs, old, values, played)
         without = (before, after) if prior is None else _beside(runs, old, refitted, played)
     elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
     tried = untouched(bank, before, after)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
-    told = [*harmful, *model.notes, *sets, *notes]
+    told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
     if prior is not None:
         rigid = all(one.hypothesis.kind == ELASTIC for one in model.findings)
         told += _gain(*without, found.roles.tested, rigid) if model.findings else [_FITTED]
@@ -117,17 +119,6 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         generated=Path(GENERATED, found.robot.name),
         notes=tuple(dict.fromkeys(told)),
     )
-
-
-def _with_sets(text: str, found: Diagnosis, fit: Refit, additions: Sequence[Addition]) -> tuple[str, list[str]]:
-    """The file with the new parameters, once more for elastic drive trains where some are; and what is to be told."""
-    text = with_parameter_set(text, fit.parameter_set)
-    model, drive_trains = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
-    # A set of an earlier diagnosis would be of other parameters.
-    if not drive_trains and FLEXIBLE not in model.robot.parameter_sets:
-        return text, []
-    bodies = beside_swings(found.search, model, fit.parameter_set, additions)
-    return with_parameter_set(text, flexible_set(model, bodies, drive_trains)), [_TWO_SETS]
 
 
 def _beside(

@@ -217,8 +217,8 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
     if joints != sorted(robot.flexible):
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
     notes = [
-        f"the drive train of {on_joints(one.joints)} is elastic in the flexible model; the rigid "
-        "inverse dynamics, which plays the untouched runs, does not know it"
+        f"the drive train of {on_joints(one.joints)} is elastic in the flexible model; on the untouched runs its swing "
+        "is integrated with what was found, beside the generated inverse dynamics of rigid joints"
     ]
     if one.values.get("gap"):
         text, more = _add_gap(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))

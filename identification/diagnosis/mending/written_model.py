@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from generator.robot.description import Robot
+from generator.robot.description import ParameterSet, Robot
 from identification import recipe as recipes
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.priors import preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending.addition import Addition, addition, measured
+from identification.diagnosis.mending.beside_swings import beside_swings, swinging
+from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
+from identification.diagnosis.mending.flexible_set import flexible_set
 from identification.diagnosis.mending.refit import Refit, refit, with_payload
 from identification.diagnosis.mending.repair import Repaired, as_written, repaired
 from identification.diagnosis.mending.writable import loaded, writable
@@ -20,6 +23,7 @@ from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.verdict.finding import Finding
 from identification.observation import Regressors
 from identification.outcome import Value
+from identification.robot_file import rounded
 from identification.sampling import Sampled
 
 
@@ -27,12 +31,18 @@ from identification.sampling import Sampled
 class WrittenModel:
     """The ``findings`` that a ``repaired`` robot file holds, as the ``additions`` do beside what was measured without
     torque; its parameters, and what is to be told of both.
+
+    ``flexible`` is the set of the model with elastic drive trains, None where the file has none. What plays are
+    ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing.
     """
 
     findings: tuple[Finding, ...]
     additions: tuple[Addition, ...]
     repaired: Repaired
     fit: Refit
+    flexible: ParameterSet | None
+    regressors: Regressors
+    played: Mapping[str, float]
     notes: tuple[str, ...]
 
 
@@ -49,9 +59,29 @@ def written_model(
     known = None if prior is None else _prior(prior, regressors, held)
     said, given = _description(held), _given(entered, new.robot)
     fit = refit(sampled_runs(found.roles.searched, regressors), regressors, known, said, given)
+    bodies = beside_swings(found.search, fit.regressors.model, fit.parameter_set, additions)
+    flexible = _flexible(bodies, fit, additions)
+    sets = {} if flexible is None else {FLEXIBLE: flexible}
+    beside = {} if bodies is fit.parameter_set else {name: rounded(one.value) for name, one in bodies.values.items()}
     stated_aside = [one.evidence for one in aside if one in additions]
-    notes = (*stated_aside, *unwritten, *new.notes, *fit.notes)
-    return WrittenModel(findings=held, additions=tuple(additions), repaired=new, fit=fit, notes=notes)
+    return WrittenModel(
+        findings=held,
+        additions=tuple(additions),
+        repaired=new,
+        fit=fit,
+        flexible=flexible,
+        regressors=fit.regressors.of_sets({**sets, **fit.regressors.model.robot.parameter_sets}),
+        played={**fit.written, **beside, **swinging(found.search, held)},
+        notes=(*stated_aside, *unwritten, *new.notes, *fit.notes),
+    )
+
+
+def _flexible(bodies: ParameterSet, fit: Refit, additions: Sequence[Addition]) -> ParameterSet | None:
+    """The set with the drive trains that were added; also where the file has one, of other parameters."""
+    model, drive_trains = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
+    if not drive_trains and FLEXIBLE not in model.robot.parameter_sets:
+        return None
+    return flexible_set(model, bodies, drive_trains)
 
 
 def prepared_runs(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:

@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 
 #: The column of all drive trains without a gap.
 TOGETHER = "elasticity"
+#: That of one with a gap, by the joint's number after it.
+BOUNCING = "backlash"
 #: What a drive train may differ in from the file's, and by how much, in the standard deviation of the logarithm.
 _ABOUT = {"stiffness": 0.5, "damping": 1.5, "gap": 0.3}
 #: Damping ratio of the link on its drive train, and the factor by which another one is tried.
@@ -81,7 +83,7 @@ def bouncing(robot: Robot) -> tuple[str, ...]:
 
 def names_of_backlash(number: int) -> tuple[str, ...]:
     """Those of ``names`` that are of a drive train with a gap."""
-    return tuple(f"{what}{number}" for what in ("backlash", "stiffness", "damping", "gap"))
+    return tuple(f"{what}{number}" for what in (BOUNCING, "stiffness", "damping", "gap"))
 
 
 def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float]:
@@ -94,7 +96,7 @@ def moved(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float
         what = name.rstrip("0123456789")
         if what in _ABOUT:
             number = name.removeprefix(what)
-            whole = new.get(f"backlash{number}", new.get(TOGETHER, 0.0))
+            whole = new.get(f"{BOUNCING}{number}", new.get(TOGETHER, 0.0))
             step = np.clip(new[name] / whole, -_STEP, _STEP) if whole > _SHOWN else 0.0
             result[name] = old.get(name, 0.0) + float(step)
     return result
@@ -106,6 +108,26 @@ def weights(scene: Scene) -> dict[str, float]:
     """
     plain, _ = _plain_and_loose(scene.robot)
     return {TOGETHER: scene.values.get(TOGETHER, 0.0)} if plain else {}
+
+
+def damped(number: int, ratio: float) -> dict[str, float]:
+    """The value by its name in ``names`` that says the damping ratio of the drive train of a joint by its number."""
+    return {f"damping{number}": float(np.log(ratio / _DAMPING))}
+
+
+def torque(scene: Scene) -> Array:
+    """What the file's drive trains add to the torques (n x N) [N m, N] of rigid joints along a scene, by its values:
+    nothing where these do not say how much of it shows.
+    """
+    result = np.zeros_like(scene.motion.q)
+    plain, loose = _plain_and_loose(scene.robot)
+    if plain and (shown := scene.values.get(TOGETHER, 0.0)):
+        (usual,) = _Links(scene, plain).torques(*(each[None] for each in _factors(scene, plain)))
+        result += shown * usual
+    for one in loose:
+        if shown := scene.values.get(f"{BOUNCING}{one.number}", 0.0):
+            result += shown * next(_loose(scene, one))
+    return result
 
 
 def precision(name: str) -> float:
@@ -134,9 +156,7 @@ def _together(scene: Scene, trains: Sequence[Stated]) -> Iterator[Array]:
         return
     links = _Links(scene, trains)
     m = len(trains)
-    stiffness, damping = (
-        np.tile([_factor(scene, what, one) for one in trains], (1 + 2 * m, 1)) for what in ("stiffness", "damping")
-    )
+    stiffness, damping = (np.tile(each, (1 + 2 * m, 1)) for each in _factors(scene, trains))
     for j in range(m):
         stiffness[1 + 2 * j, j] *= _STIFFER
         damping[2 + 2 * j, j] *= _MORE_DAMPED
@@ -164,6 +184,12 @@ def _loose(scene: Scene, one: Stated) -> Iterator[Array]:
     yield (torque(stiffer=_STIFFER) - usual) / np.log(_STIFFER)
     yield (torque(damped=_MORE_DAMPED) - usual) / np.log(_MORE_DAMPED)
     yield (torque(wider=_WIDER) - usual) / np.log(_WIDER)
+
+
+def _factors(scene: Scene, trains: Sequence[Stated]) -> tuple[Array, Array]:
+    """Those of the trains' stiffnesses and dampings (m each)."""
+    stiffness, damping = (np.array([_factor(scene, what, one) for one in trains]) for what in ("stiffness", "damping"))
+    return stiffness, damping
 
 
 def _factor(scene: Scene, what: str, one: Stated) -> float:

@@ -53,7 +53,7 @@ def of_elasticity(found: Search) -> list[str]:
     where = on_joints(one.number for one in trains)
     notes = [
         f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
-        "stiffnesses; the rigid inverse dynamics, which plays the untouched runs, does not know it"
+        "stiffnesses, on the untouched runs too, beside the generated inverse dynamics of rigid joints"
     ]
     if TOGETHER in found.values:
         at = found.bank.base.index(TOGETHER)
