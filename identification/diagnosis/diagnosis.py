@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.homogeneity import disagreements
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 from identification.diagnosis.verdict.named import findings
+from identification.diagnosis.verdict.patchwork import PATCHED, patched
 from identification.diagnosis.verdict.trial import along
 from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
 from identification.diagnosis.verdict.waterfall import Steps, steps
@@ -42,7 +43,7 @@ class Diagnosis:
     more than noise stays unexplained: nowhere, unless that is the verdict.
 
     ``contradicted`` are known parameters of which the runs say that they have other values. ``reason`` is that of
-    ``Unexplained``. ``runs`` are all runs in the order of ``roles`` (train, validate); ``search`` holds the
+    ``Unexplained``, or PATCHED. ``runs`` are all runs in the order of ``roles`` (train, validate); ``search`` holds the
     columns of those that are fitted or validate; ``steps`` is how near to the noise each finding comes.
     ``residuals_before`` and ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs
     by the model of the search, all rows, as recorded.
@@ -98,6 +99,9 @@ def diagnose(
     beyond = {one.joint: one.size for one in last.lack if one.told}
     named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)
     named = doubted(named, other)
+    rest, reason = left.where or last, left.reason
+    if verdict == NAMED and (number := patched(named)):
+        verdict, rest, reason = UNEXPLAINED, replace(rest, joint=number), PATCHED
     if named:
         before = led(before, named[0], last)
     notes = [
@@ -121,13 +125,13 @@ def diagnose(
         findings=named,
         invisible=_invisible(found),
         before=before,
-        after=left.where or last,
+        after=rest,
         roles=roles,
         runs=tuple(runs),
         search=found,
         steps=steps(found, trial),
         contradicted=other,
-        reason=left.reason,
+        reason=reason,
         residuals_before=tuple(_residuals(found, start)),
         residuals_after=tuple(_residuals(found, weights)),
         notes=tuple(notes),

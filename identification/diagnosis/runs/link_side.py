@@ -199,8 +199,11 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
 
 
 def rotor_is_fitted(scene: Scene, k: int) -> bool:
-    """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell."""
-    return f"Ia{scene.robot.moving[k].number}" in scene.values
+    """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell, or was found
+    as an effect of its own.
+    """
+    name = f"Ia{scene.robot.moving[k].number}"
+    return name in scene.values or bool(scene.found(name))
 
 
 def rotor_is_told(scene: Scene, k: int) -> bool:
@@ -233,8 +236,9 @@ def usual_rotor(scene: Scene, k: int) -> float:
 def _told_rotor(scene: Scene, k: int) -> float | None:
     robot = scene.robot
     number = robot.moving[k].number
-    fitted = scene.values.get(f"Ia{number}")
-    return told(robot, f"Ia{number}", f"Iam{number}") if fitted is None else fitted
+    if rotor_is_fitted(scene, k):
+        return scene.values.get(f"Ia{number}", scene.found(f"Ia{number}"))
+    return told(robot, f"Ia{number}", f"Iam{number}")
 
 
 def told(robot: Robot, *names: str) -> float | None:

@@ -11,6 +11,7 @@ from identification.diagnosis.runs.played import together
 from identification.diagnosis.verdict.contradiction import Contradicted
 from identification.diagnosis.verdict.finding import FIRM, Finding, Told
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
+from identification.diagnosis.verdict.patchwork import PATCHED
 from identification.diagnosis.verdict.unexplained import AMPLITUDES, VALUES
 from identification.diagnosis.verdict.where import Where
 from identification.report.diagnose.subject import Subject
@@ -91,6 +92,9 @@ def verdict(subject: Subject) -> Iterator[str]:
     if found.reason == AMPLITUDES:
         off = (f"the size of {one.hypothesis.named} {one.disagreement}" for one in found.findings if one.disagreement)
         yield f"{listed(off)}."
+    elif found.reason == PATCHED:
+        yield f"joint {found.after.joint} takes several effects of which none is firm; together they may stand for one"
+        yield "that the library does not have."
     else:
         yield f"joint {found.after.joint} keeps more than noise, {_ordered(found.after)}."
         if found.after.event not in ("", found.after.region):
