@@ -371,3 +371,13 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     weighing = Weighing(one, TRAIN, VALIDATE, None)
     assert [each.effect for each in weighing.invisible()] == ["hidden", "nowhere"]
     assert Selection(weighing).search() == []
+
+
+def test_a_column_that_no_row_shows_makes_nothing_visible() -> None:
+    """As the first moments of a payload along a vertical axis."""
+    data = Data(15)
+    hidden = data.base[:, 0] - 2 * data.base[:, 1]
+    both = (Coefficient("c", "1"), Coefficient("nothing", "1"))
+    pair = np.stack([hidden, 0 * hidden], axis=1)[:, :, None]
+    one = data.bank(0.3 * hidden, [Hypothesis("pair", "pair", 1, both, lambda scene, _: pair[scene.number])])
+    assert [each.effect for each in Weighing(one, TRAIN, VALIDATE, None).invisible()] == ["pair"]

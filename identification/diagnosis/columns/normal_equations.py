@@ -154,8 +154,8 @@ class Normal:
         return self._least[list(columns)]
 
     def hides(self, column: int) -> bool:
-        """Whether W takes up a candidate's column, by its number."""
-        return bool(self.schur[column - self.base, column - self.base] < self.least([column])[0])
+        """Whether W takes up a candidate's column, by its number, or no row shows it."""
+        return bool(self.schur[column - self.base, column - self.base] <= self.least([column])[0])
 
     def beside(self, chosen: Sequence[int]) -> Array:
         """The Schur complement after the columns ``chosen`` too; their own rows are zero."""

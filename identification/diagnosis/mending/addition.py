@@ -83,7 +83,6 @@ def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
 
 
 def _elastic(one: Hypothesis, found: float, shape: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:
-    rotor = {f"Iam{one.joint}": shape["Iam"]} if "Iam" in shape else {}
-    if one.effect == "backlash":
-        return {"gap": found}, {**rotor, f"k{one.joint}": shape["k"]}
-    return {}, {**rotor, f"k{one.joint}": 1 / found} if found > 0 else rotor
+    # How fast the link swings tells the stiffness better than how far.
+    train = {f"{name}{one.joint}": shape[name] for name in ("Iam", "k") if name in shape}
+    return ({"gap": found} if one.effect == "backlash" else {}), train
