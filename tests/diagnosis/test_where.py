@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks
 from identification.diagnosis.verdict.unexplained import Unexplained
@@ -82,8 +83,9 @@ def test_what_a_link_leaves_that_bounces_is_told_apart_from_what_is_little() -> 
     assert of_lacks([SIGNIFICANT], Unexplained((), None), False) == []
 
 
-def finding(variable: str) -> Any:
-    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=SimpleNamespace(joint=2), variable=variable)
+def finding(variable: str, joints: tuple[int, ...] = (2,)) -> Any:
+    hypothesis = SimpleNamespace(joint=2, kind=EFFECT)
+    return SimpleNamespace(amplitude={2: 1.0}, hypothesis=hypothesis, variable=variable, joints=joints)
 
 
 @pytest.mark.parametrize(
@@ -92,6 +94,13 @@ def finding(variable: str) -> Any:
 def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
     found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable), seen(BY_CHANCE, SIGNIFICANT))
     assert (found.joint, found.variable) == (2, told)
+
+
+def test_what_follows_two_joints_leads_by_its_own_variable() -> None:
+    where = located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT])
+    found = led(where, finding("load", joints=(2, 1)), seen(BY_CHANCE, SIGNIFICANT))
+    assert (found.variable, found.region) == ("load", "of joints 1 and 2 together")
+    assert found.words == "over load, of joints 1 and 2 together"
 
 
 @pytest.mark.parametrize(("of_speed", "told"), [(0.1, "q"), (0.3, "qd")])

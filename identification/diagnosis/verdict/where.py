@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import columns_of
-from identification.diagnosis.columns.hypothesis import ELASTIC
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, on_joints
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
@@ -115,8 +115,9 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
 def led(before: Where, first: Finding, after: Where) -> Where:
     """With the joint of the leading finding, which has been told from all others, and with its variable.
 
-    Another variable that orders far more of the residual stays where means over both would show it. What seemed to
-    happen once is a part of the finding where ``after`` it nothing does.
+    Another variable that orders far more of the residual stays where means over both would show it, unless the finding
+    couples joints: none of one joint's orders what follows two. What seemed to happen once is a part of the finding
+    where ``after`` it nothing does.
     """
     joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
     joint = first.hypothesis.joint or joints[0]
@@ -124,9 +125,10 @@ def led(before: Where, first: Finding, after: Where) -> Where:
     _, shares = strongest(mine)
     ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
     variable = first.variable or ordering
-    if of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
+    coupling = first.hypothesis.kind == EFFECT and len(first.joints) > 1
+    if not coupling and of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
-    region = _region(mine, variable)
+    region = f"of {on_joints(sorted(first.joints))} together" if coupling else _region(mine, variable)
     happens = [one.joint for one in after.lack if one.burst is not None]
     lack = [one if one.joint != joint or joint in happens else replace(one, burst=None) for one in before.lack]
     return replace(before, joint=joint, variable=variable, region=region, shares=shares, lack=tuple(lack))
