@@ -13,10 +13,12 @@ from generator.robot.description import ParameterSet
 from generator.symbolic.model import Model
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.mending.addition import Addition
-from identification.diagnosis.runs.stated_elasticity import BOUNCING, TOGETHER, damped, names, stated
+from identification.diagnosis.runs.stated_elasticity import BOUNCING, TOGETHER, damped, names
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 
+#: Part of their torques that runs show of the file's elastic drive trains if these swing at all.
+_SWINGING = 0.5
 #: Kinds of what changes no base parameter that the searched model has as well.
 _APART = {EFFECT, ELASTIC}
 
@@ -26,7 +28,7 @@ def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: S
     tell them beside all that was found; as it is where no drive train is elastic, or what was added changes them.
     """
     kinds = {one.kind for one in additions}
-    if not (ELASTIC in kinds or stated(found.bank.robot)) or not kinds <= _APART:
+    if not (ELASTIC in kinds or _shown(found)) or not kinds <= _APART:
         return rigid
     solution, covariance = found.weighing.fitted(found.variants, True)
     values, bank = found.bank.values(solution), found.bank
@@ -42,18 +44,25 @@ def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: S
 
 def without_findings(found: Search) -> dict[str, float]:
     """Base parameters of the searched model [SI], and what the file's elastic drive trains have, as all runs tell them
-    without anything that was found; nothing where the file has none.
+    without anything that was found; nothing where none of these swings.
     """
-    robot = found.bank.robot
-    return found.bank.values(found.weighing.fitted((), True)[0]) if stated(robot) else {}
+    return found.bank.values(found.weighing.fitted((), True)[0]) if _shown(found) else {}
 
 
 def swinging(found: Search, findings: Sequence[Finding] = ()) -> dict[str, float]:
-    """What the elastic drive trains of the file, and of ``findings``, have, by the names of ``stated_elasticity``."""
-    own = {name: found.values[name] for name in names(found.bank.robot) if name in found.values}
+    """What the elastic drive trains of the file, where they swing, and of ``findings`` have, by the names of
+    ``stated_elasticity``.
+    """
+    own = {name: found.values[name] for name in names(found.bank.robot)} if _shown(found) else {}
     for one in findings:
         if one.hypothesis.kind == ELASTIC:
             (number,) = one.joints
             own |= damped(number, one.shape["damping"])
             own[f"{BOUNCING}{number}" if one.hypothesis.effect == "backlash" else TOGETHER] = 1.0
     return own
+
+
+def _shown(found: Search) -> bool:
+    """Whether the runs show the swings of the file's elastic drive trains: others may be of a rigid robot."""
+    of_trains = [name for name in names(found.bank.robot) if name == TOGETHER or name.startswith(BOUNCING)]
+    return any(found.values[name] > _SWINGING for name in of_trains)
