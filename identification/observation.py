@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from generator.backends import numpy as numpy_backend
 from generator.derivation import derive
-from generator.robot.description import ParameterSet, Robot
+from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
@@ -90,11 +90,11 @@ class Regressors:
         result.values = dict(values)
         return result
 
-    def of_sets(self, sets: Mapping[str, ParameterSet]) -> Regressors:
-        """The same of a robot whose file has the parameter ``sets``."""
+    def described(self, robot: Robot) -> Regressors:
+        """The same of a ``robot`` whose file says more of it, or less, that changes no equation."""
         result = copy(self)
         result.model = copy(self.model)
-        result.model.robot = replace(self.model.robot, parameter_sets=sets)
+        result.model.robot = robot
         return result
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,11 +97,12 @@ def diagnose(
     left = NOT_JUDGED if dry else unexplained(found, gone, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
-    named = few_rows.doubted(few, robot, findings(found, not left.lacks, disagreeing, beyond), small)
-    named = doubted(named, other)
+    named = findings(found, not left.lacks, disagreeing, beyond)
     rest, reason = left.where or last, left.reason
     if verdict == NAMED and (number := patched(named)):
-        verdict, rest, reason = UNEXPLAINED, replace(rest, joint=number), PATCHED
+        verdict, reason = UNEXPLAINED, PATCHED
+        rest = located(last, [one for one in last.lack if one.joint == number])
+    named = doubted(few_rows.doubted(few, robot, named, small), other)
     if named:
         before = led(before, named[0], last)
     notes = [

@@ -15,14 +15,14 @@ from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.whitening import Colour
-from identification.diagnosis.runs.link_side import LinkSides, Train, link_side, rotor_inertia
+from identification.diagnosis.runs.link_side import LinkSides, Train, link_side, rotor_inertia, rotor_is_told
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.tried import at_end
 from identification.diagnosis.search.weighing import Weighing
 from identification.recipe import Recipe
-from tests.diagnosis.diagnosed import CLEAN, Known, known, with_robot
+from tests.diagnosis.diagnosed import CLEAN, Found, Known, known, with_robot
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.simulate import make_run
@@ -103,6 +103,14 @@ def test_a_rotor_of_which_nothing_is_known_is_half_of_the_least_inertia(name: st
     rotor = rotor_inertia(scene, 0)
     assert rotor == pytest.approx(0.5 * float(link_side(scene, 0, 0.0).inertia.min()))
     assert float(link_side(scene, 0, rotor).inertia.min()) == pytest.approx(rotor)
+
+
+def test_a_rotor_that_was_found_as_an_effect_is_no_share_of_the_link(loose: Scene) -> None:
+    scene = replace(untold(loose), beside=Found({"Ia1": 2.5}))
+    assert rotor_inertia(scene, 0) == 2.5
+    assert rotor_is_told(scene, 0)
+    side = link_side(scene, 0, 2.5)
+    np.testing.assert_array_equal(side.with_rotor(1.0).load, side.load)
 
 
 def test_how_a_soft_link_swings_tells_the_rotors_share(soft: Scene) -> None:

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED
+from identification.diagnosis.results import document
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
-from identification.diagnosis.verdict.patchwork import patched
+from identification.diagnosis.verdict.patchwork import PATCHED, patched
+from identification.report.diagnose.report import report
+from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
 
 
-def found(*said: tuple[int, str]) -> list[Any]:
+def found(*said: tuple[int, str], sure: bool = True) -> list[Any]:
     """Findings by the joint of their hypothesis, 0 for one of several joints, and status."""
-    return [SimpleNamespace(hypothesis=SimpleNamespace(joint=joint), status=status) for joint, status in said]
+    return [
+        SimpleNamespace(hypothesis=SimpleNamespace(joint=joint), status=status, sure=sure) for joint, status in said
+    ]
 
 
 @pytest.mark.parametrize(
@@ -29,3 +36,17 @@ def found(*said: tuple[int, str]) -> list[Any]:
 )
 def test_a_joint_is_patched_by_three_findings_of_which_none_is_firm(said: list[tuple[int, str]], joint: int) -> None:
     assert patched(found(*said)) == joint
+    assert patched(found(*said, sure=False)) == 0
+
+
+def test_a_joint_that_is_patched_is_unexplained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    regressors, sources = recorded(tmp_path, [torque("asymmetry")] * 3)
+    named = diagnosis_of(sources, regressors)
+    assert (named.verdict, named.reason) == (NAMED, "")
+    monkeypatch.setattr("identification.diagnosis.diagnosis.patched", lambda findings: findings[0].joints[0])
+    one = diagnosis_of(sources, regressors)
+    assert (one.verdict, one.reason, one.after.joint) == (UNEXPLAINED, PATCHED, 1)
+    assert document(one)["unexplained"]["joint"] == 1
+    page = report(one, None).decode()
+    assert "joint 1 takes several effects of which none is firm" in page
+    assert "The findings below are: viscous friction that depends on the direction" in page

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pytest
 
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.shape_uncertainty import apart, variances
 from identification.outcome import Value
 
@@ -18,11 +20,13 @@ def told(
     """Of a compliance of ``value`` and a stiffness of 1000, both known to a part in a thousand by the noise alone, or
     the stiffness to ``vague``.
     """
-    one = Hypothesis(
-        "x", "x", 1, (Coefficient("compliance1", "rad/(N m)"),), lambda *_: np.zeros((1, 1, 1)), twice=twice
-    )
     values = {"compliance1": Value(value, 1e-3 * value, "rad/(N m)")}
-    return apart(one, values, {"k": 1000.0, "damping": 0.1}, {"k": vague, "damping": 0.01})
+    return apart(_hypothesis(twice), values, {"k": 1000.0, "damping": 0.1}, {"k": vague, "damping": 0.01})
+
+
+def _hypothesis(twice: Mapping[str, tuple[str, int]]) -> Hypothesis:
+    compliance = Coefficient("compliance1", "rad/(N m)")
+    return Hypothesis("x", "x", 1, (compliance,), lambda *_: np.zeros((1, 1, 1)), twice=twice)
 
 
 def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
@@ -50,6 +54,28 @@ def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[st
     values, shape = told(value, twice)
     assert values["compliance1"].std == pytest.approx(1e-3 * value)
     assert shape == {"k": 1.0, "damping": 0.01}
+
+
+@pytest.mark.parametrize(
+    ("value", "vague", "stiffness"), [(1.02e-3, 1.0, 1000.0), (1.02e-3, 30.0, 1 / 1.02e-3), (0.0, 30.0, 1000.0)]
+)
+def test_a_file_takes_the_stiffness_of_the_swing_unless_the_swing_hardly_shows(
+    value: float, vague: float, stiffness: float
+) -> None:
+    twice = {"compliance1": ("k", -1)}
+    values, std = told(value, twice, vague)
+    unsaid: Any = None
+    one = Finding(
+        hypothesis=_hypothesis(twice),
+        joints=(1,),
+        shape={"k": 1000.0, "damping": 0.1},
+        parameters=values,
+        evidence=unsaid,
+        alternatives=(),
+        amplitude={},
+        shape_std=std,
+    )
+    assert one.told_shape == {"k": pytest.approx(stiffness), "damping": 0.1}
 
 
 def test_what_another_fit_tells_is_as_sure_as_that_and_its_error_is_in_the_others() -> None:

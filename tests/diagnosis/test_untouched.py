@@ -39,10 +39,6 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
 
 
-def test_what_a_rigid_model_cannot_play_is_no_objection() -> None:
-    assert objections({1: tried(40.0, 20.0)}, RUNS, elastic=True) == []
-
-
 def test_both_models_are_held_against_the_rows_that_count_for_both() -> None:
     """A delay that was found moves the ends; a limit of the current takes rows of one of them alone."""
     t, rows = 0.02 * np.arange(10), np.ones((1, 10), dtype=bool)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from identification.diagnosis.columns.hypothesis import ShapeRange
-from identification.diagnosis.runs.link_side import LinkSides, rotor_is_fitted
+from identification.diagnosis.runs.link_side import LinkSides, rotor_is_apart
 from identification.diagnosis.runs.scene import Scene
 
 #: Least part of an inertia that a rotor or a link has.
@@ -21,7 +21,7 @@ def rotor_range(sides: LinkSides, scenes: Sequence[Scene], unit: str) -> ShapeRa
     swings and falls tells its own. None where one does, or the robot has none.
     """
     first = sides.first
-    if first.rotor <= 0 or rotor_is_fitted(first.scene, first.k):
+    if first.rotor <= 0 or rotor_is_apart(first.scene, first.k):
         return None
     lightest = min(float(np.min(sides.along(scene, first.rotor).inertia)) for scene in scenes)
     if lightest <= 0:

@@ -83,6 +83,5 @@ def _drift(found: list[float], shape: Mapping[str, float]) -> dict[str, float]:
 
 
 def _elastic(one: Hypothesis, found: float, shape: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:
-    # How fast the link swings tells the stiffness better than how far.
     train = {f"{name}{one.joint}": shape[name] for name in ("Iam", "k") if name in shape}
     return ({"gap": found} if one.effect == "backlash" else {}), train

@@ -4,33 +4,38 @@ makes other ones, and how far each of them swings.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from generator.robot.description import ParameterSet
 from generator.symbolic.model import Model
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, TOGETHER, damped, names
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.verdict.stated_swings import swing
 
-#: Part of their torques that runs show of the file's elastic drive trains if these swing at all.
-_SWINGING = 0.5
 #: Kinds of what changes no base parameter that the searched model has as well.
 _APART = {EFFECT, ELASTIC}
 
 
-def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: Sequence[Addition]) -> ParameterSet:
-    """The set ``rigid`` of ``model`` with those base parameters in it that the searched model has alike, as all runs
-    tell them beside all that was found; as it is where no drive train is elastic, or what was added changes them.
+def has_swings(found: Search, additions: Collection[Addition]) -> bool:
+    """Whether a model with ``additions`` plays with swings: of drive trains of the file, or of those that were found,
+    unless what else was added changes the base parameters, which the search then does not tell.
     """
     kinds = {one.kind for one in additions}
-    if not (ELASTIC in kinds or _shown(found)) or not kinds <= _APART:
-        return rigid
-    solution, covariance = found.weighing.fitted(found.variants, True)
+    return (ELASTIC in kinds or swing(found)) and kinds <= _APART
+
+
+def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigid: ParameterSet) -> ParameterSet:
+    """The set ``rigid`` of ``model`` with those base parameters in it that the searched model has alike, as all runs
+    tell them beside the ``findings``.
+    """
+    solution, covariance = found.weighing.fitted(_variants(found, findings), True)
     values, bank = found.bank.values(solution), found.bank
     std = dict(zip(bank.base, np.sqrt(np.maximum(covariance.diagonal(), 0.0)).tolist(), strict=False))
     searched, own = bank.scenes[0].regressors.model.grouping.numeric(), model.grouping.numeric()
@@ -44,25 +49,39 @@ def beside_swings(found: Search, model: Model, rigid: ParameterSet, additions: S
 
 def without_findings(found: Search) -> dict[str, float]:
     """Base parameters of the searched model [SI], and what the file's elastic drive trains have, as all runs tell them
-    without anything that was found; nothing where none of these swings.
+    without anything that was found.
     """
-    return found.bank.values(found.weighing.fitted((), True)[0]) if _shown(found) else {}
+    return found.bank.values(found.weighing.fitted((), True)[0])
 
 
-def swinging(found: Search, findings: Sequence[Finding] = ()) -> dict[str, float]:
+def drive_trains(found: Search, findings: Sequence[Finding]) -> dict[str, float]:
     """What the elastic drive trains of the file, where they swing, and of ``findings`` have, by the names of
     ``stated_elasticity``.
     """
-    own = {name: found.values[name] for name in names(found.bank.robot)} if _shown(found) else {}
+    result: dict[str, float] = {}
+    if swing(found):
+        fitted = found.bank.values(found.weighing.fitted(_variants(found, findings), True)[0])
+        result = {name: fitted[name] for name in names(found.bank.robot)}
     for one in findings:
         if one.hypothesis.kind == ELASTIC:
             (number,) = one.joints
-            own |= damped(number, one.shape["damping"])
-            own[f"{BOUNCING}{number}" if one.hypothesis.effect == "backlash" else TOGETHER] = 1.0
-    return own
+            # What the file said of its stiffness, the values were about.
+            result = {name: x for name, x in result.items() if name == TOGETHER or not _is_of(name, number)}
+            result |= damped(number, one.shape["damping"])
+            result.setdefault(f"{BOUNCING}{number}" if one.hypothesis.effect == "backlash" else TOGETHER, 1.0)
+    return result
 
 
-def _shown(found: Search) -> bool:
-    """Whether the runs show the swings of the file's elastic drive trains: others may be of a rigid robot."""
-    of_trains = [name for name in names(found.bank.robot) if name == TOGETHER or name.startswith(BOUNCING)]
-    return any(found.values[name] > _SWINGING for name in of_trains)
+def swinging_joints(found: Search, findings: Sequence[Finding], flexible: Sequence[int]) -> tuple[int, ...]:
+    """Of the ``flexible`` joints, by number, those of ``findings``, and the file's where they swing."""
+    own = {number for one in findings if one.hypothesis.kind == ELASTIC for number in one.joints}
+    return tuple(number for number in flexible if number in own or swing(found))
+
+
+def _variants(found: Search, findings: Sequence[Finding]) -> list[Variant]:
+    keys = {one.hypothesis.key for one in findings}
+    return [one for one in found.variants if one.key in keys]
+
+
+def _is_of(name: str, number: int) -> bool:
+    return name.removeprefix(name.rstrip("0123456789")) == str(number)

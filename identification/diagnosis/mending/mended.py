@@ -9,19 +9,17 @@ from pathlib import Path
 from generator.generation import Stage, silent
 from generator.robot.description import Robot
 from generator.writing import replace
-from identification.diagnosis.columns.hypothesis import ELASTIC
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis
-from identification.diagnosis.mending.beside_swings import swinging, without_findings
+from identification.diagnosis.mending.before import Before
+from identification.diagnosis.mending.beside_swings import without_findings
 from identification.diagnosis.mending.changes import difference, groupings_difference
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.refit import SET, Refit, refit
 from identification.diagnosis.mending.untouched import Untouched, objections, untouched
 from identification.diagnosis.mending.without_harm import without_harm
 from identification.diagnosis.mending.written_model import WrittenModel, prepared_runs, sampled_runs, written_model
-from identification.diagnosis.runs.played import Played, Player, aligned, compiled, play, together
-from identification.diagnosis.runs.prepared import Prepared
-from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.runs.played import Played, Player, compiled, play, together
 from identification.diagnosis.verdict.finding import Finding
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
@@ -72,22 +70,24 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     with stage("fitting the parameters with what was found"):
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
         refitted = refit(sampled_runs(found.roles.searched, old_regressors), old_regressors, as_known).written
-        refitted |= without_findings(found.search)
-        values = refitted
+        beside, old = without_findings(found.search), Player(old_regressors)
+        runs = [*prepared_runs(found.roles.test, old_regressors)]
+        fitted = before = Before(runs, old, refitted, beside)
         if as_known is not None:
-            values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True)) | swinging(found.search)
-        runs, old = [*prepared_runs(found.roles.test, old_regressors)], Player(old_regressors)
+            values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
+            trains = {name: x for name, x in beside.items() if name not in values}
+            before = Before(runs, old, values, trains)
 
         def model_of(findings: Sequence[Finding]) -> WrittenModel:
             return written_model(old_text, name, found, findings, prior)
 
         def tried_with(model: WrittenModel) -> dict[int, Untouched]:
             played = _played(found.roles.test, Player(model.regressors), model.played)
-            return untouched(bank, *_beside(runs, old, refitted, played))
+            return untouched(bank, *fitted.and_after(played, model.swings))
 
         whole = model_of(found.findings)
         model, harmful = without_harm(whole, model_of, tried_with)
-    new, fit, additions = model.repaired, model.fit, model.additions
+    new, fit = model.repaired, model.fit
     text = with_parameter_set(new.text, fit.parameter_set)
     if model.flexible is not None:
         text = with_parameter_set(text, model.flexible)
@@ -95,24 +95,21 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, model.played)
-        before, after = _beside(runs, old, values, played)
-        without = (before, after) if prior is None else _beside(runs, old, refitted, played)
-    elastic = any(one.kind == ELASTIC for one in additions) or bool(stated(found.robot))
-    tried = untouched(bank, before, after)
+        pair, without = (one.and_after(played, model.swings) for one in (before, fitted))
+    tried = untouched(bank, *pair)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
     if prior is not None:
-        rigid = all(one.hypothesis.kind == ELASTIC for one in model.findings)
-        told += _gain(*without, found.roles.tested, rigid) if model.findings else [_FITTED]
-    told += objections(untouched(bank, *without), found.roles.tested, elastic, left_out)
+        told += _gain(*without, found.roles.tested) if model.findings else [_FITTED]
+    told += objections(untouched(bank, *without), found.roles.tested, left_out)
     return Mended(
         text=text,
         robot=new.robot,
         fit=fit,
         written=model.findings,
         tested=tuple(one.sampled for one in runs),
-        before=before,
-        after=after,
+        before=pair[0],
+        after=pair[1],
         tried=tried,
         file_difference=difference(old_text, text, name),
         groupings_difference=groupings_difference(old_regressors.model, fit.regressors.model),
@@ -121,28 +118,19 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     )
 
 
-def _beside(
-    runs: Sequence[Prepared], old: Player, values: Mapping[str, float], new: Sequence[Played]
-) -> tuple[tuple[Played, ...], tuple[Played, ...]]:
-    """Runs as an old model plays them and as the ``new`` one did, over the rows that both have."""
-    pairs = [aligned(play(one, old, values), now) for one, now in zip(runs, new, strict=True)]
-    before, after = zip(*pairs, strict=True)
-    return before, after
-
-
-def _gain(without: Sequence[Played], after: Sequence[Played], runs: str, rigid: bool) -> Iterator[str]:
+def _gain(without: Sequence[Played], after: Sequence[Played], runs: str) -> Iterator[str]:
     """What the findings do on ``runs``, in words, beside a fit: a prior's values alone are further off than what the
-    runs make of them. ``rigid`` tells that all findings are of drive trains, which the model that plays leaves out.
+    runs make of them.
     """
     old, new = (together(one).total for one in (without, after))
     if not (old.rows and new.rows):
         return
     left, now = old.relative_to_mean, new.relative_to_mean
     alike = _ALIKE * left < now < left / _ALIKE
-    why = "the rigid model plays both" if rigid else "parameters that move away from the prior may explain as much"
+    why = ": parameters that move away from the prior may explain as much" if alike else ""
     yield (
         f"fitted to the same runs near the same prior, the model without what was found leaves {left:.3g} % of the "
-        f"{runs}, the one with it {now:.3g} %{f': {why}' if alike else ''}"
+        f"{runs}, the one with it {now:.3g} %{why}"
     )
 
 

@@ -54,7 +54,7 @@ class Refit:
 
     @property
     def written(self) -> dict[str, float]:
-        """The base parameters as the set tells them, 0 where it leaves them out: what the robot file plays with."""
+        """The base parameters as the set tells them, 0 where it leaves them out: what the rigid model plays with."""
         told = self.parameter_set.values
         return {name: rounded(told[name].value) if name in told else 0.0 for name in self.values}
 

@@ -59,15 +59,12 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     }
 
 
-def objections(
-    tried: Mapping[int, Untouched], runs: str, elastic: bool = False, unwritten: Collection[int] = ()
-) -> list[str]:
+def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[int] = ()) -> list[str]:
     """What ``runs`` (in words) on which models were ``tried`` say against the one after: joints that it explains less
     well, or not down to the noise.
 
-    A share is that of the torque's spread. Of a robot with ``elastic`` joints a rigid model leaves more than noise,
-    on the other joints too, which the links' inertia couples with them; so does one without what was found and is
-    ``unwritten``, on joints by number.
+    A share is that of the torque's spread. A model without what was found and is ``unwritten``, on joints by number,
+    leaves more than noise there.
     """
     worse = [
         f"joint {number} ({one.before.relative_to_mean:.3g} % without what was found, "
@@ -78,7 +75,7 @@ def objections(
     lacking = [
         f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
         for number, one in tried.items()
-        if not elastic and number not in unwritten and one.after.relative_to_mean > _LACKING * one.relative_floor
+        if number not in unwritten and one.after.relative_to_mean > _LACKING * one.relative_floor
     ]
     notes = []
     if worse:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 
 from generator.robot.description import ParameterSet, Robot
@@ -13,13 +13,19 @@ from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.priors import preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending.addition import Addition, addition, measured
-from identification.diagnosis.mending.beside_swings import beside_swings, swinging
+from identification.diagnosis.mending.beside_swings import (
+    beside_swings,
+    drive_trains,
+    has_swings,
+    swinging_joints,
+)
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
 from identification.diagnosis.mending.refit import Refit, refit, with_payload
 from identification.diagnosis.mending.repair import Repaired, as_written, repaired
 from identification.diagnosis.mending.writable import loaded, writable
 from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.observation import Regressors
 from identification.outcome import Value
@@ -33,7 +39,8 @@ class WrittenModel:
     torque; its parameters, and what is to be told of both.
 
     ``flexible`` is the set of the model with elastic drive trains, None where the file has none. What plays are
-    ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing.
+    ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing, if
+    they do (``swings``).
     """
 
     findings: tuple[Finding, ...]
@@ -41,6 +48,7 @@ class WrittenModel:
     repaired: Repaired
     fit: Refit
     flexible: ParameterSet | None
+    swings: bool
     regressors: Regressors
     played: Mapping[str, float]
     notes: tuple[str, ...]
@@ -59,10 +67,12 @@ def written_model(
     known = None if prior is None else _prior(prior, regressors, held)
     said, given = _description(held), _given(entered, new.robot)
     fit = refit(sampled_runs(found.roles.searched, regressors), regressors, known, said, given)
-    bodies = beside_swings(found.search, fit.regressors.model, fit.parameter_set, additions)
+    swings, bodies, played = has_swings(found.search, additions), fit.parameter_set, fit.written
+    if swings:
+        bodies = beside_swings(found.search, held, fit.regressors.model, bodies)
+        played |= {name: rounded(one.value) for name, one in bodies.values.items()}
+        played |= drive_trains(found.search, held)
     flexible = _flexible(bodies, fit, additions)
-    sets = {} if flexible is None else {FLEXIBLE: flexible}
-    beside = {} if bodies is fit.parameter_set else {name: rounded(one.value) for name, one in bodies.values.items()}
     stated_aside = [one.evidence for one in aside if one in additions]
     return WrittenModel(
         findings=held,
@@ -70,18 +80,31 @@ def written_model(
         repaired=new,
         fit=fit,
         flexible=flexible,
-        regressors=fit.regressors.of_sets({**sets, **fit.regressors.model.robot.parameter_sets}),
-        played={**fit.written, **beside, **swinging(found.search, held)},
+        swings=swings,
+        regressors=fit.regressors.described(_with(fit.regressors.model.robot, flexible, found.search, held)),
+        played=played,
         notes=(*stated_aside, *unwritten, *new.notes, *fit.notes),
     )
 
 
 def _flexible(bodies: ParameterSet, fit: Refit, additions: Sequence[Addition]) -> ParameterSet | None:
-    """The set with the drive trains that were added; also where the file has one, of other parameters."""
-    model, drive_trains = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
-    if not drive_trains and FLEXIBLE not in model.robot.parameter_sets:
+    """The set of ``bodies`` beside swings, if there are any, and of the drive trains that were added; also where the
+    file has one, of other parameters.
+    """
+    model, added = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
+    if bodies is fit.parameter_set and not added and FLEXIBLE not in model.robot.parameter_sets:
         return None
-    return flexible_set(model, bodies, drive_trains)
+    return flexible_set(model, bodies, added)
+
+
+def _with(robot: Robot, flexible: ParameterSet | None, found: Search, findings: Sequence[Finding]) -> Robot:
+    """The robot whose first set is the ``flexible`` one, if there is one, and of which those joints are elastic that
+    swing.
+    """
+    sets = robot.parameter_sets
+    if flexible is not None:
+        sets = {FLEXIBLE: flexible, **{name: one for name, one in sets.items() if name != FLEXIBLE}}
+    return replace(robot, parameter_sets=sets, flexible=swinging_joints(found, findings, robot.flexible))
 
 
 def prepared_runs(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
@@ -97,7 +120,7 @@ def sampled_runs(sources: Sequence[str], regressors: Regressors) -> list[Sampled
 
 
 def _addition(one: Finding) -> Addition:
-    return addition(one.hypothesis, one.shape, one.known, f"{one.hypothesis.title}, {one.status}", one.amplitude)
+    return addition(one.hypothesis, one.told_shape, one.known, f"{one.hypothesis.title}, {one.status}", one.amplitude)
 
 
 def _given(entered: Sequence[tuple[Finding, Addition]], robot: Robot) -> dict[str, Value]:

@@ -77,7 +77,7 @@ class LinkSide:
         """The same with another share of the whole inertia on the motor's side, unless that is a base parameter of its
         own.
         """
-        if rotor_is_fitted(self.scene, self.k):
+        if rotor_is_apart(self.scene, self.k):
             return replace(self, rotor=rotor)
         load = self.load - (rotor - self.rotor) * self.scene.motion.qdd[self.k]
         by_acceleration = self.by_acceleration.copy()
@@ -198,7 +198,7 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     return result
 
 
-def rotor_is_fitted(scene: Scene, k: int) -> bool:
+def rotor_is_apart(scene: Scene, k: int) -> bool:
     """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell, or was found
     as an effect of its own.
     """
@@ -236,7 +236,7 @@ def usual_rotor(scene: Scene, k: int) -> float:
 def _told_rotor(scene: Scene, k: int) -> float | None:
     robot = scene.robot
     number = robot.moving[k].number
-    if rotor_is_fitted(scene, k):
+    if rotor_is_apart(scene, k):
         return scene.values.get(f"Ia{number}", scene.found(f"Ia{number}"))
     return told(robot, f"Ia{number}", f"Iam{number}")
 

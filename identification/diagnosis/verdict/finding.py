@@ -15,6 +15,8 @@ FIRM, TENTATIVE = "firm", "tentative"
 #: Standard deviation of a value beyond which runs do not tell it, in parts of it; of a shape whose zero means nothing
 #: in parts of its grid's step.
 _VAGUE = 0.5
+#: Part of a value's standard deviation below which that of the same value told another way is clearly less.
+_BETTER = 0.5
 #: Significant digits of a value without a standard deviation, and most of one with it.
 _DIGITS, _MOST = 4, 6
 
@@ -110,6 +112,19 @@ class Finding:
     def known(self) -> dict[str, float]:
         """Coefficients [SI] by name, without those that the runs do not show."""
         return {name: one.value for name, one in self.parameters.items() if one.value is not None}
+
+    @property
+    def told_shape(self) -> dict[str, float]:
+        """The shape, with the value of the coefficient in the place of the one that is the same by another way
+        (``Hypothesis.twice``) where the runs tell the coefficient better. How fast a link swings tells a stiffness
+        better than how far, unless it is too fast to be seen.
+        """
+        result = dict(self.shape)
+        for name, (other, power) in self.hypothesis.twice.items():
+            one, std = self.parameters[name], self.shape_std.get(other)
+            if one.value and std is not None and one.std / one.value < _BETTER * std / self.shape[other]:
+                result[other] = one.value**power
+        return result
 
     @property
     def homogeneous(self) -> bool:

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-import numpy as np
-
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import on_joints
 from identification.diagnosis.runs.prepared import Prepared
-from identification.diagnosis.runs.stated_elasticity import TOGETHER, stated
+from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.lack_of_fit import Lack
+from identification.diagnosis.verdict.stated_swings import stiffer
 from identification.diagnosis.verdict.trial import Trial, comparable
 from identification.diagnosis.verdict.unexplained import Unexplained
-
-#: Part of the torque of the file's elastic drive trains below which they are none, by so many standard deviations.
-_ELASTIC, _SURE = 0.5, 4.0
 
 #: What a finding is told with, by its effect: what else makes the same torque.
 _LIKE = {
@@ -53,14 +49,10 @@ def of_elasticity(found: Search) -> list[str]:
     where = on_joints(one.number for one in trains)
     notes = [
         f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
-        "stiffnesses, on the untouched runs too, beside the generated inverse dynamics of rigid joints"
+        "stiffnesses, beside the inverse dynamics of rigid joints"
     ]
-    if TOGETHER in found.values:
-        at = found.bank.base.index(TOGETHER)
-        part, std = found.values[TOGETHER], float(np.sqrt(found.covariance[at, at]))
-        if part + _SURE * std < _ELASTIC:
-            shown = 100 * max(part, 0.0)
-            notes.append(f"the runs show {shown:.0f} % of that torque: these drive trains are stiffer than stated")
+    if (shown := stiffer(found)) is not None:
+        notes.append(f"the runs show {100 * shown:.0f} % of that torque: these drive trains are stiffer than stated")
     return notes
 
 

@@ -100,7 +100,8 @@ def verdict(subject: Subject) -> Iterator[str]:
         if found.after.event not in ("", found.after.region):
             yield f"Something happens there {found.after.event}."
     if found.findings:
-        yield f"The findings below are therefore tentative: {_named(found.findings)}."
+        therefore = "" if found.reason == PATCHED else " therefore tentative"
+        yield f"The findings below are{therefore}: {_named(found.findings)}."
 
 
 def _otherwise(contradicted: Sequence[Contradicted]) -> Iterator[str]:
