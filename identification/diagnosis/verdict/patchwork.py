@@ -14,13 +14,13 @@ _SEVERAL = 3
 
 
 def patched(found: Sequence[Finding]) -> int:
-    """The number of the joint that takes several tentative findings that act for certain and no firm one, the first by
-    evidence; 0 if none does. What acts on several joints is of none.
+    """The number of the joint that takes several tentative findings and no firm one, the first by evidence; 0 if none
+    does. What acts on several joints is of none.
     """
     by_joint: dict[int, list[Finding]] = defaultdict(list)
     for one in found:
         by_joint[one.hypothesis.joint].append(one)
     for number, several in by_joint.items():
-        if number and len(several) >= _SEVERAL and all(one.sure and one.status != FIRM for one in several):
+        if number and len(several) >= _SEVERAL and all(one.status != FIRM for one in several):
             return number
     return 0
