@@ -16,11 +16,9 @@ from identification.report.diagnose.report import report
 from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
 
 
-def found(*said: tuple[int, str], sure: bool = True) -> list[Any]:
+def found(*said: tuple[int, str]) -> list[Any]:
     """Findings by the joint of their hypothesis, 0 for one of several joints, and status."""
-    return [
-        SimpleNamespace(hypothesis=SimpleNamespace(joint=joint), status=status, sure=sure) for joint, status in said
-    ]
+    return [SimpleNamespace(hypothesis=SimpleNamespace(joint=joint), status=status) for joint, status in said]
 
 
 @pytest.mark.parametrize(
@@ -36,7 +34,6 @@ def found(*said: tuple[int, str], sure: bool = True) -> list[Any]:
 )
 def test_a_joint_is_patched_by_three_findings_of_which_none_is_firm(said: list[tuple[int, str]], joint: int) -> None:
     assert patched(found(*said)) == joint
-    assert patched(found(*said, sure=False)) == 0
 
 
 def test_a_joint_that_is_patched_is_unexplained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
