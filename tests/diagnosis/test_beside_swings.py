@@ -81,7 +81,13 @@ def test_base_parameters_are_those_beside_what_the_model_holds() -> None:
     found = searched(TWO_LINKS)
     found.variants = [SimpleNamespace(key=held.hypothesis.key), SimpleNamespace(key=("other", 2))]
     assert {one.value for one in beside_swings(found, [held], MODEL, RIGID).values.values()} == {108.0}
-    assert set(without_findings(found).values()) == {8.0}
+
+
+def test_the_old_model_swings_where_the_file_s_drive_trains_do() -> None:
+    assert without_findings(searched(TWO_LINKS)) == without_findings(searched(STATED, 0.2, 0.05)) == {}
+    swings = without_findings(searched(STATED, 0.9, 0.05))
+    assert swings["elasticity"] == 0.9
+    assert {swings[name] for name in NAMES} == {8.0}
 
 
 @pytest.mark.parametrize(

@@ -49,9 +49,9 @@ def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigi
 
 def without_findings(found: Search) -> dict[str, float]:
     """Base parameters of the searched model [SI], and what the file's elastic drive trains have, as all runs tell them
-    without anything that was found.
+    without anything that was found; nothing where none of these swings.
     """
-    return found.bank.values(found.weighing.fitted((), True)[0])
+    return found.bank.values(found.weighing.fitted((), True)[0]) if swing(found) else {}
 
 
 def drive_trains(found: Search, findings: Sequence[Finding]) -> dict[str, float]:
