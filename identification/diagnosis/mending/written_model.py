@@ -81,7 +81,7 @@ def written_model(
         fit=fit,
         flexible=flexible,
         swings=swings,
-        regressors=fit.regressors.described(_with(fit.regressors.model.robot, flexible, found.search, held)),
+        regressors=fit.regressors.described(_as_played(fit.regressors.model.robot, flexible, found.search, held)),
         played=played,
         notes=(*stated_aside, *unwritten, *new.notes, *fit.notes),
     )
@@ -97,7 +97,7 @@ def _flexible(bodies: ParameterSet, fit: Refit, additions: Sequence[Addition]) -
     return flexible_set(model, bodies, added)
 
 
-def _with(robot: Robot, flexible: ParameterSet | None, found: Search, findings: Sequence[Finding]) -> Robot:
+def _as_played(robot: Robot, flexible: ParameterSet | None, found: Search, findings: Sequence[Finding]) -> Robot:
     """The robot whose first set is the ``flexible`` one, if there is one, and of which those joints are elastic that
     swing.
     """
