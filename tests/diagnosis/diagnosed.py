@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -122,10 +121,7 @@ def fitted(columns: Array, truth: Array, kept: Array, scene: Scene) -> tuple[Arr
 
 def with_robot(scene: Scene, robot: Described) -> Scene:
     """The scene of a robot that says more of itself."""
-    regressors = copy(scene.regressors)
-    regressors.model = copy(regressors.model)
-    regressors.model.robot = robot
-    return replace(scene, regressors=regressors)
+    return replace(scene, regressors=scene.regressors.described(robot))
 
 
 @dataclass(frozen=True)

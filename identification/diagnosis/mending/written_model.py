@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from generator.robot.description import ParameterSet, Robot
+from generator.symbolic.model import Model
 from identification import recipe as recipes
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT
 from identification.diagnosis.columns.normal_equations import Prior
@@ -35,8 +36,8 @@ from identification.sampling import Sampled
 
 @dataclass(frozen=True, kw_only=True)
 class WrittenModel:
-    """The ``findings`` that a ``repaired`` robot file holds, as the ``additions`` do beside what was measured without
-    torque; its parameters, and what is to be told of both.
+    """The ``findings`` that a ``repaired`` robot file holds, beside what was measured without torque; its parameters,
+    and what is to be told of both.
 
     ``flexible`` is the set of the model with elastic drive trains, None where the file has none. What plays are
     ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing, if
@@ -44,7 +45,6 @@ class WrittenModel:
     """
 
     findings: tuple[Finding, ...]
-    additions: tuple[Addition, ...]
     repaired: Repaired
     fit: Refit
     flexible: ParameterSet | None
@@ -72,11 +72,10 @@ def written_model(
         bodies = beside_swings(found.search, held, fit.regressors.model, bodies)
         played |= {name: rounded(one.value) for name, one in bodies.values.items()}
         played |= drive_trains(found.search, held)
-    flexible = _flexible(bodies, fit, additions)
+    flexible = _flexible(bodies, fit.regressors.model, additions, swings)
     stated_aside = [one.evidence for one in aside if one in additions]
     return WrittenModel(
         findings=held,
-        additions=tuple(additions),
         repaired=new,
         fit=fit,
         flexible=flexible,
@@ -87,12 +86,12 @@ def written_model(
     )
 
 
-def _flexible(bodies: ParameterSet, fit: Refit, additions: Sequence[Addition]) -> ParameterSet | None:
-    """The set of ``bodies`` beside swings, if there are any, and of the drive trains that were added; also where the
+def _flexible(bodies: ParameterSet, model: Model, additions: Sequence[Addition], swings: bool) -> ParameterSet | None:
+    """The set of ``bodies`` and of the drive trains that were added, where there are any, or ``swings``; also where the
     file has one, of other parameters.
     """
-    model, added = fit.regressors.model, {key: x for one in additions for key, x in one.parameters.items()}
-    if bodies is fit.parameter_set and not added and FLEXIBLE not in model.robot.parameter_sets:
+    added = {key: x for one in additions for key, x in one.parameters.items()}
+    if not (swings or added or FLEXIBLE in model.robot.parameter_sets):
         return None
     return flexible_set(model, bodies, added)
 

@@ -105,14 +105,11 @@ class Played:
 def play(one: Prepared, player: Player, values: Mapping[str, float]) -> Played:
     """A run's torques beside the model's along its filtered motion, in the rows that a diagnosis looks at.
 
-    ``values`` are those of the base parameters by name [SI], of a payload that the run's sidecar does not tell, and of
-    the file's elastic drive trains (``stated_elasticity``), which the inverse dynamics of rigid joints leaves out.
+    ``values`` are those of the base parameters by name [SI], and of the file's elastic drive trains
+    (``stated_elasticity``), which the inverse dynamics of rigid joints leaves out.
     """
-    motion, payload = one.sampled.motion, one.sampled.run.payload
-    model = player.torques(values, motion) + stated_elasticity.torque(Scene(one.sampled, player.regressors, values))
-    if payload is not None:
-        body = np.array([payload.known.get(stem, values.get(name, 0.0)) for stem, name in payload.names().items()])
-        model = model + np.stack([body @ columns for columns in player.regressors.payload(motion)])
+    scene = Scene(one.sampled, player.regressors, values)
+    model = player.torques(values, scene.motion) + scene.carried(scene.motion) + stated_elasticity.torque(scene)
     return Played(one.t, one.tau, one.decimated(model), one.kept)
 
 
