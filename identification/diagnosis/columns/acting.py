@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from generator.effects.library import library
 from identification.diagnosis.columns.bank import Bank, Variant
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, VALUE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 
@@ -47,7 +47,7 @@ class Acting:
     def again(self) -> bool:
         """Whether columns depend on what was found: on the model's torque, or on the load of a transmission."""
         on_load = len(self.variants) > 1 and any(one.hypothesis.variable == "load" for one in self.variants)
-        return on_load or any(one.hypothesis.kind != EFFECT for one in self.variants)
+        return on_load or any(one.hypothesis.kind not in (EFFECT, VALUE) for one in self.variants)
 
     def near(self, before: Acting) -> bool:
         """Whether another search, in whose columns ``before`` acts, would find the same."""
@@ -68,7 +68,7 @@ class Acting:
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
-        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY))
+        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY, VALUE))
 
     def _sum(self, scene: Scene, counts: Callable[[Hypothesis, Coefficient], bool]) -> Array:
         result = np.zeros_like(scene.motion.q)

@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
+#: What it becomes in the parameters alone: another value of one that the file has, which only what is known shows.
+VALUE = "value"
 
 #: What an effect shows over that changes where a joint turns round.
 SINCE_REVERSAL = "time since reversal"

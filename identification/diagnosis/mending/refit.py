@@ -137,6 +137,15 @@ def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, flo
     return prior
 
 
+def with_values(prior: Prior, regressors: Regressors, beyond: Mapping[str, Value]) -> Prior:
+    """What is known of the base parameters where parameters of the file by name are other ones by so much [SI]."""
+    grouped = regressors.model.grouping.numeric()
+    for name, more in beyond.items():
+        direction = np.array([grouped[base].get(name, 0.0) for base in regressors.names])
+        prior = prior.shifted(direction, more.value or 0.0, more.std)
+    return prior
+
+
 def _payload_in_base(regressors: Regressors) -> Array:
     """Base parameters per inertial parameter of a body in the tool frame (p x 10), by their torques."""
     shape = (regressors.model.dof, _SAMPLES)

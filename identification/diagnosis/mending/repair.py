@@ -14,11 +14,12 @@ from scipy.spatial.transform import Rotation
 from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.errors import InputError
+from generator.review.words import listed
 from generator.robot.description import Joint, Robot
 from generator.robot.sections.drives import element
 from generator.robot.signal_units import signal_unit
 from identification.corrections import NEVER, by_time
-from identification.diagnosis.columns.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, on_joints
+from identification.diagnosis.columns.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, VALUE, on_joints
 from identification.diagnosis.mending.addition import Addition
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
@@ -246,6 +247,10 @@ def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     return text, ["the payload is held by base parameters of the new set; the robot file gets no body for it"]
 
 
+def _keep(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    return text, [f"{listed(one.values)} of the new set has another value: the robot file has the effect already"]
+
+
 _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] = {
     EFFECT: _add_effect,
     SIGNAL: _add_signal,
@@ -253,6 +258,7 @@ _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] =
     BASE: _add_base,
     ELASTIC: _add_elastic,
     BODY: _add_body,
+    VALUE: _keep,
 }
 
 

@@ -9,7 +9,7 @@ from math import isfinite
 from generator.robot.description import ParameterSet, Robot
 from generator.symbolic.model import Model
 from identification import recipe as recipes
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, VALUE
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.priors import preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis
@@ -22,7 +22,7 @@ from identification.diagnosis.mending.beside_swings import (
 )
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
-from identification.diagnosis.mending.refit import Refit, refit, with_payload
+from identification.diagnosis.mending.refit import Refit, refit, with_payload, with_values
 from identification.diagnosis.mending.repair import Repaired, as_written, repaired
 from identification.diagnosis.mending.writable import loaded, writable
 from identification.diagnosis.runs.prepared import Prepared, prepared
@@ -141,10 +141,12 @@ def _description(found: Sequence[Finding]) -> str:
 
 
 def _prior(name: str, regressors: Regressors, found: Sequence[Finding]) -> Prior:
-    """What the set says of the new model's base parameters, with a payload that was found."""
+    """What the set says of the new model's base parameters, with a payload and other values that were found."""
     prior = prior_of(regressors.model, name)
     for one in found:
         if one.hypothesis.kind == BODY:
             std = {name: one.parameters[name].std for name in one.known}
             prior = with_payload(prior, regressors, one.known, std)
+        elif one.hypothesis.kind == VALUE:
+            prior = with_values(prior, regressors, one.parameters)
     return prior

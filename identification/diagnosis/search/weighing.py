@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
-from identification.diagnosis.columns.hypothesis import Hypothesis, Key
+from identification.diagnosis.columns.hypothesis import VALUE, Hypothesis, Key
 from identification.diagnosis.columns.normal_equations import (
     FAR,
     Normal,
@@ -383,8 +383,10 @@ class Weighing:
         whose: dict[Key, Hypothesis] = {}
         for variant in self.bank.variants:
             key = variant.key
-            hidden.setdefault(key, []).append(not self.visible(variant))
-            whose[key] = variant.hypothesis
+            # Of a value that the fit tells there is nothing to be shown.
+            if variant.hypothesis.kind != VALUE:
+                hidden.setdefault(key, []).append(not self.visible(variant))
+                whose[key] = variant.hypothesis
         taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
         nowhere = [one for key, one in self.bank.nowhere.items() if key not in hidden and not one.measured]
         return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]

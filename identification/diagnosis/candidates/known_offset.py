@@ -1,0 +1,49 @@
+"""Another torque offset than the one that is known of a joint: hoses, sensors and what rubs change from day to day.
+
+Where nothing is known beforehand a fit takes it up. Offsets are told by their size and not, as other parameters are, to
+a part of it: a little one may be another one many times over, and what else pulls at the joint would stand for that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generator.effects import offset
+from identification.diagnosis.columns.hypothesis import VALUE, Coefficient, Hypothesis
+from identification.diagnosis.runs.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
+    """One a joint that has an offset in the robot's file and moves: the coefficient is what it is beyond that."""
+    if not scenes:
+        return []
+    robot, effect = scenes[0].robot, offset.EFFECT
+    (parameter,) = effect.parameters
+    there = {number for use in robot.effects if use.effect == effect.id for number in use.joints}
+    return [
+        Hypothesis(
+            effect.id,
+            f"{effect.title} beyond the known one",
+            joint.number,
+            (Coefficient(f"{parameter.stem}{joint.number}", parameter.unit(joint)),),
+            partial(_columns, k),
+            kind=VALUE,
+            joints=(joint.number,),
+            variable="torque",
+            of_motion=True,
+        )
+        for k, joint in enumerate(robot.moving)
+        if joint.number in there and any(scene.moves(k) for scene in scenes)
+    ]
+
+
+def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
+    result = np.zeros((1, *scene.motion.q.shape))
+    result[0, k] = 1.0
+    return result
