@@ -102,7 +102,7 @@ def diagnose(
     if verdict == NAMED and (number := patched(named)):
         verdict, reason = UNEXPLAINED, PATCHED
         rest = located(last, [one for one in last.lack if one.joint == number])
-    named = doubted(few_rows.doubted(few, robot, named, small), other)
+    named = doubted(found, few_rows.doubted(few, robot, named, small), other)
     if named:
         before = led(before, named[0], last)
     notes = [

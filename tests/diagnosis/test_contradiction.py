@@ -57,12 +57,12 @@ def test_what_is_named_beside_friction_that_is_contradicted_is_not_firm(tmp_path
     assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("stribeck_friction", FIRM)]
     one = Contradicted("Fv1", found.search.bank.base.index("Fv1"), 5.0, TRUTH["Fv1"], 0.7, False, 1)
     for other, status in ((one, TENTATIVE), (replace(one, rubs=2), FIRM), (replace(one, rubs=0), FIRM)):
-        (finding,) = doubted(found.findings, [other])
+        (finding,) = doubted(found.search, found.findings, [other])
         assert finding.status == status
         said = ["the runs contradict Fv1, which another law may leave as known"]
         assert list(finding.doubts) == (said if status == TENTATIVE else [])
     of_all = replace(found.findings[0], hypothesis=replace(found.findings[0].hypothesis, effect="payload", kind=BODY))
-    assert doubted([of_all], [one]) == (of_all,)
+    assert doubted(found.search, [of_all], [one]) == (of_all,)
 
 
 def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:
@@ -121,3 +121,16 @@ def test_friction_that_depends_on_the_direction_is_named_beside_a_set(tmp_path: 
     assert one.hypothesis.effect == "asymmetric_viscous"
     values = {name: value.value or 0.0 for name, value in one.parameters.items()}
     assert values["Fvp1"] - values["Fvn1"] == pytest.approx(8.0, abs=0.8)
+
+
+def test_friction_that_depends_on_the_direction_is_firm_where_it_makes_the_known_one_another(tmp_path: Path) -> None:
+    """What is less one way than it is known takes another value of what is the same both ways: no other law."""
+
+    def more(q: Array, qd: Array) -> Array:
+        return 5.0 * np.abs(qd)
+
+    regressors, sources = recorded(tmp_path, [more] * 3, ARM + parameters_text({"known": TRUTH}))
+    found = diagnosis_of(sources, regressors, "known")
+    assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("asymmetric_viscous", FIRM)]
+    assert [one.name for one in found.contradicted] == ["Fv1"]
+    assert found.contradicted[0].found == pytest.approx(TRUTH["Fv1"] - 5.0, abs=1.0)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import inf
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Hypothesis
+from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, VALUE, Hypothesis
 from identification.diagnosis.search.likely import balances, common
 
 #: What lets the link come after the motor, or the log after both.
@@ -33,7 +33,8 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
     infinite where it cannot be beside one of them.
     """
     least, mine = 0.0, variant.hypothesis
-    if common(variant):
+    # What is common is missing likely enough; what is known may only seem to have another value.
+    if common(variant) and mine.kind != VALUE:
         return least
     there = {each.name for one in others for each in one.coefficients}
     if not there.issuperset(mine.beyond):

@@ -15,6 +15,7 @@ from generator.review.decimals import scientific
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
+from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 
@@ -72,24 +73,27 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     )
 
 
-def doubted(named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
+def doubted(found: Search, named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
     """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
-    as it is known.
+    as it is known, unless it is the same law, told by directions.
     """
-    return tuple(one.doubted(*_other_law(one, ones)) for one in named)
+    return tuple(one.doubted(*_other_law(_instead_of(found, one, ones))) for one in named)
 
 
-def _other_law(one: Finding, ones: Sequence[Contradicted]) -> list[str]:
-    names = _instead_of(one, ones)
+def _other_law(names: Sequence[str]) -> list[str]:
     return [f"the runs contradict {listed(names)}, which another law may leave as known"] if names else []
 
 
-def _instead_of(one: Finding, ones: Sequence[Contradicted]) -> list[str]:
+def _instead_of(found: Search, one: Finding, ones: Sequence[Contradicted]) -> list[str]:
     """Names of contradicted friction in whose place a friction may stand that was found."""
     effect = library().get(one.hypothesis.effect) if one.hypothesis.kind == EFFECT else None
     if effect is None or not effect.dissipates:
         return []
-    return [each.name for each in ones if each.rubs and each.rubs == one.hypothesis.joint]
+    there = [each for each in ones if each.rubs and each.rubs == one.hypothesis.joint]
+    every = found.bank.add(one.hypothesis, one.shape)
+    places = np.array([each.place for each in there], dtype=int)
+    alike = [] if every is None else known_friction.alike(found.weighing.normal, every.columns, places).tolist()
+    return [each.name for each in there if each.place not in alike]
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
