@@ -67,7 +67,7 @@ def test_the_new_set_holds_it_and_the_code_explains_the_untouched_run(tmp_path: 
     found, new, _ = diagnosed(path, read(path), wanted, out, lambda *_: {})
     assert new is not None
     assert [one.effect for one in new.robot.effects] == [one.effect for one in found.robot.effects]
-    assert [line for line in new.notes if line.startswith("Off1 of the new set has another value")]
+    assert [line for line in new.notes if line.startswith("the new set has Off1 with what was found")]
     written = read(out / "arm.yaml")
     assert written.parameter_sets["diagnosed"].values["Off1"].value == pytest.approx(MORE, abs=2.0)
     before, after = (each.residuals.per_joint[0] for each in (*new.before, *new.after))
@@ -94,4 +94,4 @@ def test_what_is_known_of_a_parameter_is_moved_and_widened(tmp_path: Path) -> No
 def test_a_value_leaves_the_text() -> None:
     found = repaired(KNOWN, "arm.yaml", [Addition(VALUE, "offset", (1,), values={"Off1": MORE})])
     assert found.text == KNOWN
-    assert found.notes == ("Off1 of the new set has another value: the robot file has the effect already",)
+    assert found.notes == ("the new set has Off1 with what was found: the robot file has the effect already",)

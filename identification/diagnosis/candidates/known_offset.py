@@ -1,7 +1,8 @@
 """Another torque offset than the one that is known of a joint: hoses, sensors and what rubs change from day to day.
 
-Where nothing is known beforehand a fit takes it up. Offsets are told by their size and not, as other parameters are, to
-a part of it: a little one may be another one many times over, and what else pulls at the joint would stand for that.
+Where nothing is known beforehand a fit takes it up. A parameter set tells standard deviations as parts of the values:
+of an offset, which may be next to nothing, that is no measure of how far it moves, and springs or balancers would stand
+for the difference.
 """
 
 from __future__ import annotations

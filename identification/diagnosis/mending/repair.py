@@ -248,7 +248,7 @@ def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
 
 
 def _keep(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
-    return text, [f"{listed(one.values)} of the new set has another value: the robot file has the effect already"]
+    return text, [f"the new set has {listed(one.values)} with what was found: the robot file has the effect already"]
 
 
 _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] = {
