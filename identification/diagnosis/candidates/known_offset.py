@@ -7,17 +7,12 @@ for the difference.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import partial
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Sequence
 
 from generator.effects import offset
+from identification.diagnosis.columns.effect_columns import EffectColumns
 from identification.diagnosis.columns.hypothesis import VALUE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -33,7 +28,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             f"{effect.title} beyond the known one",
             joint.number,
             (Coefficient(f"{parameter.stem}{joint.number}", parameter.unit(joint)),),
-            partial(_columns, k),
+            EffectColumns(effect, joint, k, robot),
             kind=VALUE,
             joints=(joint.number,),
             variable="torque",
@@ -42,9 +37,3 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         for k, joint in enumerate(robot.moving)
         if joint.number in there and any(scene.moves(k) for scene in scenes)
     ]
-
-
-def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    result = np.zeros((1, *scene.motion.q.shape))
-    result[0, k] = 1.0
-    return result

@@ -139,9 +139,8 @@ def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, flo
 
 def with_values(prior: Prior, regressors: Regressors, beyond: Mapping[str, Value]) -> Prior:
     """What is known of the base parameters where parameters of the file by name are other ones by so much [SI]."""
-    grouped = regressors.model.grouping.numeric()
     for name, more in beyond.items():
-        direction = np.array([grouped[base].get(name, 0.0) for base in regressors.names])
+        direction = np.array(regressors.model.grouping.coefficients(name))
         prior = prior.shifted(direction, more.value or 0.0, more.std)
     return prior
 
