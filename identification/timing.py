@@ -16,7 +16,7 @@ from identification.recording import Array, Recording
 _EVEN, _GAP = 0.02, 0.5
 #: By how much, in periods, a clock that jitters is early or late at most, and the part of the positions' roughness by
 #: its times that is left without it.
-_OFF, _SMOOTHER = 0.4, 0.5
+_OFF, _SMOOTHER = 0.4, 0.8
 #: Samples in a row that a spline stands for, and the part of a run that may be lost.
 _IN_A_ROW, _LOST = 4, 0.1
 #: Steps in a row of which this many are of several samples at another rate: single ones that are lost come as close by
@@ -114,7 +114,7 @@ def _near(t: Array, sample: NDArray[np.int_]) -> bool:
 
 
 def jitters(ticks: Clock, x: Array) -> bool:
-    """Whether signals (n x M) that are smooth are far smoother without the unevenness of their rows' times: it is of
+    """Whether signals (n x M) that are smooth are smoother without the unevenness of their rows' times: it is of
     the clock, not of the rows. A clock that drifts is uneven and as smooth.
     """
     if not ticks.uneven or len(ticks.t) < 5 or np.max(np.abs(ticks.t - ticks.steady.t)) > 2 * _OFF * ticks.period:

@@ -34,6 +34,17 @@ def test_rows_at_even_times_whose_clock_jitters_are_taken_as_even(
     assert np.abs(run.q - stacked(good, "q")).max() < 1e-9
 
 
+def test_coarse_positions_whose_clock_jitters_are_taken_as_even(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    """Their steps are as rough by any times."""
+    t = good.columns["t"].copy()
+    speed = np.median([np.abs(np.gradient(good.columns[name], t)) for name in ("q1", "q2")])
+    t[1:-1] += 0.05 * 0.005 * np.random.default_rng(1).normal(size=1598)
+    step = 5 * 0.05 * 0.005 * speed
+    coarse = {name: step * np.round(good.columns[name] / step) for name in ("q1", "q2")}
+    run = load(str(good.with_columns(t=t, **coarse).save(tmp_path / "a.csv")), robot)
+    assert "times jitter; positions are smoother at even ones, which were taken" in run.notes[0]
+
+
 def test_a_clock_that_drifts_is_right(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     """Positions in steps are as rough by even times as by true ones."""
     t = good.columns["t"] + 5e-3 * np.sin(2 * np.pi * good.columns["t"] / 8.0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +105,8 @@ def diagnose(
     named = doubted(found, few_rows.doubted(few, robot, named, small), other)
     if named:
         before = led(before, named[0], last)
+    elif not before.joint:
+        before = replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),
@@ -133,8 +135,8 @@ def diagnose(
         steps=steps(found, trial),
         contradicted=other,
         reason=reason,
-        residuals_before=tuple(_residuals(found, start)),
-        residuals_after=tuple(_residuals(found, weights)),
+        residuals_before=tuple(found.bank.residuals(r, start) for r in range(len(runs))),
+        residuals_after=tuple(found.bank.residuals(r, weights) for r in range(len(runs))),
         notes=tuple(notes),
     )
 
@@ -144,10 +146,3 @@ def _invisible(found: Search) -> tuple[Hypothesis, ...]:
     chosen = {one.evidence.variant.key for one in found.choices}
     taken = {one.key: one for one in (*found.weighing.invisible(), *taken_up(found.weighing))}
     return tuple(one for key, one in taken.items() if key not in chosen)
-
-
-def _residuals(found: Search, weights: Mapping[int, float]) -> list[Array]:
-    bank = found.bank
-    return [
-        np.stack([bank.residual(r, k, weights, white=False) for k in range(bank.dof)]) for r in range(len(bank.runs))
-    ]

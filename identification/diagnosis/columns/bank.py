@@ -299,8 +299,12 @@ class Bank:
         weights = np.array([values.get(number, 0.0) for number in one.numbers])
         return np.asarray(rows[-1] - weights @ rows[:-1])
 
+    def residuals(self, run: int, values: Mapping[int, float]) -> Array:
+        """The same of all joints (n x N), as recorded."""
+        return np.stack([self.residual(run, joint, values, white=False) for joint in range(self.dof)])
+
     def left(self, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
-        """The same of all runs, one after the other: kept rows, white or as recorded."""
+        """What they leave of a joint in all runs, one after the other: kept rows, white or as recorded."""
         rows = [self.residual(r, joint, values, white) for r in range(len(self.runs))]
         if not white:
             rows = [each[run.kept[joint]] for run, each in zip(self.runs, rows, strict=True)]

@@ -16,9 +16,9 @@ from identification.diagnosis.mending.beside_swings import without_findings
 from identification.diagnosis.mending.changes import difference, groupings_difference
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.refit import SET, Refit, refit
-from identification.diagnosis.mending.untouched import Untouched, objections, untouched
+from identification.diagnosis.mending.untouched import Untouched, hardly_shown, objections, untouched
 from identification.diagnosis.mending.without_harm import without_harm
-from identification.diagnosis.mending.written_model import WrittenModel, prepared_runs, sampled_runs, written_model
+from identification.diagnosis.mending.written_model import WrittenModel, fitted_runs, prepared_runs, written_model
 from identification.diagnosis.runs.played import Played, Player, compiled, play, together
 from identification.diagnosis.verdict.finding import Finding
 from identification.robot_file import with_parameter_set
@@ -69,7 +69,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     old_regressors = bank.scenes[0].regressors
     with stage("fitting the parameters with what was found"):
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
-        refitted = refit(sampled_runs(found.roles.searched, old_regressors), old_regressors, as_known).written
+        refitted = refit(fitted_runs(found, old_regressors), old_regressors, as_known).written
         beside, old = without_findings(found.search), Player(old_regressors)
         runs = [*prepared_runs(found.roles.test, old_regressors)]
         fitted = before = Before(runs, old, refitted, beside)
@@ -101,7 +101,9 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
     if prior is not None:
         told += _gain(*without, found.roles.tested) if model.findings else [_FITTED]
-    told += objections(untouched(bank, *without), found.roles.tested, left_out)
+    without_them = untouched(bank, *without)
+    told += objections(without_them, found.roles.tested, left_out)
+    told += hardly_shown(without_them, found.roles.tested, model.findings)
     return Mended(
         text=text,
         robot=new.robot,

@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.effects.library import effects_of
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
 from identification.colour import inflation
-from identification.diagnosis.columns.normal_equations import Normal, Prior
+from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior
 from identification.diagnosis.columns.payload_body import PARAMETERS
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
@@ -43,7 +44,8 @@ class Refit:
     """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
 
     What the runs do not show has an infinite standard deviation, a value that only serves their torques, and no place
-    in the set. ``regressors`` are those with the load that the parameters make.
+    in the set. ``regressors`` are those with the load that the parameters make. ``contradicted`` are, by name, those of
+    bodies that are far from what was known of them.
     """
 
     values: Mapping[str, float]
@@ -51,6 +53,7 @@ class Refit:
     parameter_set: ParameterSet
     regressors: Regressors
     notes: tuple[str, ...]
+    contradicted: tuple[str, ...] = ()
 
     @property
     def written(self) -> dict[str, float]:
@@ -108,7 +111,18 @@ def refit(
         f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
         _values(regressors, values, std, solution),
     )
-    return Refit(values, std, written, regressors, tuple(notes))
+    far = () if prior is None else _far(prior, regressors, values, std)
+    return Refit(values, std, written, regressors, tuple(notes), far)
+
+
+def _far(
+    prior: Prior, regressors: Regressors, values: Mapping[str, float], std: Mapping[str, float]
+) -> tuple[str, ...]:
+    """Base parameters of bodies that are far from what was known."""
+    found, variance = (np.array([one[name] for name in regressors.names]) for one in (values, std))
+    effects = {name for one in effects_of(regressors.model.robot) for name in one.names}
+    far = prior.far(found, np.diag(variance**2)) > FAR
+    return tuple(name for name, is_far in zip(regressors.names, far, strict=True) if is_far and name not in effects)
 
 
 def _by_own_payloads(runs: Sequence[Sampled]) -> list[Sampled]:

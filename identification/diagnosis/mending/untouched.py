@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.played import Played, together
+from identification.diagnosis.verdict.finding import Finding
 from identification.residuals import Residual
 
 #: Least gap to the noise, in squares of the residual, of which a share is told.
@@ -87,3 +88,11 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
             " what the others did not"
         )
     return notes
+
+
+def hardly_shown(tried: Mapping[int, Untouched], runs: str, found: Sequence[Finding]) -> Iterator[str]:
+    """Findings whose joints are hardly further from the noise than it without them: ``runs`` tell nothing of them."""
+    for one in found:
+        mine = [tried[number] for number in one.amplitude if number in tried]
+        if mine and all(each.closed is None and not each.worse for each in mine):
+            yield f"{one.hypothesis.named} hardly shows on the {runs}: without it little more than noise is left there"

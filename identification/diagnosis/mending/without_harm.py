@@ -25,7 +25,7 @@ def without_harm(
 ) -> tuple[WrittenModel, list[str]]:
     """The ``model`` without tentative findings that make it worse than the old one on each of their joints and without
     which it is better there, those of least evidence first, then all together of the same joints; and what is to be
-    told.
+    told. What is known of bodies must not be contradicted in their place.
     """
     notes: list[str] = []
     doubtful = sorted((one for one in model.findings if one.status == TENTATIVE), key=lambda one: one.evidence.drop)
@@ -39,16 +39,20 @@ def without_harm(
             continue
         less = model_of([other for other in model.findings if other not in several])
         instead = tried_with(less)
-        if all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
-            told = [
-                f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
-                f"{instead[j].after.relative_to_mean:.3g} % without)"
-                for j in several[0].amplitude
-            ]
-            what = listed([one.hypothesis.named for one in several])
-            is_not, it = ("is not", "it") if len(several) == 1 else ("are not", "them")
-            notes.append(f"{what} {is_not} in the new model, which is worse with {it} on {', '.join(told)}")
-            model, tried = less, instead
+        what = listed([one.hypothesis.named for one in several])
+        if not all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
+            continue
+        if others := sorted(set(less.fit.contradicted).difference(model.fit.contradicted)):
+            notes.append(f"without {what} the runs make {listed(others)} other than known: the new model has it")
+            continue
+        told = [
+            f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
+            f"{instead[j].after.relative_to_mean:.3g} % without)"
+            for j in several[0].amplitude
+        ]
+        is_not, it = ("is not", "it") if len(several) == 1 else ("are not", "them")
+        notes.append(f"{what} {is_not} in the new model, which is worse with {it} on {', '.join(told)}")
+        model, tried = less, instead
     return model, notes
 
 

@@ -25,6 +25,7 @@ from identification.diagnosis.mending.flexible_set import flexible_set
 from identification.diagnosis.mending.refit import Refit, refit, with_payload, with_values
 from identification.diagnosis.mending.repair import Repaired, as_written, repaired
 from identification.diagnosis.mending.writable import loaded, writable
+from identification.diagnosis.noise.passing import without
 from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
@@ -66,7 +67,7 @@ def written_model(
     regressors = Regressors(preferring(new.robot, prior))
     known = None if prior is None else _prior(prior, regressors, held)
     said, given = _description(held), _given(entered, new.robot)
-    fit = refit(sampled_runs(found.roles.searched, regressors), regressors, known, said, given)
+    fit = refit(fitted_runs(found, regressors), regressors, known, said, given)
     swings, bodies, played = has_swings(found.search, additions), fit.parameter_set, fit.written
     if swings:
         bodies = beside_swings(found.search, held, fit.regressors.model, bodies)
@@ -113,9 +114,10 @@ def prepared_runs(sources: Sequence[str], regressors: Regressors) -> Iterator[Pr
         yield prepared(run, recipes.recipe_of(robot.name), regressors)
 
 
-def sampled_runs(sources: Sequence[str], regressors: Regressors) -> list[Sampled]:
-    """The same, with all their rows."""
-    return [one.sampled for one in prepared_runs(sources, regressors)]
+def fitted_runs(found: Diagnosis, regressors: Regressors) -> list[Sampled]:
+    """The runs that were searched, with all their rows but those of what passes by."""
+    runs = prepared_runs(found.roles.searched, regressors)
+    return [without(one.sampled, found.search.passing) for one in runs]
 
 
 def _addition(one: Finding) -> Addition:

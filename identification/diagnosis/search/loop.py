@@ -19,6 +19,7 @@ from identification.diagnosis.noise.effort_rounding import effort_rounding
 from identification.diagnosis.noise.errors_in_variables import redrawn
 from identification.diagnosis.noise.least_noise import least
 from identification.diagnosis.noise.measured import colours
+from identification.diagnosis.noise.passing import Passing, passing, undisturbed
 from identification.diagnosis.noise.rounding import rounding
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
@@ -43,7 +44,8 @@ class Search:
     """What came of it: the bank, what weighs its evidence, the choices, and the base parameters with them in place.
 
     ``rounded`` (n x rows each) is what rounding of positions and efforts makes of the runs' torques [N m, N], with the
-    least that counts as noise; ``maps`` are those of the motion, by joint and run, none where all runs repeat.
+    least that counts as noise; ``maps`` are those of the motion, by joint and run, none where all runs repeat. Rows of
+    what was ``passing`` by count nowhere.
     """
 
     bank: Bank
@@ -56,6 +58,7 @@ class Search:
     validate: tuple[int, ...]
     rounded: tuple[Array, ...]
     maps: Sequence[Sequence[Array]] = ()
+    passing: tuple[Passing, ...] = ()
 
     @property
     def repeats(self) -> bool:
@@ -105,6 +108,9 @@ def search(
     """
     free, prior = prior is None, _with_drive_trains(prior, regressors)
     values = first_values(runs, train, regressors, prior)
+    if passed := _passing(runs, regressors, values):
+        runs = [undisturbed(run, passed) for run in runs]
+        values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting, lasting = Acting(), Lasting()
     for turn in range(_PASSES + 1):
@@ -149,7 +155,15 @@ def search(
         validate=tuple(validate),
         rounded=rounded,
         maps=may_follow,
+        passing=passed,
     )
+
+
+def _passing(runs: Sequence[Prepared], regressors: Regressors, values: Mapping[str, float]) -> tuple[Passing, ...]:
+    """What passes by in the runs, beside what values of the base parameters explain."""
+    bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
+    weights = {number: values[name] for number, name in enumerate(bank.base) if name in values}
+    return passing(runs, [bank.residuals(r, weights) for r in range(len(runs))])
 
 
 def _with_drive_trains(prior: Prior | None, regressors: Regressors) -> Prior | None:

@@ -69,25 +69,28 @@ def unexplained(
     """What a search leaves, of whose model ``last`` tells where its residual is.
 
     In this order: large residuals, which beside what was found may be small, but not on joints of what was found and is
-    ``gone``; torques that drift or sway by themselves; findings, by effect and joint, on whose amplitude the runs are
-    ``disagreeing``; where nothing was found what noise may hide, friction of two variables, and ripples, which are told
-    beside large residuals too; and parameters that have ``other`` values than are known.
+    ``gone``; what passes by; torques that drift or sway by themselves; findings, by effect and joint, on whose
+    amplitude the runs are ``disagreeing``; where nothing was found what noise may hide, friction of two variables, and
+    ripples, which are told beside large residuals too; and parameters that have ``other`` values than are known.
     """
     bounces, loose, explained = _bounces(found), _loose(found), _explained(found) | _taken_back(found, gone)
     stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
     stays |= {number: max(stays[number], BOUNCED * explained[number]) for number in loose}
     large = [one for one in last.lack if _large(one, stays[one.joint])]
-    overlooked = {} if large else _drifting(found) | _swaying(found)
-    doubtful = [] if large or overlooked else _doubtful(found, last, disagreeing)
-    nothing = not (large or overlooked or doubtful or found.choices)
+    passed = {} if large else _passed(found)
+    overlooked = {} if large or passed else _drifting(found) | _swaying(found)
+    doubtful = [] if large or passed or overlooked else _doubtful(found, last, disagreeing)
+    nothing = not (large or passed or overlooked or doubtful or found.choices)
     if nothing:
         overlooked = _overlooked(found, trial)
-    rippling = {} if overlooked or doubtful else _rippling(found)
+    rippling = {} if passed or overlooked or doubtful else _rippling(found)
     crossing = _crossing(found) if nothing and not overlooked else {}
     unseen = crossing or rippling if nothing else {}
-    lacks = large or doubtful or [last.lack[k] for k in overlooked or unseen]
+    lacks = large or doubtful or [last.lack[k] for k in passed or overlooked or unseen]
     where = located(last, lacks)
-    if overlooked:
+    if passed:
+        where = _told_by(passed, where, "time", f"once, from {passed[next(iter(passed))]}")
+    elif overlooked:
         where = _told_by(overlooked, where, "time", "changes with time or from run to run")
     elif unseen:
         where = _told_by(unseen, where, "q", "where no mean shows it")
@@ -96,7 +99,8 @@ def unexplained(
     if pulling is not None:
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
-    told = (*overlooked.values(), *crossing.values(), *rippling.values())
+    passing = (one.told(found.bank.robot) for one in found.passing)
+    told = (*passing, *overlooked.values(), *crossing.values(), *rippling.values())
     return Unexplained(tuple(lacks), where, reason, (*bounces, *loose), told)
 
 
@@ -168,6 +172,11 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
         for k in _worst_first(tested)
         if k not in most
     }
+
+
+def _passed(found: Search) -> dict[int, str]:
+    """By coordinate, what lasts longest first, when something passes by, in words."""
+    return {one.k: one.when for one in sorted(found.passing, key=lambda one: one.begins - one.ends)}
 
 
 def _drifting(found: Search) -> dict[int, str]:

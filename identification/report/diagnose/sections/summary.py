@@ -15,6 +15,8 @@ from identification.report.told import notes
 TITLE = "Diagnosis"
 ORDER = 10
 
+#: Part of what is left of which less is no change; least noise [N m, N], which a ratio can be told to.
+_LITTLE, _NONE = 0.02, 1e-12
 _VERDICTS = {NAMED: "named", NOTHING: "no discrepancy", LOCATED: "located"}
 
 
@@ -41,8 +43,17 @@ def _cards(subject: Subject) -> Iterator[Markup]:
             f"{plain(worst.size, 2)} → {plain(left.size, 2)}", "lack of fit, in the noise", "worst joint, all runs"
         )
     if subject.tried:
-        closed = {k: one.before.rms - one.after.rms for k, one in subject.tried.items()}
-        number = max(closed, key=lambda k: (closed[k], k == found.before.joint))
+        number = _told(subject)
         one = subject.tried[number]
         change = f"{plain(one.before.relative_to_mean, 3)} → {plain(one.after.relative_to_mean, 3)}\u202f%"
         yield card(change, f"left on joint {number}", f"{subject.found.roles.tested}, of the spread")
+
+
+def _told(subject: Subject) -> int:
+    """The joint on which most is closed; where nothing is, the one in question, or that with most beside the noise."""
+    closed = {k: one.before.rms - one.after.rms for k, one in subject.tried.items()}
+    best, asked = max(closed, key=lambda k: closed[k]), subject.found.before.joint
+    if closed[best] > _LITTLE * subject.tried[best].before.rms:
+        return best
+    far = {k: one.after.rms / max(one.floor, _NONE) for k, one in subject.tried.items()}
+    return asked if asked in subject.tried else max(far, key=lambda k: far[k])

@@ -1,0 +1,95 @@
+"""What disturbs a motion that repeats in one of its periods is told, and its rows spoil nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis, diagnose
+from identification.diagnosis.mending.mended import mended
+from identification.diagnosis.runs.roles import Roles
+from identification.diagnosis.verdict.finding import FIRM
+from tests.diagnosis.diagnosed_arm import TRUTH, diagnosis_of, ready, recorded, torque
+from tests.recorded import Array, Recorded
+
+#: A torque [N m] over the time [s], the position [rad] and the speed [rad/s].
+Added = Callable[[Array, Array, Array], Array]
+#: Seconds in which a brake drags, and its torque [N m].
+FROM, TO, DRAG = 13.0, 18.0, 12.0
+
+
+def drag(t: Array, _: Array, qd: Array) -> Array:
+    return np.where((t > FROM) & (t < TO), DRAG * np.sign(qd), 0.0)
+
+
+def diagnosed(folder: Path, added: Added, hidden: str = "") -> Diagnosis:
+    """Two runs of four periods, with something on top of the second."""
+    regressors, sources = recorded(folder, [torque(hidden)] * 2)
+    with_more(sources[1], added)
+    return diagnosis_of(sources, regressors)
+
+
+def with_more(source: str, added: Added) -> None:
+    t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+    Recorded({"t": t, "q1": q, "tau1": tau + added(t, q, np.gradient(q, t))}).save(Path(source))
+
+
+def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, drag)
+    assert found.verdict == UNEXPLAINED
+    assert found.findings == ()
+    (one,) = found.search.passing
+    assert one.name.endswith("2.csv")
+    assert (one.begins, one.ends) == (pytest.approx(FROM, abs=0.6), pytest.approx(TO, abs=0.6))
+    for where in (found.before, found.after):
+        assert (where.joint, where.variable) == (1, "time")
+        assert where.region == f"once, from {one.when}"
+    assert any("as in no other period of the motion: these rows are left out" in note for note in found.notes)
+
+
+def test_its_rows_do_not_move_the_parameters(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    with_more(sources[1], drag)
+    *runs, last = (ready(one, regressors) for one in sources)
+    found = diagnose(
+        regressors, runs, Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2])), test=[last]
+    )
+    fit = mended(tmp_path / "arm.yaml", found, None, tmp_path / "out").fit
+    for name, true in TRUTH.items():
+        assert fit.values[name] == pytest.approx(true, abs=5 * fit.std[name]), name
+    # Five seconds of eighty, both ways, would add 0.75 N m.
+    assert fit.values["Fc1"] == pytest.approx(TRUTH["Fc1"], abs=0.25)
+
+
+def test_an_effect_is_found_beside_it(tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, drag, "stribeck")
+    assert found.findings[0].hypothesis.effect == "stribeck_friction"
+    assert found.verdict == UNEXPLAINED
+    assert found.search.passing
+
+
+def _loud_at_a_place(t: Array, q: Array, qd: Array) -> Array:
+    near = np.abs(q - q.max()) < 0.1 * np.ptp(q)
+    return np.where(near, 8.0 * np.random.default_rng(5).normal(size=len(t)), 0.0)
+
+
+def _in_every_period(t: Array, q: Array, qd: Array) -> Array:
+    return drag(FROM + np.mod(t - FROM, 10.0), q, qd)
+
+
+def _drifting(t: Array, q: Array, qd: Array) -> Array:
+    return 5.0 * (1 - np.exp(-t / 25.0))
+
+
+def _loud(t: Array, q: Array, qd: Array) -> Array:
+    return 3.0 * np.random.default_rng(6).normal(size=len(t))
+
+
+@pytest.mark.parametrize("added", [_loud_at_a_place, _in_every_period, _drifting, _loud])
+def test_what_every_period_has_or_noise_makes_does_not_pass(added: Added, tmp_path: Path) -> None:
+    found = diagnosed(tmp_path, added)
+    assert found.search.passing == ()
+    assert len([one for one in found.findings if one.status == FIRM]) == 0
