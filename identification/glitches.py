@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from generator.review.words import plural
+from generator.review.words import listed, plural
 from identification.neighbours import ARITHMETIC, off_cubics
 from identification.recording import Array, Where
 from identification.signals import Measured
@@ -82,16 +83,25 @@ def _change(x: Array, start: int, end: int) -> float:
 
 def without(found: Measured, ticks: Clock, where: Where) -> tuple[Measured, list[str]]:
     """The columns with a cubic spline through all other rows in the place of glitches, and what is to be told."""
-    values, notes = [], []
+    values, wrong = [], dict[str, NDArray[np.int64]]()
     for name, x in zip(found.names, found.values, strict=True):
-        wrong = glitches(x, ticks.period)
-        values.append(_repaired(x, ticks.t, wrong) if wrong.size else x)
-        if wrong.size:
-            here = f"{where(int(wrong[0]), name)}: {name} is off from its neighbours"
-            several = f", and {plural(len(wrong) - 1, 'further sample')} too" if len(wrong) > 1 else ""
-            were = "they were" if len(wrong) > 1 else "it was"
-            notes.append(f"{here}{several}; {were} interpolated")
-    return (replace(found, values=np.stack(values)) if notes else found), notes
+        at = glitches(x, ticks.period)
+        values.append(_repaired(x, ticks.t, at) if at.size else x)
+        if at.size:
+            wrong[name] = at
+    if not wrong:
+        return found, []
+    return replace(found, values=np.stack(values)), [_told(wrong, where)]
+
+
+def _told(wrong: Mapping[str, NDArray[np.int64]], where: Where) -> str:
+    """Of samples that were ``wrong`` by column, the first of the first with its place."""
+    name, first = next(iter(wrong.items()))
+    here = f"{where(int(first[0]), name)}: {name} is off from its neighbours"
+    if not (more := sum(map(len, wrong.values())) - 1):
+        return f"{here}; it was interpolated"
+    of = f" of {listed([*wrong])}" if len(wrong) > 1 else ""
+    return f"{here}, and {plural(more, 'further sample')}{of} too; they were interpolated"
 
 
 def _repaired(x: Array, t: Array, wrong: NDArray[np.int_]) -> Array:

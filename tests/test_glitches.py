@@ -112,6 +112,19 @@ def test_a_run_is_read_without_them_and_says_so(tmp_path: Path) -> None:
     assert "tau2 is off from its neighbours, and 2 further samples too" in second
 
 
+def test_many_columns_make_one_note(tmp_path: Path) -> None:
+    robot = two_links(tmp_path)
+    t, motion = fourier(robot, 10.0, 500.0)
+    columns = columns_of(motion.q, Regressors(robot).torques(TRUTH, motion))
+    columns["tau1"][[900, 1300]] = -500.0
+    columns["tau2"][700] = 500.0
+    (note,) = load(str(Recorded({"t": t, **columns}).save(tmp_path / "spoilt.csv")), robot).notes
+    assert "spoilt.csv:902:" in note
+    assert note.endswith(
+        "tau1 is off from its neighbours, and 2 further samples of tau1 and tau2 too; they were interpolated"
+    )
+
+
 def test_a_position_far_from_all_others_is_refused(tmp_path: Path) -> None:
     robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)
