@@ -72,6 +72,24 @@ def test_a_link_is_dragged_as_its_inertia_grows(loose: Scene) -> None:
     np.testing.assert_allclose(side.drag[50:-50], rate[50:-50], atol=0.02 * float(np.abs(rate).max()))
 
 
+@pytest.mark.parametrize("samples", [8, 12, 40])
+def test_a_swing_has_its_frequency_and_acceleration_at_few_samples_a_period(samples: int, loose: Scene) -> None:
+    """A weight that is taken away leaves a cosine, w^2 = k/M."""
+    inertia, size, still = 4.0, 30.0, np.zeros(loose.motion.samples)
+    load = np.where(np.arange(len(still)) < 10, size, 0.0)
+    side = replace(
+        link_side(loose, 0, ROTOR), load=load, by_acceleration=np.tile(still + inertia, (4, 1)), by_speed=still[None]
+    )
+    w = 2 * np.pi / (samples * loose.period)
+    k = inertia * w**2
+    moved = side.deflection(Train(k, 0.0))
+    t = loose.period * (np.arange(len(still)) - 9.5)
+    free = slice(10, 10 + 20 * samples)
+    e = -size / k * np.cos(w * t)[free]
+    np.testing.assert_allclose(moved.q[0, free], e / np.cos(w * loose.period / 2), atol=0.01 * size / k)
+    np.testing.assert_allclose(moved.qdd[0, free], -(w**2) * moved.q[0, free], atol=1e-3 * size / inertia)
+
+
 def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
     first, anew = link_side(loose, 0, ROTOR), link_side(loose, 0, 0.8 * ROTOR)
     moved = LinkSides(first).along(loose, 0.8 * ROTOR)
