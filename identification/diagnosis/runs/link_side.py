@@ -73,6 +73,13 @@ class LinkSide:
         result: Array = self.by_speed[self.k]
         return result
 
+    @property
+    def along(self) -> Array:
+        """What ``_step`` takes of the link, sample by sample (4 x N)."""
+        smooth = self.load.copy()
+        smooth[1:-1] += np.diff(self.load, 2) / 12
+        return np.stack([self.load, smooth, self.inertia, self.drag])
+
     def with_rotor(self, rotor: float) -> LinkSide:
         """The same with another share of the whole inertia on the motor's side, unless that is a base parameter of its
         own.
@@ -92,7 +99,7 @@ class LinkSide:
         """The link's motion against the motor's on a drive train of plain numbers."""
         given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
         steps = _many_steps(self.scene.motion.samples)
-        _, played = steps(list(self.start(train)), np.stack([self.load, self.inertia, self.drag]), given)
+        _, played = steps(list(self.start(train)), self.along, given)
         return alone(self.scene.motion, self.k, np.asarray(played))
 
     def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
@@ -121,10 +128,10 @@ def swings(sides: Sequence[LinkSide], trains: Sequence[Train], end: int) -> Iter
     stiffness, d, half, (h, *_) = zip(*map(LinkSide.own, sides, trains), strict=True)
     own = (np.stack(stiffness), np.stack(d), np.stack(half), h)
     e, v = map(np.stack, zip(*map(LinkSide.start, sides, trains), strict=True))
-    links = np.array([(one.load[:end], one.inertia[:end], one.drag[:end]) for one in sides])
+    links = np.array([one.along[:, :end] for one in sides])
     for link in np.ascontiguousarray(links.transpose(2, 1, 0)[..., None]):
         e, v, (_, _, acceleration) = _step(e, v, link, own)
-        yield link[1] * acceleration
+        yield link[2] * acceleration
 
 
 def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:
@@ -160,28 +167,30 @@ class LinkSides:
 
 def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
     """Deflection e and its speed v a sample later; and position, speed and acceleration now, of a ``link`` (its load,
-    inertia M and drag c): M e'' + (c + d) e' + k z = -load, z what e is beyond the gap, d nothing within it.
+    that smoothed, inertia M and drag c): M e'' + (c + d) e' + k z = -load; z is e beyond the gap, d nothing within it.
 
     To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
-    those between samples, damping is centred; on the spring the frequency of a swing and its acceleration are right for
-    all that samples can follow (to 1e-4 of both at eight samples a period).
+    those between samples, damping is centred. Numerov's method: on the spring the frequency of a swing is right for all
+    that samples can follow (to 1e-4 at eight a period). What falls through a gap has its momentum instead of its
+    acceleration at an instant: that is what windows see of an impact.
     """
-    load, M, drag = link
+    load, smooth, M, drag = link
     k, d, half, h = own
     taut = abs(e) > half
     beyond = e - (abs(e + half) - abs(e - half)) / 2
     c = (drag + taut * d) * (h / (2 * M))
     x = taut * k * (h * h / M)
-    # The second difference of a sine in parts of its second derivative, (sin y / y)^2 with y = sqrt(x)/2.
-    second = 1 / (1 + x / 12 * (1 + x / 20))
-    after = (v * (1 - c) - second * (load + k * beyond) * (h / M)) / (1 + c)
-    return e + h * after, after, (e, (v + after) / 2, (after - v) / (h * second))
+    # The second derivative of a swing in parts of its second difference: (y / sin y)^2 with y = sqrt(x) / 2.
+    more = x / 12 * (1 + x / 20)
+    after = (v * (1 - c) - (smooth + k * beyond) * (h / M) / (1 + more)) / (1 + c)
+    acceleration = (after - v) / h * (1 + (half == 0) * more) + (smooth - load) / M
+    return e + h * after, after, (e, (v + after) / 2, acceleration)
 
 
 @cache
 def _many_steps(count: int) -> casadi.Function:
-    """``count`` steps one after the other: of the first (e, v), the link's three and what a train has of its own."""
-    state, link, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("link", 3), ("own", 4)))
+    """``count`` steps one after the other: of the first (e, v), the link's four and what a train has of its own."""
+    state, link, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("link", 4), ("own", 4)))
     e, v, seen = _step(state[0], state[1], casadi.vertsplit(link), casadi.vertsplit(own))
     step = casadi.Function("step", [state, link, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
     return step.mapaccum("steps", count)
