@@ -100,7 +100,8 @@ def _told(wrong: Mapping[str, NDArray[np.int64]], where: Where) -> str:
     here = f"{where(int(first[0]), name)}: {name} is off from its neighbours"
     if not (more := sum(map(len, wrong.values())) - 1):
         return f"{here}; it was interpolated"
-    of = f" of {listed([*wrong])}" if len(wrong) > 1 else ""
+    further = [column for column, at in wrong.items() if column != name or len(at) > 1]
+    of = "" if further == [name] else f" of {listed(further)}"
     return f"{here}, and {plural(more, 'further sample')}{of} too; they were interpolated"
 
 

@@ -105,7 +105,7 @@ def diagnose(
     named = doubted(found, few_rows.doubted(few, robot, named, small), other)
     if named:
         before = led(before, named[0], last)
-    elif not before.joint:
+    elif rest.joint:
         before = replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
     notes = [
         *roles.notes,

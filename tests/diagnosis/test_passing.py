@@ -42,7 +42,7 @@ def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -
     assert found.verdict == UNEXPLAINED
     assert found.findings == ()
     (one,) = found.search.passing
-    assert one.name.endswith("2.csv")
+    assert one.path.name == "2.csv"
     assert (one.begins, one.ends) == (pytest.approx(FROM, abs=0.6), pytest.approx(TO, abs=0.6))
     for where in (found.before, found.after):
         assert (where.joint, where.variable) == (1, "time")

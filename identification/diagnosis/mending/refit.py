@@ -119,9 +119,9 @@ def _far(
     prior: Prior, regressors: Regressors, values: Mapping[str, float], std: Mapping[str, float]
 ) -> tuple[str, ...]:
     """Base parameters of bodies that are far from what was known."""
-    found, variance = (np.array([one[name] for name in regressors.names]) for one in (values, std))
+    found, deviations = (np.array([one[name] for name in regressors.names]) for one in (values, std))
     effects = {name for one in effects_of(regressors.model.robot) for name in one.names}
-    far = prior.far(found, np.diag(variance**2)) > FAR
+    far = prior.far(found, np.diag(deviations**2)) > FAR
     return tuple(name for name, is_far in zip(regressors.names, far, strict=True) if is_far and name not in effects)
 
 

@@ -32,9 +32,9 @@ def without_harm(
     if not doubtful:
         return model, notes
     tried = tried_with(model)
-    spoiling = [one for one in doubtful if _spoiled(one, tried)][:_TRIED]
+    spoiling, asked_for = [one for one in doubtful if _spoiled(one, tried)][:_TRIED], list[Finding]()
     for several in [*([one] for one in spoiling), *_of_the_same_joints(spoiling)]:
-        several = [one for one in several if one in model.findings and _spoiled(one, tried)]
+        several = [one for one in several if one in model.findings and one not in asked_for and _spoiled(one, tried)]
         if not several:
             continue
         less = model_of([other for other in model.findings if other not in several])
@@ -43,7 +43,9 @@ def without_harm(
         if not all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
             continue
         if others := sorted(set(less.fit.contradicted).difference(model.fit.contradicted)):
-            notes.append(f"without {what} the runs make {listed(others)} other than known: the new model has it")
+            it = "it" if len(several) == 1 else "them"
+            notes.append(f"without {what} the runs make {listed(others)} other than known: the new model has {it}")
+            asked_for += several
             continue
         told = [
             f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "

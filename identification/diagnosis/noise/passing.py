@@ -18,14 +18,16 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from generator.robot.description import Robot
 from identification.diagnosis.noise.measured import by_period
 from identification.diagnosis.runs.prepared import Prepared, windowed
+from identification.run_source import RunSource
 from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
 #: Periods that have a row of a phase, from which what they have in common is known without any one of them.
 _PERIODS = 3
-#: Time [s] over which power is taken, within which stretches are one, and that one lasts at least.
-_WINDOW, _APART, _SHORTEST = 0.5, 1.0, 1.0
+#: Time [s] over which power is taken, within which stretches are one, that one lasts at least, and from the first row
+#: before which nothing is told: what fades from there on is no disturbance that comes and goes.
+_WINDOW, _APART, _SHORTEST, _BEGINNING = 0.5, 1.0, 1.0, 1.0
 #: By how much the power of a stretch is above the usual one, and above that of the same phase in other periods.
 _FAR, _ALONE = 36.0, 4.0
 #: Least part of all that differs between periods that disturbed stretches hold, and their most of the rows.
@@ -34,17 +36,17 @@ _MOST, _FEW = 0.5, 0.25
 
 @dataclass(frozen=True)
 class Passing:
-    """That coordinate ``k`` is disturbed in the run ``name`` from the time ``begins`` to ``ends`` [s]."""
+    """That coordinate ``k`` is disturbed in a run of the file ``path`` from the time ``begins`` to ``ends`` [s]."""
 
     k: int
-    name: str
+    path: Path
     begins: float
     ends: float
 
     @property
     def when(self) -> str:
         """When, in words."""
-        return f"{self.begins:.3g} to {self.ends:.3g} s of {Path(self.name).name}"
+        return f"{self.begins:.3g} to {self.ends:.3g} s of {self.path.name}"
 
     def told(self, robot: Robot) -> str:
         """In a sentence."""
@@ -74,9 +76,9 @@ def passing(runs: Sequence[Prepared], residuals: Sequence[Array]) -> tuple[Passi
 
 def without(sampled: Sampled, passed: Sequence[Passing]) -> Sampled:
     """A run without the samples of each joint that something disturbs, begins to or ends to."""
-    left_out = sampled.left_out.copy()
+    left_out, path = sampled.left_out.copy(), RunSource.of(sampled.run.name).path
     for one in passed:
-        if one.name == sampled.run.name:
+        if one.path == path:
             near = (sampled.times >= one.begins - _WINDOW) & (sampled.times <= one.ends + _WINDOW)
             left_out[one.k, near] = True
     return replace(sampled, left_out=left_out)
@@ -106,7 +108,8 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
         return
     for (run, _), ones in zip(runs, found, strict=True):
         for one in ones:
-            yield Passing(k, run.sampled.run.name, float(run.t[one.first]), float(run.t[one.end - 1]))
+            path = RunSource.of(run.sampled.run.name).path
+            yield Passing(k, path, float(run.t[one.first]), float(run.t[one.end - 1]))
 
 
 def _different(e: Array, run: Prepared, k: int) -> Array:
@@ -132,11 +135,10 @@ def _stretches(power: Array, usual: float, run: Prepared) -> list[_Stretch]:
     far = np.nan_to_num(power) > np.maximum(_FAR * usual, _ALONE * _elsewhere(power, run))
     places = np.flatnonzero(far)
     parts = np.split(places, np.flatnonzero(np.diff(places) > _APART * run.rate) + 1)
-    return [
-        _Stretch(int(part[0]), int(part[-1]) + 1)
-        for part in parts
-        if len(part) and part[-1] - part[0] >= _SHORTEST * run.rate
-    ]
+    first = np.argmax(np.isfinite(power)) + _BEGINNING * run.rate
+    # A single moment fills one window.
+    least = (_SHORTEST + _WINDOW) * run.rate
+    return [_Stretch(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]
 
 
 def _elsewhere(power: Array, run: Prepared) -> Array:

@@ -108,7 +108,7 @@ def search(
     """
     free, prior = prior is None, _with_drive_trains(prior, regressors)
     values = first_values(runs, train, regressors, prior)
-    if passed := _passing(runs, regressors, values):
+    if passed := () if dry else _passing(runs, regressors, values):
         runs = [undisturbed(run, passed) for run in runs]
         values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []

@@ -176,7 +176,10 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
 
 def _passed(found: Search) -> dict[int, str]:
     """By coordinate, what lasts longest first, when something passes by, in words."""
-    return {one.k: one.when for one in sorted(found.passing, key=lambda one: one.begins - one.ends)}
+    result: dict[int, str] = {}
+    for one in sorted(found.passing, key=lambda one: one.begins - one.ends):
+        result.setdefault(one.k, one.when)
+    return result
 
 
 def _drifting(found: Search) -> dict[int, str]:

@@ -52,7 +52,7 @@ def _panel(subject: Subject, k: int, number: int) -> Markup:
 
 def _spectrum(subject: Subject, residuals: Sequence[Array], k: int) -> Spectrum | None:
     parts = []
-    for run, e in zip(subject.found.runs, residuals, strict=True):
+    for run, e in zip(subject.found.search.bank.runs, residuals, strict=True):
         kept = run.kept[k]
         parts.append((run.t[kept], e[k, kept], run.sampled.run.period * run.sampled.filters.factor))
     return spectrum(parts)
