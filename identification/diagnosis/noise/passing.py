@@ -56,14 +56,6 @@ class Passing:
         )
 
 
-@dataclass(frozen=True)
-class _Stretch:
-    """Rows from ``first`` to before ``end`` of a run."""
-
-    first: int
-    end: int
-
-
 def passing(runs: Sequence[Prepared], residuals: Sequence[Array]) -> tuple[Passing, ...]:
     """What passes by in those of ``runs`` that have periods enough, of which a model leaves ``residuals`` [N m, N] (n x
     rows each).
@@ -100,7 +92,7 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
         return
     usual = float(np.median(every[known]))
     found = [_stretches(power, usual, run) for power, (run, _) in zip(powers, runs, strict=True)]
-    inside = [d[one.first : one.end] for d, ones in zip(different, found, strict=True) for one in ones]
+    inside = [d[one] for d, ones in zip(different, found, strict=True) for one in ones]
     if not inside:
         return
     whole, rows = np.concatenate(different), np.concatenate(inside)
@@ -109,7 +101,7 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
     for (run, _), ones in zip(runs, found, strict=True):
         for one in ones:
             path = RunSource.of(run.sampled.run.name).path
-            yield Passing(k, path, float(run.t[one.first]), float(run.t[one.end - 1]))
+            yield Passing(k, path, float(run.t[one][0]), float(run.t[one][-1]))
 
 
 def _different(e: Array, run: Prepared, k: int) -> Array:
@@ -130,7 +122,7 @@ def _power(different: Array, run: Prepared) -> Array:
     return np.where(known, square / np.maximum(count, 1 / width), np.nan)
 
 
-def _stretches(power: Array, usual: float, run: Prepared) -> list[_Stretch]:
+def _stretches(power: Array, usual: float, run: Prepared) -> list[slice]:
     """Stretches of a run whose ``power`` (N) is far above the ``usual`` one, and above that of other periods then."""
     far = np.nan_to_num(power) > np.maximum(_FAR * usual, _ALONE * _elsewhere(power, run))
     places = np.flatnonzero(far)
@@ -138,7 +130,7 @@ def _stretches(power: Array, usual: float, run: Prepared) -> list[_Stretch]:
     first = np.argmax(np.isfinite(power)) + _BEGINNING * run.rate
     # A single moment fills one window.
     least = (_SHORTEST + _WINDOW) * run.rate
-    return [_Stretch(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]
+    return [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]
 
 
 def _elsewhere(power: Array, run: Prepared) -> Array:
