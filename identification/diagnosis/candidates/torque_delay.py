@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from generator.robot.description import Joint
 from identification.corrections import earlier
+from identification.diagnosis.columns.confirmed import confirmed
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.columns.lateness import LONGEST, Lateness, delay_of, latenesses, torques
 from identification.diagnosis.runs.prepared import windowed
@@ -116,8 +117,9 @@ def _columns(
     if told is not None and quiet is not None:
         recorded, modelled, known = _two_secants(scene, k, start, told)
         return np.where(quiet[:, None] & known, recorded, modelled)[None]
-    tau = _of_motor(scene, k, scene.torque)
     found = scene.found(_name(joint))
+    recorded, modelled = (_of_motor(scene, k, tau) for tau in (scene.sampled.tau, scene.torque))
+    tau = confirmed(modelled, recorded, scene.period, start + found)
     return (_secant(scene, tau, start, found) if found else -scene.derivative(tau))[None]
 
 

@@ -31,12 +31,13 @@ LONGEST, _OF_RUN = 0.1, 0.05
 #: Delays that are tried are so far apart [s], and one is told to such a part of that.
 _STEP, _TOLD = 1e-3, 0.1
 #: What a delay must leave of the sum of squares to be told by it.
-_LESS = 0.8
+_LESS = 0.97
 #: Of a delay of several motors: how many must tell it, what it leaves of the squares of each that does, and its least
 #: part of what delays of their own would explain.
-_SEVERAL, _EACH, _SHARED = 2, 0.95, 0.5
-#: Difference of cost that is chance, in parts of the square root of the rows; and its standard deviations.
-_CHANCE, _DEVIATIONS = 4.0, 4.0
+_SEVERAL, _EACH, _SHARED = 2, 0.985, 0.5
+#: Difference of cost that is chance, in parts of the square root of the rows, and its most, in parts of the rows and of
+#: what the best delay explains; and its standard deviations.
+_CHANCE, _OF_ROWS, _OF_GAIN, _DEVIATIONS = 4.0, 0.1, 0.5, 4.0
 #: Least rows for each base parameter, and of a motor fitted with others; least singular value of scaled columns.
 _ROWS, _AMONG, _RANK = 5, 2, 1e-6
 #: Times that motors fitted at once are weighed by what each leaves.
@@ -107,9 +108,10 @@ def _nearest(beyond: Array, cost: Array, rows: int) -> int:
     """Of the delays that leave least nearby, and whose ``cost`` is the least but for chance, the place of the shortest.
 
     Those that are a period of a swing apart see other noise: what they cost differs by it. Of few rows all would be
-    chance; half of the least that a delay must leave is none.
+    chance; half of what the best one explains is none.
     """
-    chance = min(_CHANCE * np.sqrt(rows), -np.log(_LESS) / 2 * rows)
+    gain = float(np.interp(0.0, beyond, cost) - cost.min())
+    chance = min(_CHANCE * np.sqrt(rows), _OF_ROWS * rows, _OF_GAIN * gain)
     inner = np.flatnonzero((cost[1:-1] <= cost[:-2]) & (cost[1:-1] <= cost[2:])) + 1
     among = [k for k in inner.tolist() if cost[k] - cost.min() < chance]
     return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
