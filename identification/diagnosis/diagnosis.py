@@ -118,7 +118,7 @@ def diagnose(
         *remarks.of_findings(named, gone),
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),
-        *(odd_run.notes(found) if left.lacks else ()),
+        *(odd_run.notes(found, {one.joint for one in left.lacks}) if left.lacks else ()),
         *trembling.notes(found, {one.joint for one in left.lacks}),
     ]
     return Diagnosis(

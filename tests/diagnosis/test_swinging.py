@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
-from identification.diagnosis.verdict.alternatives import OTHER_TORQUE
+from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, ELASTIC, SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.verdict.alternatives import OTHER_GEOMETRY, OTHER_TORQUE
 from identification.diagnosis.verdict.doubts import doubted, swinging
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.diagnosis.verdict.unexplained import _loose
@@ -77,6 +77,26 @@ def test_a_gap_that_is_told_alike_twice_lets_a_link_bounce(effect: str, size: fl
     evidence = SimpleNamespace(variant=variant, sizes={0: 0.4, 1: 2.0, 2: 0.1})
     found: Any = SimpleNamespace(weights={7: size}, bank=bank, choices=[SimpleNamespace(evidence=evidence)])
     assert _loose(found) == loose
+
+
+@pytest.mark.parametrize(
+    ("effect", "kind", "size", "free", "status"),
+    [
+        ("gear_ratio", DRIVE, 0.2, True, TENTATIVE),
+        ("gear_ratio", DRIVE, 0.2, False, FIRM),
+        ("gear_ratio", DRIVE, 0.4, True, FIRM),
+        ("position_offset", SIGNAL, 0.2, True, TENTATIVE),
+        ("torque_gain", SIGNAL, 0.2, True, FIRM),
+    ],
+)
+def test_little_that_misplaces_links_may_be_another_fault_of_the_geometry(
+    effect: str, kind: str, size: float, free: bool, status: str
+) -> None:
+    """Of which a free fit takes up most."""
+    evidence: Any = SimpleNamespace(score=100.0, size=size)
+    one = doubted(replace(finding(effect, kind, 1e-5), evidence=evidence), 0.0, (), True, free)
+    assert one.status == status
+    assert [other.effect for other in one.alternatives] == [OTHER_GEOMETRY] * (status == TENTATIVE)
 
 
 def test_each_doubt_says_why() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import EFFECT
+from identification.diagnosis.columns.hypothesis import BASE, EFFECT
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks
 from identification.diagnosis.verdict.unexplained import Unexplained
@@ -101,6 +101,15 @@ def test_what_follows_two_joints_leads_by_its_own_variable() -> None:
     found = led(where, finding("load", joints=(2, 1)), seen(BY_CHANCE, SIGNIFICANT))
     assert (found.variable, found.region) == ("load", "of joints 1 and 2 together")
     assert found.words == "over load, of joints 1 and 2 together"
+
+
+def test_what_sits_on_no_joint_leads_where_most_was_missing() -> None:
+    """Its torque is largest on joint 1, in N m, where next to nothing of it was missing."""
+    leaning: Any = SimpleNamespace(
+        amplitude={1: 30.0, 2: 1.0}, hypothesis=SimpleNamespace(joint=0, kind=BASE), variable="q", joints=(1, 2)
+    )
+    where = replace(seen(BY_CHANCE, SIGNIFICANT), views={1: (), 2: seen(SIGNIFICANT).views[2]})
+    assert led(where, leaning, seen(SIGNIFICANT)).joint == 2
 
 
 @pytest.mark.parametrize(("of_speed", "told"), [(0.1, "q"), (0.3, "qd")])

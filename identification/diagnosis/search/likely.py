@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from generator.effects.effect import BALANCER, EVERYWHERE, OFTEN, SPRING
 from generator.effects.library import library
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import BODY
+from identification.diagnosis.columns.hypothesis import BASE, BODY, DRIVE, Hypothesis
 
 
 def balances(effect: str) -> bool:
@@ -18,6 +18,11 @@ def balances(effect: str) -> bool:
 def pulls(effect: str) -> bool:
     """Whether an effect by its id pulls a link to where it rests."""
     return _role(effect) in (BALANCER, SPRING)
+
+
+def misplaces(hypothesis: Hypothesis) -> bool:
+    """Whether with it the links stand elsewhere than the model says."""
+    return hypothesis.kind in (BASE, DRIVE) or hypothesis.effect == "position_offset"
 
 
 def common(variant: Variant) -> bool:

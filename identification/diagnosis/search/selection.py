@@ -14,9 +14,12 @@ from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.columns.normal_equations import bounded, square
 from identification.diagnosis.search.evidence import Evidence
-from identification.diagnosis.search.likely import balances, common, likely, pulls
+from identification.diagnosis.search.likely import balances, common, likely, misplaces, pulls
 from identification.diagnosis.search.refinement import refined
 from identification.diagnosis.search.scaling import scales_all
+from identification.diagnosis.search.sliding import replaces
+from identification.diagnosis.search.swings_heard import heard
+from identification.diagnosis.search.valleys import Valleys
 from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import nearest, odds
 
@@ -60,8 +63,7 @@ class Selection:
         self.weighing = weighing
         #: Odds of whole orders, by the columns and those beside them.
         self._odds: dict[tuple[tuple[int, ...], tuple[int, ...]], float] = {}
-        #: Rivals whose shapes have been refined, each with what it stood beside.
-        self._refined: set[tuple[Key, frozenset[Key]]] = set()
+        self._valleys = Valleys(weighing)
 
     def search(self, start: Sequence[Variant] = ()) -> list[Choice]:
         """Forward selection with exchange and refinement, then pairs where single hypotheses do not do. What passes of
@@ -240,10 +242,14 @@ class Selection:
         return of_rare <= of_usual + _BETTER + _RARE * of_usual
 
     def _sound(self, one: Evidence, others: Sequence[Variant]) -> bool:
-        """Whether it passes, no order that is no whole number would do better, and what scales a torque scales all of
-        it.
+        """Whether it passes, no order that is no whole number would do better, and it does all that its kind does: what
+        scales a torque scales all of it, what slides replaces friction, what swings is heard.
         """
-        return one.passes and self._odds_of(one.variant, others) > 1 and scales_all(self.weighing, one.variant, others)
+        if not one.passes or self._odds_of(one.variant, others) <= 1:
+            return False
+        weighing = self.weighing
+        does = scales_all(weighing, one.variant, others) and replaces(weighing, one.variant, others)
+        return does and heard(weighing.bank, weighing.train, one.variant, one.coefficients)
 
     def _odds_of(self, one: Variant, others: Sequence[Variant]) -> float:
         key = (one.columns, tuple(columns_of(others)))
@@ -258,7 +264,10 @@ class Selection:
 
     def _shaped(self, one: Variant, others: Sequence[Variant]) -> Variant:
         """With the shape that explains most beside ``others``, from whichever of its starts leads there."""
-        if one.hypothesis.starts:
+        balancer = balances(one.hypothesis.effect)
+        if balancer:
+            self._valleys.search(one, others)
+        if balancer or one.hypothesis.starts:
             same = [other for other in self.weighing.bank.variants if other.key == one.key]
             one = self.weighing.best_shape([one, *same], others).variant
         each = [refined(self.weighing, start, others) for start in (one, *self._of_other_forms(one, others))]
@@ -289,11 +298,8 @@ class Selection:
             return found
         near = [one for one in found if one.drop > _RIVAL * mine.drop and one.variant.hypothesis.shapes]
         near = [one for one in near if one.variant.coordinates == mine.variant.coordinates][:_RIVALS]
-        beside = frozenset(each.key for each in others)
         for one in near:
-            if (one.variant.key, beside) not in self._refined:
-                self._refined.add((one.variant.key, beside))
-                refined(self.weighing, one.variant, others)
+            self._valleys.search(one.variant, others)
         return [one for one in self.weighing.evidence(others) if one.variant.key != mine.variant.key]
 
     def _pair(self, chosen: Sequence[Variant]) -> list[Variant] | None:
@@ -342,6 +348,9 @@ class Selection:
             springs = pulls(one.hypothesis.effect) and pulls(other.variant.hypothesis.effect)
             if usual and not likely(other.variant, others) and not springs:
                 margin = _RARE / 2 * mine.drop - _BETTER
+            if misplaces(one.hypothesis) and misplaces(other.variant.hypothesis):
+                # Whichever of them it is, a base leans about two axes at once.
+                margin -= max(self.weighing.price(other.variant) - self.weighing.price(one), 0.0)
             if other.score > mine.score + margin and self._instead(other.variant, one, others):
                 near.append(other)
         return Choice(mine, tuple(near), self._odds_of(one, others), self._apart(mine, others))

@@ -83,7 +83,7 @@ class Weighing:
         free: bool = False,
     ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
-        self._free = free or prior is None
+        self.free = free or prior is None
         self._tried = len({one.key for one in bank.variants})
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
@@ -98,7 +98,7 @@ class Weighing:
     def along(self, bank: Bank) -> Weighing:
         """The same of another bank of the runs."""
         noisy = redrawn(bank.runs, bank.scenes)
-        return Weighing(bank, self.train, self.validate, self._prior, noisy, self._free)
+        return Weighing(bank, self.train, self.validate, self._prior, noisy, self.free)
 
     def refresh(self) -> None:
         """After columns may have been added."""
@@ -132,11 +132,11 @@ class Weighing:
     def _pretence_along(self, runs: Sequence[int]) -> Pretence:
         return Pretence(self.bank, {r: self._noisy[r] for r in runs if r in self._noisy})
 
-    def excess(self, runs: Sequence[int], columns: Sequence[int]) -> float:
-        """What a fit of the base and of ``columns`` to some runs leaves in the mean square above that of the noise."""
-        normal = self._normal(runs)
-        solution, _ = normal.solution(columns)
-        return max(normal.misfit(columns, solution) / max(normal.rows, 1) - 1, 0.0)
+    def fitted_to(self, runs: Sequence[int], variants: Sequence[Variant]) -> dict[int, float]:
+        """Values of the base columns and of those of ``variants``, by number, fitted to some runs."""
+        columns = columns_of(variants)
+        solution, _ = self._normal(runs).solution(columns)
+        return dict(zip([*range(self.normal.base), *columns], solution.tolist(), strict=True))
 
     def _normal(self, runs: Sequence[int]) -> Normal:
         rows = sum(int(self.bank.rows(r).sum()) for r in runs)
@@ -208,7 +208,7 @@ class Weighing:
         variant, x = variant.only(np.flatnonzero(x).tolist()), x[x != 0]
         p = chance(drop, variant)
         bic = drop - self.price(variant)
-        believed = not self._free or variant.believed(x)
+        believed = not self.free or variant.believed(x)
         one = Evidence(variant, x, drop, p, bic, 0.0, self._sizes(drop, variant, x, others), False, "", believed)
         if p * self._tried > _ALPHA:
             return replace(one, why_not="within chance")
@@ -267,7 +267,7 @@ class Weighing:
         """Whether a fit that knows nothing beforehand takes up what a variant makes, and it tells why the runs
         contradict more values that are known than it has coefficients, and makes them contradict no other.
         """
-        if self._free or self._prior is None:
+        if self.free or self._prior is None:
             return False
         p, G = self.normal.base, self.normal.gram
         at = np.array([*range(p), *variant.columns])
@@ -340,7 +340,7 @@ class Weighing:
         """Whether it explains beyond chance, and a part of it, what no other value does of friction of which something
         is known.
         """
-        if self._free:
+        if self.free:
             return True
         less, same = known_friction.explained(self.normal, variant.columns, columns_of(others), self._friction)
         return not same or _beyond(drop, less, len(variant.columns) - same)

@@ -9,9 +9,10 @@ from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.whole_orders import UNSURE
 from identification.diagnosis.verdict.finding import Alternative
 
-#: Stand for whatever makes a ripple, a torque of the position, or friction that changes along the range, that is none
-#: of the library's.
+#: Stand for whatever makes a ripple, a torque of the position, or friction that changes along the range, or places the
+#: links elsewhere, that is none of the library's.
 OTHER_RIPPLE, OTHER_TORQUE, OTHER_FRICTION = "other_ripple", "other_torque", "other_friction"
+OTHER_GEOMETRY = "other_geometry"
 
 
 def alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SINCE_REVERSAL
-from identification.diagnosis.search.likely import balances, pulls
-from identification.diagnosis.verdict.alternatives import OTHER_FRICTION, OTHER_TORQUE, outside
+from identification.diagnosis.search.likely import balances, misplaces, pulls
+from identification.diagnosis.verdict.alternatives import OTHER_FRICTION, OTHER_GEOMETRY, OTHER_TORQUE, outside
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding, vague
 from identification.outcome import Value
 
@@ -24,17 +24,25 @@ _MUCH = "much is left on its joint beside what it explains there"
 _UNDETERMINED = "the runs do not determine its values"
 
 
-def doubted(one: Finding, remains: float, several: Collection[int], repeats: bool) -> Finding:
+def doubted(one: Finding, remains: float, several: Collection[int], repeats: bool, free: bool = False) -> Finding:
     """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
     balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
-    ``repeats`` those of any effect.
+    ``repeats`` those of any effect; or where it is little of what links do that stand elsewhere, of which a ``free``
+    fit takes up most, however they come to stand there.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     if reasons := _any_torque(one, remains, several):
         whole = "motion over the joint's whole range, with another payload"
         other = outside(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return one.doubted(*reasons, alternatives=[other])
+    if free and misplaces(one.hypothesis) and one.evidence.size < _FAINT:
+        title, poses = (
+            "another fault of the geometry",
+            "measured poses of the tool, or known inertial parameters (--prior)",
+        )
+        other = outside(OTHER_GEOMETRY, title, one.joints, one.evidence, poses)
+        return one.doubted("it is small beside the noise", alternatives=[other])
     if effect == "position_friction" and _much(one, remains):
         loads = "the same motion with another payload, which changes friction under load"
         other = outside(OTHER_FRICTION, "other friction that changes along the range", one.joints, one.evidence, loads)
@@ -43,7 +51,7 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         return one.doubted("its values are no larger than their standard deviations", sure=False)
     if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
-    if kind == EFFECT and not one.determined and not repeats:
+    if kind in (EFFECT, ELASTIC) and not one.determined and not repeats:
         return one.doubted(f"{_UNDETERMINED}, and no motion repeats")
     if remains > _LEFT:
         return one.doubted("it leaves more on its joint than it explains there")

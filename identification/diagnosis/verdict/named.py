@@ -70,7 +70,8 @@ def findings(
         )
     pulled = [number for one in result if pulls(one.hypothesis.effect) for number in one.joints]
     several = {number for number in pulled if pulled.count(number) > 1}
-    told = [doubted(one, _remains(found, one, left), several, found.repeats) for one in result]
+    free = found.weighing.free
+    told = [doubted(one, _remains(found, one, left), several, found.repeats, free) for one in result]
     settled = [left_between(found, one.evidence, left) if one.hypothesis.effect == "backlash" else left for one in told]
     told = [swinging(one, rest, _remains(found, one, rest)) for one, rest in zip(told, settled, strict=True)]
     return tuple(sorted(beside_any_torque(told), key=lambda one: -one.evidence.drop))

@@ -2,27 +2,42 @@
 
 from __future__ import annotations
 
-from generator.review.words import listed
-from identification.diagnosis.columns.bank import columns_of
-from identification.diagnosis.search.loop import Search
+from collections.abc import Collection, Sequence
 
-#: Part of what is unexplained, in squares, that stays without the odd run, and without any other one.
-_GONE, _STAYS = 0.2, 0.3
+from generator.review.words import listed
+from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.lack_of_fit import CHANCE, lack_of_fit
+
+#: Part of what is unexplained, in squares, that stays without the odd run, and without any other one; and by how much
+#: that is more.
+_GONE, _STAYS, _MORE = 0.2, 0.15, 3.0
 #: What one run may have and the others not.
 _OTHER = "another load, zero, unit, sign or temperature"
 
 
-def notes(found: Search) -> list[str]:
-    """What is to be told of them, if there are such."""
-    runs, columns = (*found.train, *found.validate), columns_of(found.variants)
+def notes(found: Search, lacking: Collection[int]) -> list[str]:
+    """What is to be told of them, if there are such, where joints by number are ``lacking`` something."""
+    runs = (*found.train, *found.validate)
     if len({found.bank.runs[r].sampled.run.file for r in runs}) < len(runs):
         return []
-    whole = found.weighing.excess(runs, columns)
-    left = {r: found.weighing.excess([other for other in runs if other != r], columns) / whole for r in runs if whole}
+    whole = _unexplained(found, runs, lacking)
+    left = {r: _unexplained(found, [other for other in runs if other != r], lacking) / whole for r in runs if whole}
+    odd = min(left, key=lambda r: left[r], default=-1)
     gone = [r for r in left if left[r] < _GONE]
-    names = [found.bank.runs[r].sampled.run.file for r in gone]
+    names = [found.bank.runs[r].sampled.run.file for r in left]
     if len(runs) == len(gone) == 2:
         return [f"{listed(names)} do not agree, each alone is explained: look for {_OTHER} in one of them"]
-    if len(runs) > 2 and len(gone) == 1 and all(left[r] > _STAYS for r in left if r not in gone):
-        return [f"without {names[0]} the other runs agree: look for {_OTHER} there"]
+    if len(runs) > 2 and odd in gone and all(left[r] > max(_STAYS, _MORE * left[odd]) for r in left if r != odd):
+        return [f"without {found.bank.runs[odd].sampled.run.file} the other runs agree: look for {_OTHER} there"]
     return []
+
+
+def _unexplained(found: Search, runs: Sequence[int], joints: Collection[int]) -> float:
+    """What a fit of the model with what was found to some runs leaves of ``joints`` beyond chance, in squares."""
+    bank, weights = found.bank, found.weighing.fitted_to(runs, found.variants)
+    result = 0.0
+    for k, number in enumerate(bank.robot.numbers):
+        if number in joints:
+            lack = lack_of_fit([bank.runs[r] for r in runs], [bank.residual(r, k, weights) for r in runs], k, number)
+            result += lack.size**2 if lack.p < CHANCE else 0.0
+    return result

@@ -113,14 +113,16 @@ def located(seen: Where, among: Sequence[Lack]) -> Where:
 
 
 def led(before: Where, first: Finding, after: Where) -> Where:
-    """With the joint of the leading finding, which has been told from all others, and with its variable.
+    """With the joint of the leading finding, which has been told from all others, and with its variable; of what sits
+    on no joint that where most is missing.
 
     Another variable that orders far more of the residual stays where means over both would show it, unless the finding
     couples joints: none of one joint's orders what follows two. What seemed to happen once is a part of the finding
     where ``after`` it nothing does.
     """
-    joints = sorted(first.amplitude, key=lambda number: -first.amplitude[number])
-    joint = first.hypothesis.joint or joints[0]
+    lacks = {one.joint: one.part for one in before.lack}
+    most = max(first.amplitude, key=lambda number: (lacks.get(number, 0.0), first.amplitude[number]))
+    joint = first.hypothesis.joint or most
     mine = before.views[joint]
     _, shares = strongest(mine)
     ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
