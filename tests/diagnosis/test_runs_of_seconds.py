@@ -62,7 +62,16 @@ def test_what_is_missing_has_its_own_value(seconds: float, tmp_path: Path) -> No
 
 
 def test_a_joint_may_stand_still_all_along(tmp_path: Path) -> None:
-    """What shows only together with what it carries is no part of the set."""
+    """What shows only together with what carries it serves their torques; what makes none is no part of the set."""
     found, new = diagnosis(tmp_path, TWO_LINKS, 8.0, 0.0, still=True, runs=2)
     assert found.verdict == NOTHING
-    assert any("MX2" in note and note.endswith("which the set leaves out: zero where it plays") for note in new.notes)
+    (together,) = [
+        note for note in new.notes if note.endswith("serve the torques of such motion together, and no other")
+    ]
+    (out,) = [note for note in new.notes if note.endswith("which the set leaves out: zero where it plays")]
+    assert "MX2" in together
+    assert "Fv2" in out
+    told = new.fit.parameter_set.values
+    assert told["MX2"].relative_std == 1e5
+    assert "Fv2" not in told
+    assert all(one.after.relative_to_mean < 1.5 * one.relative_floor for one in new.tried.values() if one.floor)

@@ -35,6 +35,8 @@ SET = "diagnosed"
 _PASSES = 6
 #: Least residual [N m, N] by which rows are weighed: its square is a number.
 _TINY = 1e-150
+#: Standard deviation in parts of a value that the runs do not show by itself.
+_UNKNOWN = 1e3
 #: Samples at which a payload is compared with base parameters.
 _SAMPLES = 80
 
@@ -43,8 +45,9 @@ _SAMPLES = 80
 class Refit:
     """Base parameters by name with their standard deviations [SI], the set that holds them, what is to be told.
 
-    What the runs do not show has an infinite standard deviation, a value that only serves their torques, and no place
-    in the set. ``regressors`` are those with the load that the parameters make. ``contradicted`` are, by name, those of
+    What the runs do not show has an infinite standard deviation. Of that, what shows together with others has a value
+    that only serves their torques, in the set with a standard deviation that tells nothing, and the rest no place in
+    the set. ``regressors`` are those with the load that the parameters make. ``contradicted`` are, by name, those of
     bodies that are far from what was known of them.
     """
 
@@ -100,9 +103,7 @@ def refit(
     solution = replace(coloured, covariance=coloured.covariance + _brought(plain, factors, given))
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
-    hidden = [name for name in regressors.names if name in solution.hidden]
-    if hidden:
-        notes.append(f"the runs do not show {' '.join(hidden)}, which the set leaves out: zero where it plays")
+    notes += _of_hidden([name for name in regressors.names if name in solution.hidden], values)
     names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
     how = "least squares" if prior is None else "least squares near what was known"
     written = ParameterSet(
@@ -113,6 +114,18 @@ def refit(
     )
     far = () if prior is None else _far(prior, regressors, values, std)
     return Refit(values, std, written, regressors, tuple(notes), far)
+
+
+def _of_hidden(hidden: Sequence[str], values: Mapping[str, float]) -> list[str]:
+    """What is to be told of parameters that the runs do not show: nothing of them at all, or not one by one."""
+    out, together = ([name for name in hidden if (values[name] != 0) is shown] for shown in (False, True))
+    notes = [f"the runs do not show {' '.join(out)}, which the set leaves out: zero where it plays"] if out else []
+    if together:
+        notes.append(
+            f"the runs do not show {' '.join(together)} one by one: values in the set serve the torques of such motion "
+            "together, and no other"
+        )
+    return notes
 
 
 def _far(
@@ -249,7 +262,7 @@ def _values(
     result = {}
     for parameter in regressors.model.parameters:
         name = parameter.name
-        if name in values and name not in solution.hidden:
-            relative = 100 * std[name] / abs(values[name]) if values[name] else None
+        if name in values and (values[name] or name not in solution.hidden):
+            relative = 100 * min(std[name] / abs(values[name]), _UNKNOWN) if values[name] else None
             result[name] = ParameterValue(values[name], parameter.unit, relative)
     return result
