@@ -102,6 +102,7 @@ def diagnose(
     if verdict == NAMED and (number := patched(named)):
         verdict, reason = UNEXPLAINED, PATCHED
         rest = located(last, [one for one in last.lack if one.joint == number])
+    lacking = {one.joint for one in left.lacks}
     named = doubted(found, few_rows.doubted(few, robot, named, small), other)
     if named:
         before = led(before, named[0], last)
@@ -118,8 +119,9 @@ def diagnose(
         *remarks.of_findings(named, gone),
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),
-        *(odd_run.notes(found, {one.joint for one in left.lacks}) if left.lacks else ()),
-        *trembling.notes(found, {one.joint for one in left.lacks}),
+        *(odd_run.notes(found, lacking) if lacking else ()),
+        *remarks.of_links(found, lacking),
+        *trembling.notes(found, lacking),
     ]
     return Diagnosis(
         robot=robot,

@@ -11,7 +11,7 @@ import pytest
 
 from identification.diagnosis.columns.hypothesis import BASE, EFFECT
 from identification.diagnosis.verdict.lack_of_fit import Lack
-from identification.diagnosis.verdict.remarks import of_lacks
+from identification.diagnosis.verdict.remarks import of_lacks, of_links
 from identification.diagnosis.verdict.unexplained import Unexplained
 from identification.diagnosis.verdict.views import View
 from identification.diagnosis.verdict.where import Where, late, led, located
@@ -81,6 +81,17 @@ def test_what_a_link_leaves_that_bounces_is_told_apart_from_what_is_little() -> 
         "bounces in a gap, in an order that the smallest error changes: 0.4 times the noise on joint 2"
     )
     assert of_lacks([SIGNIFICANT], Unexplained((), None), False) == []
+
+
+def test_elasticity_that_is_not_looked_for_is_told_where_something_is_missing() -> None:
+    """On joint 2, whose link has an encoder; so has joint 1, which lacks nothing."""
+    moving = [SimpleNamespace(number=number) for number in (1, 2, 3)]
+    run = SimpleNamespace(others={"qs1": 0, "qs2": 0})
+    scene = SimpleNamespace(robot=SimpleNamespace(moving=moving), sampled=SimpleNamespace(run=run))
+    found: Any = SimpleNamespace(bank=SimpleNamespace(robot=SimpleNamespace(numbers=(1, 2, 3)), scenes=[scene]))
+    (note,) = of_links(found, {2, 3})
+    assert note.startswith("elasticity is not looked for on joint 2: counterpoise stiffness --link-encoders")
+    assert of_links(found, {3}) == []
 
 
 def finding(variable: str, joints: tuple[int, ...] = (2,)) -> Any:

@@ -8,6 +8,7 @@ from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import on_joints
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.runs.swings import watched
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.finding import Finding
@@ -54,6 +55,18 @@ def of_elasticity(found: Search) -> list[str]:
     if (shown := stiffer(found)) is not None:
         notes.append(f"the runs show {100 * shown:.0f} % of that torque: these drive trains are stiffer than stated")
     return notes
+
+
+def of_links(found: Search, lacking: Collection[int]) -> list[str]:
+    """Of joints, among those that are ``lacking`` something, by number, on which no elasticity is looked for."""
+    bank = found.bank
+    seen = [number for k, number in enumerate(bank.robot.numbers) if number in lacking and watched(bank.scenes, k)]
+    if not seen:
+        return []
+    return [
+        f"elasticity is not looked for on {on_joints(seen)}: counterpoise stiffness --link-encoders tells it from the "
+        "link-side encoders"
+    ]
 
 
 def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
