@@ -50,6 +50,17 @@ def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -
     assert any("as in no other period of the motion: these rows are left out" in note for note in found.notes)
 
 
+def touch(t: Array, _: Array, qd: Array) -> Array:
+    """A push of half a second."""
+    return np.asarray(DRAG * np.exp(-(((t - FROM) / 0.25) ** 2)))
+
+
+def test_a_short_push_is_seen_too(tmp_path: Path) -> None:
+    (one,) = diagnosed(tmp_path, touch).search.passing
+    assert one.begins < FROM < one.ends
+    assert one.ends - one.begins < 2.0
+
+
 def test_its_rows_do_not_move_the_parameters(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
     with_more(sources[1], drag)

@@ -1,8 +1,8 @@
 """What passes by: a torque that disturbs a stretch of a motion that repeats in one of its periods and in no other.
 
 A brake that drags for some seconds, a hand on the robot. What differs between periods counts as noise; so would this.
-Rows that are disturbed tell nothing of the robot, and count nowhere once they are known. An event of less than a second
-is told by what it leaves (``verdict.lack_of_fit``).
+Rows that are disturbed tell nothing of the robot, and count nowhere once they are known. A shorter event is told by
+what it leaves (``verdict.lack_of_fit``).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 _PERIODS = 3
 #: Time [s] over which power is taken, within which stretches are one, that one lasts at least, and from the first row
 #: before which nothing is told: what fades from there on is no disturbance that comes and goes.
-_WINDOW, _APART, _SHORTEST, _BEGINNING = 0.5, 1.0, 1.0, 1.0
+_WINDOW, _APART, _SHORTEST, _BEGINNING = 0.5, 1.0, 0.25, 1.0
 #: By how much the power of a stretch is above the usual one, and above that of the same phase in other periods.
 _FAR, _ALONE = 36.0, 4.0
 #: Least part of all that differs between periods that disturbed stretches hold, and their most of the rows.
