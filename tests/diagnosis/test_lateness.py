@@ -141,6 +141,14 @@ def test_a_delay_is_told_between_samples_and_beyond_one_that_is_known() -> None:
     assert more.value == pytest.approx(0.0093 - 0.02, abs=1e-4)
 
 
+def test_beyond_the_delay_that_is_known_there_is_none() -> None:
+    """Though delays are tried a millisecond apart, and a sharp valley costs more between them."""
+    known = delay_of([profile(0.0093, 300.0)])
+    assert known is not None
+    assert known.value is not None
+    assert delay_of([profile(0.0093, 300.0)], known.value) is None
+
+
 @pytest.mark.parametrize("unlike", [[profile(0.009, 0.1)], [profile(0.0, 3.0)], [profile(0.035, 3.0)], [None], []])
 def test_no_delay_is_told_that_leaves_little_less_or_lies_at_the_end(unlike: list[Lateness | None]) -> None:
     assert delay_of(unlike) is None

@@ -72,15 +72,15 @@ class Lateness:
 
 
 def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | None:
-    """The one delay of some motors beyond ``start`` [s], where it leaves much less; None where none does, or it is not
-    one of several motors.
+    """The one delay of some motors beyond ``start`` [s], where it leaves less; None where none does, where it is none
+    as closely as it may be told, or it is not one of several motors.
     """
     known = [one for one in among if one is not None]
     if not known:
         return None
     delays, cost = known[0].delays, np.sum([one.cost for one in known], axis=0)
     least = _nearest(delays - start, cost, sum(one.rows for one in known))
-    now = np.array([np.interp(start, delays, one.cost) for one in known])
+    now = np.array([float(CubicSpline(delays, one.cost)(start)) for one in known])
     gains = now - [one.cost[least] for one in known]
     most = np.sum(now - [one.cost.min() for one in known])
     telling = sum(gain > one.rows * -np.log(_EACH) for gain, one in zip(gains, known, strict=True))
@@ -93,6 +93,8 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     if not bends.sum() > 0:
         return None
     delay = delays[least] + step * (before - after) / (2 * bends.sum())
+    if abs(delay - start) < _TOLD * step:
+        return None
     variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
     return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
 

@@ -18,7 +18,7 @@ _OTHER = "another load, zero, unit, sign or temperature"
 def notes(found: Search, lacking: Collection[int]) -> list[str]:
     """What is to be told of them, if there are such, where joints by number are ``lacking`` something."""
     runs = (*found.train, *found.validate)
-    if len({found.bank.runs[r].sampled.run.file for r in runs}) < len(runs):
+    if len({found.bank.runs[r].sampled.run.file for r in runs}) < max(len(runs), 2):
         return []
     whole = _unexplained(found, runs, lacking)
     left = {r: _unexplained(found, [other for other in runs if other != r], lacking) / whole for r in runs if whole}

@@ -121,8 +121,7 @@ def led(before: Where, first: Finding, after: Where) -> Where:
     where ``after`` it nothing does.
     """
     lacks = {one.joint: one.part for one in before.lack}
-    most = max(first.amplitude, key=lambda number: (lacks.get(number, 0.0), first.amplitude[number]))
-    joint = first.hypothesis.joint or most
+    joint = first.hypothesis.joint or max(first.amplitude, key=lambda one: (lacks.get(one, 0.0), first.amplitude[one]))
     mine = before.views[joint]
     _, shares = strongest(mine)
     ordering, of_shown = strongest([one for one in mine if one.variable in _SHOWN])
