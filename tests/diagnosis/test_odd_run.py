@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from identification.diagnosis.diagnosis import UNEXPLAINED
+from identification.diagnosis.verdict import odd_run
 from tests.diagnosis.diagnosed_arm import Hidden, diagnosis_of, recorded, torque
 from tests.recorded import Array
 
@@ -38,3 +42,30 @@ def test_the_run_that_differs_from_the_others_is_told(hidden: list[Hidden], told
     notes = [note for note in found.notes if "agree" in note]
     assert len(notes) == (told is not None)
     assert all((told or "") in note for note in notes)
+
+
+@pytest.mark.parametrize(
+    ("left", "told"),
+    [
+        ((0.02, 0.16, 0.5), "without 0.csv"),
+        ((0.15, 0.16, 0.5), None),
+        ((0.1, 0.25, 0.5), None),
+        ((0.02, 0.1, 0.5), None),
+        ((0.9, 1.0, 1.1), None),
+    ],
+)
+def test_only_a_run_that_stands_out_is_the_odd_one(
+    left: tuple[float, ...], told: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By what stays without each of three runs, in parts of all."""
+    runs = [SimpleNamespace(sampled=SimpleNamespace(run=SimpleNamespace(file=f"{r}.csv"))) for r in range(3)]
+    found: Any = SimpleNamespace(train=(0, 1), validate=(2,), bank=SimpleNamespace(runs=runs))
+
+    def unexplained(found: Any, kept: Sequence[int], joints: Collection[int]) -> float:
+        (out,) = {0, 1, 2} - set(kept) or {None}
+        return 1.0 if out is None else left[out]
+
+    monkeypatch.setattr(odd_run, "_unexplained", unexplained)
+    notes = odd_run.notes(found, {1})
+    assert len(notes) == (told is not None)
+    assert all(note.startswith(told or "") for note in notes)

@@ -87,6 +87,7 @@ def test_a_gap_that_is_told_alike_twice_lets_a_link_bounce(effect: str, size: fl
         ("gear_ratio", DRIVE, 0.4, True, FIRM),
         ("position_offset", SIGNAL, 0.2, True, TENTATIVE),
         ("torque_gain", SIGNAL, 0.2, True, FIRM),
+        ("torque_drift", DRIVE, 0.2, True, FIRM),
     ],
 )
 def test_little_that_misplaces_links_may_be_another_fault_of_the_geometry(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfilt
 
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
@@ -59,3 +60,14 @@ def test_a_loud_swing_is_in_the_recorded_torque_too(
 ) -> None:
     """What few rows do not tell, and what the noise of runs that repeat tells, is not asked."""
     assert heard(bank(swings, repeats, rows, size), [0], swing(kind), np.ones(1)) == told
+
+
+def test_noise_of_a_narrow_band_is_not_heard_by_chance() -> None:
+    """A swing is of few frequencies, whose spectra are few independent numbers."""
+    band, heard_ = butter(4, (0.25, 0.35), "bandpass", output="sos"), 0
+    for seed in range(40):
+        one = bank(False, False, ROWS, 3.0)
+        column = sosfilt(band, np.random.default_rng(100 + seed).normal(size=ROWS))[None]
+        one.columns = lambda r, k, numbers, column=column: 3.0 * column / column.std()
+        heard_ += heard(one, [0], swing(ELASTIC), np.ones(1))
+    assert heard_ <= 1

@@ -112,14 +112,16 @@ def _columns(
     shape: Mapping[str, float],
 ) -> Array:
     """What a delay beyond one of ``start`` [s] changes per second of it: as long as was ``told``, of recorded torques
-    on joints that are ``quiet`` (n), else as was found, else as none.
+    on joints that are ``quiet`` (n), else as was found, else as none, of the model's torque as the recorded one
+    confirms it.
     """
     if told is not None and quiet is not None:
         recorded, modelled, known = _two_secants(scene, k, start, told)
         return np.where(quiet[:, None] & known, recorded, modelled)[None]
     found = scene.found(_name(joint))
     recorded, modelled = (_of_motor(scene, k, tau) for tau in (scene.sampled.tau, scene.torque))
-    tau = confirmed(modelled, recorded, scene.period, start + found)
+    common = 0.0 if joint is None or start else scene.found(_name(None))
+    tau = confirmed(modelled, recorded, scene.period, start + common + found)
     return (_secant(scene, tau, start, found) if found else -scene.derivative(tau))[None]
 
 

@@ -17,7 +17,8 @@ def replaces(weighing: Weighing, variant: Variant, others: Sequence[Variant]) ->
     """Whether a variant beside ``others`` leaves no less than no Coulomb friction on its joint, if it slides at all."""
     hypothesis, base = variant.hypothesis, weighing.bank.base
     coulomb = f"Fc{hypothesis.joint}"
-    if hypothesis.variable != SINCE_REVERSAL or coulomb not in base:
+    # Without its first coefficient nothing stands in the place of friction.
+    if hypothesis.variable != SINCE_REVERSAL or coulomb not in base or 0 not in variant.used:
         return True
     values, _ = weighing.fitted([variant, *others])
     return bool(values[base.index(coulomb)] >= -_BELOW * abs(values[len(base)]))

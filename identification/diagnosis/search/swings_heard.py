@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import csd, welch
+from scipy.signal import csd
 
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import ELASTIC
@@ -27,21 +27,26 @@ _LONG, _SHORT, _LEAST = 64, 16, 10
 
 def heard(bank: Bank, runs: Sequence[int], variant: Variant, x: Array) -> bool:
     """Whether the torque of coefficients ``x`` (k) of a variant is heard along ``runs``. It is not asked where a run
-    repeats, nor of what is no drive train's, or is hardly louder than the noise.
+    repeats, nor of what is no drive train's, is hardly louder than the noise, or has few rows in all runs.
     """
-    if variant.hypothesis.kind != ELASTIC or len(bank.alone) < len(bank.runs):
+    hypothesis = variant.hypothesis
+    if hypothesis.kind != ELASTIC or len(bank.alone) < len(bank.runs):
         return True
-    k = bank.robot.numbers.index(variant.hypothesis.joint)
-    coherent = power = square = rows = 0.0
-    for r in runs:
-        swing = x @ bank.columns(r, k, variant.columns)
-        mine, recorded = bank.whitened(r, k, np.stack([swing, bank.runs[r].tau[k]]))
-        stretch = min(_LONG, len(mine) // _LEAST)
-        if stretch < _SHORT:
-            continue
-        common = np.abs(csd(mine, recorded, nperseg=stretch)[1]) ** 2
-        own, whole = (welch(rows, nperseg=stretch)[1] for rows in (mine, recorded))
-        square, rows = square + float(mine @ mine), rows + len(mine)
-        coherent += float(np.sum(common / np.maximum(whole, np.finfo(float).tiny)))
-        power += float(np.sum(own))
-    return square < _LOUD**2 * rows or coherent >= _HEARD * power
+    k = bank.robot.numbers.index(hypothesis.joint)
+    if k not in variant.coordinates:
+        return True
+    pairs = [
+        bank.whitened(r, k, np.stack([x @ bank.columns(r, k, variant.columns), bank.runs[r].tau[k]])) for r in runs
+    ]
+    pairs = [pair for pair in pairs if pair.shape[1] >= _LEAST * _SHORT]
+    rows = sum(pair.shape[1] for pair in pairs)
+    if sum(float(swing @ swing) for swing, _ in pairs) < _LOUD**2 * rows or not pairs:
+        return True
+    stretch = min(_LONG, min(pair.shape[1] for pair in pairs) // _LEAST)
+    common, own, whole = (
+        np.sum([pair.shape[1] * csd(pair[i], pair[j], nperseg=stretch)[1] for pair in pairs], axis=0)
+        for i, j in ((0, 1), (0, 0), (1, 1))
+    )
+    coherent = np.sum(np.abs(common) ** 2 / np.maximum(whole.real, np.finfo(float).tiny)) / np.sum(own.real)
+    # Of two signals that have nothing in common, by chance, is one stretch of all.
+    return bool(coherent - stretch / rows >= _HEARD)

@@ -35,7 +35,7 @@ class Valleys:
             return
         self._searched.add(stands)
         begun = self._begun(variant, others) if balances(variant.hypothesis.effect) else []
-        for start in [variant, *(one for one in begun if one is not variant)]:
+        for start in [variant, *(one for one in begun if one.shape != variant.shape)]:
             refined(self._weighing, start, others)
 
     def _begun(self, variant: Variant, others: Sequence[Variant]) -> list[Variant]:
@@ -45,6 +45,7 @@ class Valleys:
         weighing, hypothesis = self._weighing, variant.hypothesis
         grids = {shape.name: shape for shape in hypothesis.shapes if shape.free}
         tried = [weighing.bank.add(hypothesis, shape, offered=False) for shape in hypothesis.variants]
+        weighing.refresh()
         found = [(weighing.beside(one, others)[1], one) for one in tried if one is not None]
         least = _PART * max((drop for drop, _ in found), default=0.0)
         begun = [
@@ -56,10 +57,14 @@ class Valleys:
 
 
 def _neighbours(one: Variant, other: Variant, grids: Mapping[str, ShapeRange]) -> bool:
-    """Whether two tried shapes differ by one step of one of the ``grids``, and in nothing else."""
+    """Whether two tried shapes differ by one step of one of the ``grids``, or in a value that is not searched, and in
+    nothing else.
+    """
     different = [name for name, value in one.shape.items() if other.shape[name] != value]
-    if len(different) != 1 or different[0] not in grids:
+    if len(different) != 1:
         return False
+    if different[0] not in grids:
+        return True
     grid = grids[different[0]]
     points = sorted(grid.grid())
     steps = abs(points.index(one.shape[grid.name]) - points.index(other.shape[grid.name]))

@@ -13,7 +13,8 @@ from identification.outcome import Value
 #: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
 #: to where it rests, and of friction over the position, which any torque of the position looks like.
 _LEFT, _PULLED = 1.0, 0.15
-#: Size, in parts of the noise's rms, below which a torque of the position is any; what is left on its joint, in those
+#: Size, in parts of the noise's rms, below which a torque of the position is any, and what places links
+#: elsewhere any fault of the geometry; what is left on its joint, in those
 #: parts too, and standard deviation of its values, in parts of them, from which it is.
 _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
@@ -22,6 +23,7 @@ _SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
 #: Reasons of several rules.
 _MUCH = "much is left on its joint beside what it explains there"
 _UNDETERMINED = "the runs do not determine its values"
+_SMALL = "it is small beside the noise"
 
 
 def doubted(one: Finding, remains: float, several: Collection[int], repeats: bool, free: bool = False) -> Finding:
@@ -36,19 +38,19 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         whole = "motion over the joint's whole range, with another payload"
         other = outside(OTHER_TORQUE, "another torque of the position", one.joints, one.evidence, whole)
         return one.doubted(*reasons, alternatives=[other])
-    if free and misplaces(one.hypothesis) and one.evidence.size < _FAINT:
-        title, poses = (
-            "another fault of the geometry",
-            "measured poses of the tool, or known inertial parameters (--prior)",
-        )
-        other = outside(OTHER_GEOMETRY, title, one.joints, one.evidence, poses)
-        return one.doubted("it is small beside the noise", alternatives=[other])
     if effect == "position_friction" and _much(one, remains):
         loads = "the same motion with another payload, which changes friction under load"
         other = outside(OTHER_FRICTION, "other friction that changes along the range", one.joints, one.evidence, loads)
         return one.doubted(_MUCH, alternatives=[other])
     if all(map(_unknown, one.main)):
         return one.doubted("its values are no larger than their standard deviations", sure=False)
+    if free and misplaces(one.hypothesis) and one.evidence.size < _FAINT:
+        title, poses = (
+            "another fault of the geometry",
+            "measured poses of the tool, or known inertial parameters (--prior)",
+        )
+        other = outside(OTHER_GEOMETRY, title, one.joints, one.evidence, poses)
+        return one.doubted(_SMALL, alternatives=[other])
     if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
     if kind in (EFFECT, ELASTIC) and not one.determined and not repeats:
@@ -72,7 +74,7 @@ def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[
         _MUCH: _much(one, remains),
         "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
         "the runs do not determine its values to a fifth": loose,
-        "it is small beside the noise": one.evidence.size < _FAINT,
+        _SMALL: one.evidence.size < _FAINT,
     }
     return [reason for reason, holds in reasons.items() if holds]
 
