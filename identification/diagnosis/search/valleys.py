@@ -57,14 +57,10 @@ class Valleys:
 
 
 def _neighbours(one: Variant, other: Variant, grids: Mapping[str, ShapeRange]) -> bool:
-    """Whether two tried shapes differ by one step of one of the ``grids``, or in a value that is not searched, and in
-    nothing else.
-    """
+    """Whether two tried shapes differ by one step of one of the ``grids``, and in nothing else."""
     different = [name for name, value in one.shape.items() if other.shape[name] != value]
-    if len(different) != 1:
+    if len(different) != 1 or different[0] not in grids:
         return False
-    if different[0] not in grids:
-        return True
     grid = grids[different[0]]
     points = sorted(grid.grid())
     steps = abs(points.index(one.shape[grid.name]) - points.index(other.shape[grid.name]))
