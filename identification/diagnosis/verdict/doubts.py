@@ -13,9 +13,9 @@ from identification.outcome import Value
 #: What is left on a joint, in parts of what a finding explains there, from which it is not firm; of what pulls a link
 #: to where it rests, and of friction over the position, which any torque of the position looks like.
 _LEFT, _PULLED = 1.0, 0.15
-#: Size, in parts of the noise's rms, below which a torque of the position is any, and what places links
-#: elsewhere any fault of the geometry; what is left on its joint, in those
-#: parts too, and standard deviation of its values, in parts of them, from which it is.
+#: Size, in parts of the noise's rms, below which a torque of the position is any, and what places links elsewhere any
+#: fault of the geometry; what is left on a torque's joint, in those parts too, and standard deviation of its values, in
+#: parts of them, from which it is any.
 _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
 #: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
@@ -45,11 +45,8 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     if all(map(_unknown, one.main)):
         return one.doubted("its values are no larger than their standard deviations", sure=False)
     if free and misplaces(one.hypothesis) and one.evidence.size < _FAINT:
-        title, poses = (
-            "another fault of the geometry",
-            "measured poses of the tool, or known inertial parameters (--prior)",
-        )
-        other = outside(OTHER_GEOMETRY, title, one.joints, one.evidence, poses)
+        poses = "measured poses of the tool, or known inertial parameters (--prior)"
+        other = outside(OTHER_GEOMETRY, "another fault of the geometry", one.joints, one.evidence, poses)
         return one.doubted(_SMALL, alternatives=[other])
     if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
