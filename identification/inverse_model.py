@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from generator.errors import InputError, Place
+from generator.review.words import listed
 from generator.robot.description import Robot
 from identification import recipe as recipes
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, added
-from identification.least_squares import Problem, Solution
+from identification.least_squares import Problem, Solution, not_shown
 from identification.observation import Regressors
 from identification.observed import Observed
 from identification.own_load import under_own_load
@@ -241,13 +242,17 @@ def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
     if recipe.cutoff is not None and cutoff < recipe.cutoff:
         rate = f"the highest at {one.sampled.run.rate:.6g} Hz"
         notes.append(f"{name}: the cut-off is {cutoff:.6g} Hz, {rate}, not {recipe.cutoff:g} Hz")
+    slow = []
     for factor in one.factors:
         number, still = robot.moving[factor.joint].number, factor.joint in one.sampled.still
         if still:
             rows = "" if factor.rows else ", and its dry friction may be any: it has no rows"
             notes.append(f"{name}: joint {number} stands still; its speed was taken as zero{rows}")
         elif not factor.rows:
-            notes.append(f"{name}: joint {number} is never faster than the standstill threshold; it has no rows")
+            slow.append(f"joint {number}")
+    if slow:
+        verb, they_have = ("is", "it has") if len(slow) == 1 else ("are", "they have")
+        notes.append(f"{name}: {listed(slow)} {verb} never faster than the standstill threshold; {they_have} no rows")
     return notes
 
 
@@ -256,7 +261,7 @@ def _doubts(regressors: Regressors, full: Estimate, best: Estimate) -> list[str]
     fit where they leave far more than the ``full`` model of the fitted runs.
     """
     solution = full.solution
-    notes = [f"{name} cannot be identified: no motion in the data shows it alone" for name in solution.hidden]
+    notes = not_shown(solution.hidden, "motion in the data")
     for parameter in regressors.model.base_parameters:
         name = parameter.name
         if parameter.lower is None or name not in full.sought or name in solution.hidden:

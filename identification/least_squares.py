@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.words import listed
 from identification.factors import Factor, triangular
 
 Array = NDArray[np.float64]
@@ -59,6 +60,13 @@ def standard_deviation(name: str, names: Sequence[str], hidden: Collection[str],
         return 0.0
     k = names.index(name)
     return float(np.sqrt(covariance[k, k]))
+
+
+def not_shown(hidden: Sequence[str], by: str) -> list[str]:
+    """The note on parameters that are ``hidden``: no ``by`` shows them alone. None where none is."""
+    if not hidden:
+        return []
+    return [f"{listed(hidden)} cannot be identified: no {by} shows {'it' if len(hidden) == 1 else 'them'} alone"]
 
 
 @dataclass(frozen=True)

@@ -153,7 +153,7 @@ def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.C
     slow.write_text(file.read_text().replace("acceleration_limit: 1.5 rad/s2", "speed_limit: 0.02 rad/s"))
     done = command("excite", slow, "--out", tmp_path / "slow", "--evaluations", "300", capsys=capsys)
     assert done.status == 0
-    assert "note: Fc2 will not be identifiable from this motion" in done.out.splitlines()
+    assert "note: Ia2, Fv2, Fc2 and Off2 will not be identifiable from this motion" in done.out.splitlines()
     expected = json.loads((tmp_path / "slow" / "excitation.json").read_text())["expected"]
     assert expected["Fc2"]["std"] == np.inf
     assert not expected["Fc2"]["identifiable"]

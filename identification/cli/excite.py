@@ -18,6 +18,7 @@ from generator.cli.progress import bar, stage
 from generator.cli.shared_arguments import takes_robot
 from generator.errors import InputError
 from generator.resources import find_robot
+from generator.review.words import listed
 from generator.writing import spare
 from identification.extras import needing
 
@@ -210,7 +211,8 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
 def _summary(found: Excitation) -> str:
     solution = found.expected
     lines = [f"{found.robot.name}: {found.duration:g} s at {found.rate:g} Hz, {len(found.units)} base parameters"]
-    lines += [f"note: {name} will not be identifiable from this motion" for name in solution.hidden]
+    if solution.hidden:
+        lines.append(f"note: {listed(solution.hidden)} will not be identifiable from this motion")
     width = max(map(len, [*found.units, "parameter"]))
     lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  unit")
     for name, unit in found.units.items():

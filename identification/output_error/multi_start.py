@@ -21,6 +21,7 @@ from identification.dataset import load
 from identification.executors import Executor
 from identification.executors.here import Here
 from identification.inverse_model import Identification, Options, identify
+from identification.least_squares import not_shown
 from identification.output_error.criterion import Point
 from identification.output_error.estimate import Estimate, evaluated
 from identification.output_error.experiment import Experiment, experiment
@@ -188,5 +189,5 @@ def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) ->
         notes.append("the constraint that M(q) is positive definite holds; standard deviations are those without it")
     if best.test is not None and not np.isfinite(best.test.total.norm):
         notes.append("the simulation diverges on what was held out: shorter segments follow it further")
-    notes += [f"{name} cannot be identified: no position shows it alone" for name in best.hidden]
+    notes += not_shown(best.hidden, "position")
     return tuple(dict.fromkeys(notes))
