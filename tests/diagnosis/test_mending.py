@@ -119,20 +119,20 @@ def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp
 
 
 @pytest.mark.parametrize(
-    ("left", "now", "why"),
+    ("left", "now", "away", "why"),
     [
-        (5.0, 3.0, ""),
-        (5.0, 7.0, ""),
-        (5.0, 4.99, ": parameters that move away from the prior may explain as much"),
+        (5.0, 3.0, 5.0, ""),
+        (5.0, 7.0, 5.0, ""),
+        (5.0, 3.0, 3.01, "; parameters that move far from the prior explain as much (3.01 %)"),
     ],
 )
-def test_what_changes_nothing_beside_a_prior_is_explained(
-    left: float, now: float, why: str, monkeypatch: pytest.MonkeyPatch
+def test_what_parameters_far_from_the_prior_explain_is_told(
+    left: float, now: float, away: float, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def together(played: Any) -> Any:
         return SimpleNamespace(total=SimpleNamespace(rows=10, relative_to_mean=played[0]))
 
     monkeypatch.setattr("identification.diagnosis.mending.mended.together", together)
-    pair: list[Any] = [[left], [now]]
-    (said,) = _gain(*pair, "untouched runs")
+    held, free = ([left], [now]), [away]
+    (said,) = _gain(held, free, "untouched runs")
     assert said.endswith(f"leaves {left:.3g} % of the untouched runs, the one with it {now:.3g} %{why}")

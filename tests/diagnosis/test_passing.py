@@ -61,6 +61,19 @@ def test_a_short_push_is_seen_too(tmp_path: Path) -> None:
     assert one.ends - one.begins < 2.0
 
 
+@pytest.mark.parametrize("at", [FROM, FROM - 10.0])
+def test_of_two_periods_the_one_is_disturbed_that_the_model_does_not_explain(at: float, tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("")] * 2)
+    for source in sources:
+        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T[:, :2001]
+        Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(source))
+    with_more(sources[1], lambda t, q, qd: touch(t - (at - FROM), q, qd))
+    (one,) = diagnosis_of(sources, regressors).search.passing
+    assert one.path.name == "2.csv"
+    assert one.begins < at < one.ends
+    assert one.ends - one.begins < 2.0
+
+
 def test_its_rows_do_not_move_the_parameters(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
     with_more(sources[1], drag)

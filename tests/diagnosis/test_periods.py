@@ -72,7 +72,7 @@ def test_a_joint_that_is_held_does_not_count() -> None:
     [
         (2000, 200, ""),
         (2003, 0, "repeats after 2003 samples, of which one in 10 is looked at: periods are not compared"),
-        (0, 0, "does not repeat"),
+        (0, 0, "does not repeat after a whole number of samples"),
     ],
 )
 def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from identification.diagnosis.columns.hypothesis import BASE
 from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
 from identification.diagnosis.mending.untouched import Untouched, hardly_shown, objections
 from identification.diagnosis.runs.played import Played, aligned
@@ -44,11 +45,12 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
 def test_what_hardly_shows_is_told() -> None:
     """Noise of 2 % is nearly all that is left of joint 1; of joint 2 a part of the gap was left to close."""
     one, other = (SimpleNamespace(amplitude=dict.fromkeys(on, 1.0), hypothesis=None) for on in ([1], [1, 2]))
-    one.hypothesis, other.hypothesis = SimpleNamespace(named="elasticity"), SimpleNamespace(named="tilt")
+    one.hypothesis, other.hypothesis = (SimpleNamespace(named=name, kind=BASE) for name in ("elasticity", "tilt"))
     found: list[Any] = [one, other]
     (told,) = hardly_shown({1: tried(1.05, 1.04), 2: tried(5.0, 1.0)}, RUNS, found)
     assert told.startswith("elasticity hardly shows on the untouched runs")
     assert not [*hardly_shown({1: tried(1.05, 1.2)}, RUNS, found)]
+    assert not [*hardly_shown({1: tried(1.4, 1.02)}, RUNS, found[:1])]
 
 
 def test_both_models_are_held_against_the_rows_that_count_for_both() -> None:

@@ -69,11 +69,16 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     old_regressors = bank.scenes[0].regressors
     with stage("fitting the parameters with what was found"):
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
-        refitted = refit(fitted_runs(found, old_regressors), old_regressors, as_known).written
         beside, old = without_findings(found.search), Player(old_regressors)
         runs = [*prepared_runs(found.roles.test, old_regressors)]
-        fitted = before = Before(runs, old, refitted, beside)
+
+        def refitted(held: bool = False) -> Before:
+            fit = refit(fitted_runs(found, old_regressors), old_regressors, as_known, held=held)
+            return Before(runs, old, fit.written, beside)
+
+        fitted = near = before = refitted()
         if as_known is not None:
+            near = refitted(held=True)
             values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
             trains = {name: x for name, x in beside.items() if name not in values}
             before = Before(runs, old, values, trains)
@@ -95,15 +100,14 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, model.played)
-        pair, without = (one.and_after(played, model.swings) for one in (before, fitted))
+        pair, without, held = (one.and_after(played, model.swings) for one in (before, fitted, near))
     tried = untouched(bank, *pair)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
     if prior is not None:
-        told += _gain(*without, found.roles.tested) if model.findings else [_FITTED]
-    without_them = untouched(bank, *without)
-    told += objections(without_them, found.roles.tested, left_out)
-    told += hardly_shown(without_them, found.roles.tested, model.findings)
+        told += _gain(held, without[0], found.roles.tested) if model.findings else [_FITTED]
+    told += objections(untouched(bank, *without), found.roles.tested, left_out)
+    told += hardly_shown(untouched(bank, *held), found.roles.tested, model.findings)
     return Mended(
         text=text,
         robot=new.robot,
@@ -120,16 +124,16 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     )
 
 
-def _gain(without: Sequence[Played], after: Sequence[Played], runs: str) -> Iterator[str]:
-    """What the findings do on ``runs``, in words, beside a fit: a prior's values alone are further off than what the
-    runs make of them.
+def _gain(held: tuple[Sequence[Played], Sequence[Played]], free: Sequence[Played], runs: str) -> Iterator[str]:
+    """What the findings do on ``runs``, in words, beside fits without them: one ``held`` near the prior, with the new
+    model after it, whose values alone are further off; and one ``free`` to leave what the runs contradict.
     """
-    old, new = (together(one).total for one in (without, after))
+    old, new, other = (together(one).total for one in (*held, free))
     if not (old.rows and new.rows):
         return
-    left, now = old.relative_to_mean, new.relative_to_mean
-    alike = _ALIKE * left < now < left / _ALIKE
-    why = ": parameters that move away from the prior may explain as much" if alike else ""
+    left, now, away = (one.relative_to_mean for one in (old, new, other))
+    alike = _ALIKE * away < now < away / _ALIKE
+    why = f"; parameters that move far from the prior explain as much ({away:.3g} %)" if alike else ""
     yield (
         f"fitted to the same runs near the same prior, the model without what was found leaves {left:.3g} % of the "
         f"{runs}, the one with it {now:.3g} %{why}"

@@ -71,9 +71,11 @@ def refit(
     prior: Prior | None = None,
     description: str = "",
     given: Mapping[str, Value] | None = None,
+    held: bool = False,
 ) -> Refit:
     """The base parameters of ``regressors`` from runs, weighted by joint; ``prior`` is of the same base parameters.
 
+    What was known was known less well where the runs contradict it, unless it is ``held``.
     Standard deviations allow for the colour of each joint's residuals (``colour.inflation``). Base parameters that are
     ``given`` stay as they are; how uncertain they are the others are too. Those of which a base parameter holds more
     are fitted like any other.
@@ -90,7 +92,7 @@ def refit(
 
     def fit(factors: tuple[Factor, ...]) -> Solution:
         solution = Problem(factors, free, known, weighted=True).solve()
-        return solution if near is None else _near(near, factors, solution, {})
+        return solution if near is None else _near(near, factors, solution, {}, held)
 
     regressors, notes = under_own_load(runs, regressors, fit)
     observed = [Observed(one, regressors) for one in runs]
@@ -99,7 +101,7 @@ def refit(
     if near is None:
         coloured = _coloured(plain, factors, observed)
     else:
-        coloured = plain = _near(near, factors, plain, _colours(plain.values, observed))
+        coloured = plain = _near(near, factors, plain, _colours(plain.values, observed), held)
     solution = replace(coloured, covariance=coloured.covariance + _brought(plain, factors, given))
     values = {name: solution.values[name] for name in regressors.names}
     std = {name: given[name].std if name in given else solution.std(name) for name in regressors.names}
@@ -186,11 +188,14 @@ def _payload_in_base(regressors: Regressors) -> Array:
     return np.asarray(solution, dtype=float)
 
 
-def _near(prior: Prior, factors: Sequence[Factor], start: Solution, colours: Mapping[int, float]) -> Solution:
+def _near(
+    prior: Prior, factors: Sequence[Factor], start: Solution, colours: Mapping[int, float], held: bool
+) -> Solution:
     """The solution with the prior's rows, each joint's rows weighed by what is left of them, less where that has a
     colour: by as much as ``colours`` inflate its variances, 1 where they tell nothing.
 
-    Where the runs contradict what was known, that was known less well by as much (Birge's ratio).
+    Where the runs contradict what was known, and it is not ``held``, that was known less well by as much (Birge's
+    ratio).
     """
     whole = prior.beside([0.0] * (len(start.names) - len(prior.mean)))
     given = {name: value for name, value in start.values.items() if name not in start.names}
@@ -209,7 +214,7 @@ def _near(prior: Prior, factors: Sequence[Factor], start: Solution, colours: Map
         chi, covariance = Normal(gram, len(start.names), rows, known).solution([])
         away = chi - whole.mean
         spread = float(away @ whole.precision @ away) + float(np.sum(whole.precision * covariance))
-        width = max(spread / max(int(whole.known.sum()), 1), 1.0)
+        width = 1.0 if held else max(spread / max(int(whole.known.sum()), 1), 1.0)
         values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
         sigma = sigma | {one.joint: max(one.residual(values) / np.sqrt(one.rows), _TINY) for one in shown}
         unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.hypothesis import VALUE
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.played import Played, together
 from identification.diagnosis.verdict.finding import Finding
@@ -36,6 +37,18 @@ class Untouched:
     def worse(self) -> bool:
         """Whether the model after leaves more, in parts of the torque's spread."""
         return self.after.relative_to_mean > _WORSE * self.before.relative_to_mean
+
+    def worse_than(self, other: Untouched) -> bool:
+        """Whether the model after leaves more than that of ``other``, each held against the same model before: rows of
+        the two may differ.
+        """
+        mine, theirs = self.after.relative_to_mean, other.after.relative_to_mean
+        return mine * other.before.relative_to_mean > _WORSE * theirs * self.before.relative_to_mean
+
+    @property
+    def alike(self) -> bool:
+        """Whether both leave as much."""
+        return not self.worse and self.before.relative_to_mean <= _WORSE * self.after.relative_to_mean
 
     @property
     def closed(self) -> float | None:
@@ -91,8 +104,12 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
 
 
 def hardly_shown(tried: Mapping[int, Untouched], runs: str, found: Sequence[Finding]) -> Iterator[str]:
-    """Findings whose joints are hardly further from the noise than it without them: ``runs`` tell nothing of them."""
+    """Findings without which their joints are as near to the noise as with them: ``runs`` tell nothing of them. Another
+    value than the known one a fit takes up.
+    """
     for one in found:
+        if one.hypothesis.kind == VALUE:
+            continue
         mine = [tried[number] for number in one.amplitude if number in tried]
-        if mine and all(each.closed is None and not each.worse for each in mine):
+        if mine and all(each.closed is None and each.alike for each in mine):
             yield f"{one.hypothesis.named} hardly shows on the {runs}: without it little more than noise is left there"

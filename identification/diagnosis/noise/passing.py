@@ -1,8 +1,9 @@
 """What passes by: a torque that disturbs a stretch of a motion that repeats in one of its periods and in no other.
 
 A brake that drags for some seconds, a hand on the robot. What differs between periods counts as noise; so would this.
-Rows that are disturbed tell nothing of the robot, and count nowhere once they are known. A shorter event is told by
-what it leaves (``verdict.lack_of_fit``).
+Rows that are disturbed tell nothing of the robot, and count nowhere once they are known. Of two periods that differ
+the one is disturbed which the model explains far less. A shorter event is told by what it leaves
+(``verdict.lack_of_fit``).
 """
 
 from __future__ import annotations
@@ -23,15 +24,16 @@ from identification.sampling import Sampled
 
 Array = NDArray[np.float64]
 
-#: Periods that have a row of a phase, from which what they have in common is known without any one of them.
-_PERIODS = 3
+#: Periods that have a row of a phase, from which what they have in common is known without any one of them; and those
+#: that tell how much differs.
+_PERIODS, _BOTH = 3, 2
 #: Time [s] over which power is taken, within which stretches are one, that one lasts at least, and from the first row
 #: before which nothing is told: what fades from there on is no disturbance that comes and goes.
 _WINDOW, _APART, _SHORTEST, _BEGINNING = 0.5, 1.0, 0.25, 1.0
 #: By how much the power of a stretch is above the usual one, and above that of the same phase in other periods.
-_FAR, _ALONE = 36.0, 4.0
+_FAR, _ALONE = 16.0, 4.0
 #: Least part of all that differs between periods that disturbed stretches hold, and their most of the rows.
-_MOST, _FEW = 0.5, 0.25
+_MOST, _FEW = 0.25, 0.25
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ def passing(runs: Sequence[Prepared], residuals: Sequence[Array]) -> tuple[Passi
     """What passes by in those of ``runs`` that have periods enough, of which a model leaves ``residuals`` [N m, N] (n x
     rows each).
     """
-    there = [(run, e) for run, e in zip(runs, residuals, strict=True) if run.times >= _PERIODS]
+    there = [(run, e) for run, e in zip(runs, residuals, strict=True) if run.period]
     if not there:
         return ()
     return tuple(one for k in range(len(there[0][1])) for one in _of_joint(there, k))
@@ -85,17 +87,16 @@ def undisturbed(run: Prepared, passed: Sequence[Passing]) -> Prepared:
 
 def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passing]:
     """In all runs together: what is usual in one is in all."""
-    different = [_different(e[k], run, k) for run, e in runs]
-    powers = [_power(d, run) for d, (run, _) in zip(different, runs, strict=True)]
-    every = np.concatenate(powers)
+    compared = [_compared(e[k], run, k) for run, e in runs]
+    every = np.concatenate([one.power for one in compared])
     if not (known := np.isfinite(every)).any():
         return
     usual = float(np.median(every[known]))
-    found = [_stretches(power, usual, run) for power, (run, _) in zip(powers, runs, strict=True)]
-    inside = [d[one] for d, ones in zip(different, found, strict=True) for one in ones]
+    found = [_stretches(one, usual, run) for one, (run, _) in zip(compared, runs, strict=True)]
+    inside = [one.rows[stretch] for one, ones in zip(compared, found, strict=True) for stretch in ones]
     if not inside:
         return
-    whole, rows = np.concatenate(different), np.concatenate(inside)
+    whole, rows = np.concatenate([one.rows for one in compared]), np.concatenate(inside)
     if np.isfinite(rows).sum() > _FEW * np.isfinite(whole).sum() or np.nansum(rows**2) < _MOST * np.nansum(whole**2):
         return
     for (run, _), ones in zip(runs, found, strict=True):
@@ -104,14 +105,34 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
             yield Passing(k, path, float(run.t[one][0]), float(run.t[one][-1]))
 
 
-def _different(e: Array, run: Prepared, k: int) -> Array:
-    """What rows (N) of joint k have beside the median of all periods at their phase; NaN where that is not known."""
-    rows, there = by_period(e, run.period), by_period(run.kept[k], run.period)
-    result = np.full(rows.shape, np.nan)
-    known = np.flatnonzero(there.sum(axis=0) >= _PERIODS)
-    beside = np.where(there, rows, np.nan)[:, known]
-    result[:, known] = beside - np.nanmedian(beside, axis=0) if len(known) else beside
-    return np.asarray(result.ravel()[: len(e)])
+@dataclass(frozen=True)
+class _Compared:
+    """What ``rows`` (N) have beside other periods at their phase, its ``power`` (N) about each, NaN where that is not
+    known; and ``elsewhere`` (N) the most of it, of two periods of all that the model leaves, in others at the phase.
+    """
+
+    rows: Array
+    power: Array
+    elsewhere: Array
+
+
+def _compared(e: Array, run: Prepared, k: int) -> _Compared:
+    """The residual e (N) of joint k beside the median of all periods, of two that beside which it is larger."""
+    there = by_period(run.kept[k], run.period)
+    own = np.where(there, by_period(e, run.period), np.nan)
+    left = by_period(_power(np.where(run.kept[k], e, np.nan), run), run.period)
+    several, both = (np.flatnonzero(one) for one in (there.sum(axis=0) >= _PERIODS, there.sum(axis=0) == _BOTH))
+    rows = np.full(own.shape, np.nan)
+    rows[:, several] = own[:, several]
+    if len(several):
+        rows[:, several] -= np.nanmedian(own[:, several], axis=0)
+    less, more = np.argsort(np.where(there, left, -1.0)[:, both], axis=0)[-_BOTH:]
+    rows[more, both] = own[more, both] - own[less, both]
+    different = rows.ravel()[: len(e)]
+    power = _power(different, run)
+    usual = by_period(power, run.period)
+    usual[:, both] = left[:, both]
+    return _Compared(different, power, _elsewhere(usual, run)[: len(e)])
 
 
 def _power(different: Array, run: Prepared) -> Array:
@@ -122,20 +143,19 @@ def _power(different: Array, run: Prepared) -> Array:
     return np.where(known, square / np.maximum(count, 1 / width), np.nan)
 
 
-def _stretches(power: Array, usual: float, run: Prepared) -> list[slice]:
-    """Stretches of a run whose ``power`` (N) is far above the ``usual`` one, and above that of other periods then."""
-    far = np.nan_to_num(power) > np.maximum(_FAR * usual, _ALONE * _elsewhere(power, run))
+def _stretches(one: _Compared, usual: float, run: Prepared) -> list[slice]:
+    """Stretches of a run whose power is far above the ``usual`` one, and above that of other periods then."""
+    far = np.nan_to_num(one.power) > np.maximum(_FAR * usual, _ALONE * one.elsewhere)
     places = np.flatnonzero(far)
     parts = np.split(places, np.flatnonzero(np.diff(places) > _APART * run.rate) + 1)
-    first = np.argmax(np.isfinite(power)) + _BEGINNING * run.rate
+    first = np.argmax(np.isfinite(one.power)) + _BEGINNING * run.rate
     # A single moment fills one window.
     least = (_SHORTEST + _WINDOW) * run.rate
     return [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]
 
 
 def _elsewhere(power: Array, run: Prepared) -> Array:
-    """The most (N) that a power about the same phase is in another period."""
-    near = maximum_filter1d(np.nan_to_num(power), max(round(_WINDOW * run.rate), 1))
-    by_phase = by_period(near, run.period)
-    others = [np.delete(by_phase, p, axis=0).max(axis=0) for p in range(len(by_phase))]
-    return np.concatenate(others)[: len(power)]
+    """The most that a power by period and phase is about the same phase in another period (all periods' rows)."""
+    near = maximum_filter1d(np.nan_to_num(power).ravel(), max(round(_WINDOW * run.rate), 1)).reshape(power.shape)
+    others = [np.delete(near, p, axis=0).max(axis=0, initial=0.0) for p in range(len(near))]
+    return np.concatenate(others)

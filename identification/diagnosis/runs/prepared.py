@@ -85,7 +85,7 @@ class Prepared:
         if self.period:
             return ""
         if not self.repeats:
-            return "does not repeat"
+            return "does not repeat after a whole number of samples"
         factor = self.sampled.filters.factor
         why = f"of which one in {factor} is looked at" if self.repeats % factor else "too late for its rows to hold two"
         return f"repeats after {self.repeats} samples, {why}: periods are not compared"

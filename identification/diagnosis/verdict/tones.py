@@ -13,10 +13,11 @@ from identification.diagnosis.search.loop import Search
 
 Array = NDArray[np.float64]
 
-#: Part of what differs between periods that one oscillation must be.
-_MOST = 0.5
-#: Times in a period that it comes at least: what is slower is a drift.
-_QUICK = 2
+#: Part of what differs between periods that one oscillation must be; and that one must be which comes less than so
+#: often in a period: noise that stays for seconds looks like it.
+_MOST, _SLOW, _QUICK = 0.5, 0.75, 2
+#: Times in a run that it comes at least: what is slower is a drift.
+_COMES = 1.5
 #: Frequencies that are looked at, for each that a run's rows tell apart.
 _FINE = 4
 #: Fewest rows of a run.
@@ -36,22 +37,24 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
     result, bank = {}, found.bank
     for k in range(bank.dof):
         lines: list[tuple[Array, Array]] = []
-        total = 0.0
+        total, quick = 0.0, 0.0
         for r, run in enumerate(bank.runs):
             kept = run.kept[k]
             if not run.period or int(kept.sum()) < _FEWEST:
                 continue
             e = between_periods(bank.residual(r, k, weights, white=False), kept, run.period)
             e = np.where(kept, e, 0.0)
-            lines.append(_lines(e, int(kept.sum()), run.rate, _QUICK * run.rate / run.period))
+            lines.append(_lines(e, int(kept.sum()), run.rate, _COMES * run.rate / len(e)))
             total += float(e @ e)
+            quick = max(quick, _QUICK * run.rate / run.period)
         if not total:
             continue
         frequency = max((one for one, _ in lines), key=len)
         power = np.sum([np.interp(frequency, *one, left=0.0) for one in lines], axis=0)
-        part = float(power.max()) / total
-        if part > _MOST:
-            result[k] = Tone(float(frequency[int(np.argmax(power))]), part)
+        at = int(np.argmax(power / np.where(frequency < quick, _SLOW, _MOST)))
+        one = Tone(float(frequency[at]), float(power[at]) / total)
+        if one.part > (_SLOW if one.frequency < quick else _MOST):
+            result[k] = one
     return result
 
 

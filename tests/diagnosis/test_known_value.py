@@ -1,4 +1,4 @@
-"""A torque offset that is another one than a set tells: found as such, and a value of the new set."""
+"""An offset or a rotor's inertia that is another one than a set tells: found as such, and a value of the new set."""
 
 from __future__ import annotations
 
@@ -43,6 +43,23 @@ def test_another_offset_than_the_known_one_is_found(tmp_path: Path) -> None:
     value = one.parameters["Off1"]
     assert value.value == pytest.approx(MORE, abs=3 * value.std)
     assert value.std < 0.1 * abs(MORE)
+    assert not found.contradicted
+
+
+def test_another_inertia_of_a_rotor_is_found(tmp_path: Path) -> None:
+    arm = ARM + "  - {effect: rotor_inertia, joint: 1}\n"
+    known = {**TRUTH, "Ia1": 3.0}
+    bodies = {name: value for name, value in TRUTH.items() if name != "ZZ1"}
+    file = arm + parameters_text({"known": known})
+    regressors, sources = recorded(tmp_path, [torque("stribeck")] * 3, file, {**bodies, "ZZ1R": 9.0 + 12.0})
+    found = diagnosis_of(sources, regressors, "known")
+    assert found.verdict == NAMED
+    named = {one.hypothesis.effect: one for one in found.findings}
+    assert named.keys() == {"rotor_inertia", "stribeck_friction"}
+    assert (named["rotor_inertia"].hypothesis.kind, named["rotor_inertia"].status) == (VALUE, FIRM)
+    value = named["rotor_inertia"].parameters["Ia1"]
+    assert value.value == pytest.approx(9.0, abs=3 * value.std)
+    assert value.std < 0.2 * 9.0
     assert not found.contradicted
 
 
