@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +16,14 @@ from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.refit import with_values
 from identification.diagnosis.mending.repair import repaired
-from identification.diagnosis.verdict.finding import FIRM
+from identification.diagnosis.verdict.alternatives import OTHER_BODY
+from identification.diagnosis.verdict.doubts import doubted
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.observation import Regressors
 from identification.outcome import Value
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, Hidden, diagnosis_of, recorded, torque
-from tests.recorded import Array, parameters_text
+from tests.recorded import TRUTH as LINKS
+from tests.recorded import TWO_LINKS, Array, Recorded, fourier, parameters_text
 
 #: What the offset is beyond the known one [N m], which a set tells to a part of the little that it is.
 MORE = -12.0
@@ -47,20 +51,44 @@ def test_another_offset_than_the_known_one_is_found(tmp_path: Path) -> None:
 
 
 def test_another_inertia_of_a_rotor_is_found(tmp_path: Path) -> None:
-    arm = ARM + "  - {effect: rotor_inertia, joint: 1}\n"
-    known = {**TRUTH, "Ia1": 3.0}
-    bodies = {name: value for name, value in TRUTH.items() if name != "ZZ1"}
-    file = arm + parameters_text({"known": known})
-    regressors, sources = recorded(tmp_path, [torque("stribeck")] * 3, file, {**bodies, "ZZ1R": 9.0 + 12.0})
+    regressors, sources = with_rotor(tmp_path, known=1.5)
     found = diagnosis_of(sources, regressors, "known")
     assert found.verdict == NAMED
-    named = {one.hypothesis.effect: one for one in found.findings}
-    assert named.keys() == {"rotor_inertia", "stribeck_friction"}
-    assert (named["rotor_inertia"].hypothesis.kind, named["rotor_inertia"].status) == (VALUE, FIRM)
-    value = named["rotor_inertia"].parameters["Ia1"]
-    assert value.value == pytest.approx(9.0, abs=3 * value.std)
-    assert value.std < 0.2 * 9.0
+    (one,) = found.findings
+    assert (one.hypothesis.key, one.hypothesis.kind, one.status) == (("rotor_inertia", 2), VALUE, FIRM)
+    value = one.parameters["Ia2"]
+    assert value.value == pytest.approx(LINKS["Ia2"] - 1.5, abs=3 * value.std)
+    assert value.std < 0.2 * LINKS["Ia2"]
     assert not found.contradicted
+
+
+def test_an_inertia_of_a_rotor_that_is_as_known_is_nothing(tmp_path: Path) -> None:
+    regressors, sources = with_rotor(tmp_path, known=LINKS["Ia2"])
+    assert diagnosis_of(sources, regressors, "known").verdict == NOTHING
+
+
+def test_what_no_motion_tells_from_a_body_is_tentative(tmp_path: Path) -> None:
+    regressors, sources = with_rotor(tmp_path, known=1.5)
+    (one,) = diagnosis_of(sources, regressors, "known").findings
+    assert not one.hypothesis.grouped
+    assert doubted(one, 0.0, (), True) == one
+    other = doubted(replace(one, hypothesis=replace(one.hypothesis, grouped=True)), 0.0, (), True)
+    assert other.status == TENTATIVE
+    assert [each.effect for each in other.alternatives] == [OTHER_BODY]
+
+
+def with_rotor(folder: Path, known: float) -> tuple[Regressors, list[str]]:
+    """Two links, three runs, and a set that tells an inertia of the second motor."""
+    path = folder / "two_links.yaml"
+    path.write_text(TWO_LINKS + parameters_text({"known": {**LINKS, "Ia2": known}}))
+    regressors, draw = Regressors(read(path)), np.random.default_rng(2)
+    sources = []
+    for seed in range(1, 4):
+        t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
+        tau = regressors.torques(LINKS, motion) + draw.normal(size=motion.q.shape)
+        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
+        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+    return regressors, sources
 
 
 def test_another_offset_is_found_beside_what_is_missing(tmp_path: Path) -> None:

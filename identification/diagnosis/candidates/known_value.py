@@ -45,5 +45,6 @@ def _beyond(effect: Effect, variable: str, joint: Joint, k: int, scene: Scene) -
         kind=VALUE,
         joints=(joint.number,),
         variable=variable,
+        grouped=f"{parameter.stem}{joint.number}" not in scene.regressors.names,
         of_motion=True,
     )

@@ -115,7 +115,8 @@ class Hypothesis:
 
     What it is: ``effect`` is an id of the generator's library, or of a correction of the robot file, and ``kind`` tells
     where a finding is written. It is named on ``joints``, and shows over ``variable``. ``usual`` is false of a balancer
-    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for.
+    on a joint on which robots have none, ``stated`` true of what the robot's file itself speaks for, ``grouped`` of a
+    value that no motion tells from one of a body.
 
     Its torque: ``columns(scene, shape)`` returns k x n x N torques [N m, N] per unit of each coefficient at the
     recorded rate: what the *measured* torque holds more than the model's says. ``jumps`` are where it jumps with a
@@ -148,6 +149,7 @@ class Hypothesis:
     variable: str = ""
     usual: bool = True
     stated: bool = False
+    grouped: bool = False
     jumps: tuple[Jump, ...] = ()
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False

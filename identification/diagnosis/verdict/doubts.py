@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SINCE_REVERSAL
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SINCE_REVERSAL, VALUE
 from identification.diagnosis.search.likely import balances, misplaces, pulls
-from identification.diagnosis.verdict.alternatives import OTHER_FRICTION, OTHER_GEOMETRY, OTHER_TORQUE, outside
+from identification.diagnosis.verdict.alternatives import (
+    OTHER_BODY,
+    OTHER_FRICTION,
+    OTHER_GEOMETRY,
+    OTHER_TORQUE,
+    outside,
+)
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding, vague
 from identification.outcome import Value
 
@@ -30,8 +36,8 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     """Tentative where its torque is known and its law is not: too much ``remains``, in parts of it, on the joint where
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
     balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
-    ``repeats`` those of any effect; or where it is little of what links do that stand elsewhere, of which a ``free``
-    fit takes up most, however they come to stand there.
+    ``repeats`` those of any effect; where it is little of what links do that stand elsewhere, of which a ``free``
+    fit takes up most, however they come to stand there; or where it is a value as one of a body.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     if reasons := _any_torque(one, remains, several):
@@ -48,6 +54,10 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         poses = "measured poses of the tool, or known inertial parameters (--prior)"
         other = outside(OTHER_GEOMETRY, "another fault of the geometry", one.joints, one.evidence, poses)
         return one.doubted(_SMALL, alternatives=[other])
+    if kind == VALUE and one.hypothesis.grouped:
+        told = "data of motor and gear, or of the bodies"
+        other = outside(OTHER_BODY, "another value of a body than the known one", one.joints, one.evidence, told)
+        return one.doubted("no motion tells it from a value of a body", alternatives=[other])
     if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
     if kind in (EFFECT, ELASTIC) and not one.determined and not repeats:
