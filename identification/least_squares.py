@@ -63,10 +63,11 @@ def standard_deviation(name: str, names: Sequence[str], hidden: Collection[str],
 
 
 def not_shown(hidden: Sequence[str], by: str) -> list[str]:
-    """The note on parameters that are ``hidden``: no ``by`` shows them alone. None where none is."""
+    """The note on parameters that are ``hidden``: no ``by`` shows any of them by itself. None where none is."""
     if not hidden:
         return []
-    return [f"{listed(hidden)} cannot be identified: no {by} shows {'it' if len(hidden) == 1 else 'them'} alone"]
+    shown = "it alone" if len(hidden) == 1 else "any of them alone"
+    return [f"{listed(hidden)} cannot be identified: no {by} shows {shown}"]
 
 
 @dataclass(frozen=True)

@@ -60,8 +60,15 @@ def test_an_oscillation_of_its_own_is_unexplained(frequency: float, tmp_path: Pa
     (note,) = (note for note in found.notes if "oscillation" in note)
     match = re.search(r"of joint 1 is an oscillation of ([\d.]+) Hz that does not follow the motion", note)
     assert match
-    assert float(match[1]) == pytest.approx(frequency, abs=0.05)
+    assert float(match[1]) == pytest.approx(frequency, rel=0.05)
     assert (found.after.joint, found.after.variable) == (1, "time")
+
+
+@pytest.mark.parametrize(("frequency", "told"), [(1.337, True), (0.077, False)])
+def test_a_slow_oscillation_must_be_more_of_what_differs(frequency: float, told: bool, tmp_path: Path) -> None:
+    """Two thirds of it."""
+    found = diagnosed(tmp_path, lambda t: 1.3 * np.sin(2 * np.pi * frequency * t + 1.0))
+    assert any("oscillation" in note for note in found.notes) is told
 
 
 @pytest.mark.parametrize("seconds", [0.05, 0.3, 2.0])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
+from identification.diagnosis.candidates.known_value import hypotheses
 from identification.diagnosis.columns.hypothesis import VALUE
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.command import Request, diagnosed
@@ -69,8 +70,10 @@ def test_an_inertia_of_a_rotor_that_is_as_known_is_nothing(tmp_path: Path) -> No
 
 def test_what_no_motion_tells_from_a_body_is_tentative(tmp_path: Path) -> None:
     regressors, sources = with_rotor(tmp_path, known=1.5)
-    (one,) = diagnosis_of(sources, regressors, "known").findings
-    assert not one.hypothesis.grouped
+    found = diagnosis_of(sources, regressors, "known")
+    grouped = {one.coefficients[0].name: one.grouped for one in hypotheses(found.search.bank.scenes)}
+    assert grouped == {"Ia1": True, "Ia2": False, "Off1": False, "Off2": False}
+    (one,) = found.findings
     assert doubted(one, 0.0, (), True) == one
     other = doubted(replace(one, hypothesis=replace(one.hypothesis, grouped=True)), 0.0, (), True)
     assert other.status == TENTATIVE

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis, diagnose
 from identification.diagnosis.mending.mended import mended
+from identification.diagnosis.noise.passing import Passing, passing
 from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.verdict.finding import FIRM
 from tests.diagnosis.diagnosed_arm import TRUTH, diagnosis_of, ready, recorded, torque
@@ -61,17 +65,45 @@ def test_a_short_push_is_seen_too(tmp_path: Path) -> None:
     assert one.ends - one.begins < 2.0
 
 
-@pytest.mark.parametrize("at", [FROM, FROM - 10.0])
-def test_of_two_periods_the_one_is_disturbed_that_the_model_does_not_explain(at: float, tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [torque("")] * 2)
+def of_two_periods(folder: Path, added: Added) -> tuple[Passing, ...]:
+    """What passes by in two runs of two periods, with something on top of the second."""
+    regressors, sources = recorded(folder, [torque("")] * 2)
     for source in sources:
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T[:, :2001]
         Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(source))
-    with_more(sources[1], lambda t, q, qd: touch(t - (at - FROM), q, qd))
-    (one,) = diagnosis_of(sources, regressors).search.passing
+    with_more(sources[1], added)
+    return diagnosis_of(sources, regressors).search.passing
+
+
+@pytest.mark.parametrize("at", [FROM, FROM - 10.0])
+def test_of_two_periods_the_one_is_disturbed_that_the_model_does_not_explain(at: float, tmp_path: Path) -> None:
+    (one,) = of_two_periods(tmp_path, lambda t, q, qd: touch(t - (at - FROM), q, qd))
     assert one.path.name == "2.csv"
     assert one.begins < at < one.ends
     assert one.ends - one.begins < 2.0
+
+
+def test_of_two_periods_neither_is_disturbed_where_the_model_lacks_as_much_in_both(tmp_path: Path) -> None:
+    def in_both(t: Array, q: Array, qd: Array) -> Array:
+        return touch(t, q, qd) + touch(t + 10.0, q, qd)
+
+    assert of_two_periods(tmp_path, lambda t, q, qd: in_both(t, q, qd) + touch(t, q, qd)) == ()
+
+
+@pytest.mark.parametrize("seconds", [0.05, 1.0, 5.0])
+def test_noise_that_stays_for_a_time_does_not_pass(seconds: float) -> None:
+    """Along one run of three periods of ten seconds, fifty rows a second."""
+    draw, stays = np.random.default_rng(3), np.exp(-0.02 / seconds)
+    t, every = np.arange(1500) / 50, np.ones((1, 1500), dtype=bool)
+    sampled = SimpleNamespace(run=SimpleNamespace(name="1.csv"))
+    run: Any = SimpleNamespace(period=500, rate=50.0, kept=every, t=t, sampled=sampled)
+    for _ in range(40):
+        assert passing([run], [lfilter([1], [1, -stays], draw.normal(size=(1, 3000)))[:, 1500:]]) == ()
+
+
+def test_a_push_of_some_times_the_noise_passes(tmp_path: Path) -> None:
+    (one,) = diagnosed(tmp_path, lambda t, q, qd: 0.5 * touch(FROM + (t - FROM) / 3, q, qd)).search.passing
+    assert one.begins < FROM < one.ends
 
 
 def test_its_rows_do_not_move_the_parameters(tmp_path: Path) -> None:

@@ -159,6 +159,17 @@ def test_a_joint_without_rows_stays_as_it_was_known(case: Case, fitted: Refit) -
     assert found.values["Fc1"] == pytest.approx(fitted.values["Fc1"], rel=0.1)
 
 
+def test_what_is_held_stays_nearer_to_what_was_known(case: Case, fitted: Refit) -> None:
+    """A quarter of every value is much beside what is stated: it was known less well, unless it is held."""
+    of = case.regressors
+    values = np.array(list(fitted.values.values()))
+    known = Prior(1.25 * values, np.diag((1e-3 * np.abs(values) + 1e-4) ** -2.0))
+    runs = [case.sampled(k, of) for k in (0, 1)]
+    free, held = (np.array([*refit(runs, of, known, held=one).values.values()]) for one in (False, True))
+    far = [float((x - known.mean) @ known.precision @ (x - known.mean)) for x in (free, held)]
+    assert far[1] < 0.9 * far[0]
+
+
 def test_the_gap_closes_in_the_generated_c(case: Case, fitted: Refit) -> None:
     player, notes = compiled(case.new, case.folder / "generated", case.regressors)
     assert not notes

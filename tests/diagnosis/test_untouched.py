@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import BASE
+from identification.diagnosis.columns.hypothesis import BASE, VALUE
 from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
 from identification.diagnosis.mending.untouched import Untouched, hardly_shown, objections
 from identification.diagnosis.runs.played import Played, aligned
@@ -51,6 +51,8 @@ def test_what_hardly_shows_is_told() -> None:
     assert told.startswith("elasticity hardly shows on the untouched runs")
     assert not [*hardly_shown({1: tried(1.05, 1.2)}, RUNS, found)]
     assert not [*hardly_shown({1: tried(1.4, 1.02)}, RUNS, found[:1])]
+    one.hypothesis.kind = VALUE
+    assert not [*hardly_shown({1: tried(1.05, 1.04)}, RUNS, found[:1])]
 
 
 def test_both_models_are_held_against_the_rows_that_count_for_both() -> None:

@@ -2,8 +2,8 @@
 
 Where nothing is known beforehand a fit takes it up. A parameter set tells standard deviations as parts of the values.
 Of an offset, which may be next to nothing, that is no measure of how far it moves: hoses, sensors and what rubs change
-from day to day. Of a rotor's inertia another gear or motor than the data sheet's makes far more than that. Springs,
-balancers or coupled rotors would stand for the difference.
+from day to day. A rotor's inertia differs by far more than is stated where motor or gear are other ones than the set's.
+Springs, balancers or coupled rotors would stand for the difference.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from generator.effects import offset, rotor_inertia
 from generator.effects.effect import Effect
+from generator.effects.library import effects_of
 from generator.robot.description import Joint
 from identification.diagnosis.columns.effect_columns import EffectColumns
 from identification.diagnosis.columns.hypothesis import VALUE, Coefficient, Hypothesis
@@ -45,6 +46,13 @@ def _beyond(effect: Effect, variable: str, joint: Joint, k: int, scene: Scene) -
         kind=VALUE,
         joints=(joint.number,),
         variable=variable,
-        grouped=f"{parameter.stem}{joint.number}" not in scene.regressors.names,
+        grouped=_with_bodies(scene, f"{parameter.stem}{joint.number}"),
         of_motion=True,
     )
+
+
+def _with_bodies(scene: Scene, name: str) -> bool:
+    """Whether a base parameter holds a parameter together with those of bodies."""
+    of_effects = {each for one in effects_of(scene.robot) for each in one.names}
+    holding = [terms for terms in scene.regressors.model.grouping.numeric().values() if name in terms]
+    return any(not of_effects.issuperset(terms) for terms in holding)

@@ -173,6 +173,11 @@ class Hypothesis:
         return sum(one.free for one in self.shapes)
 
     @property
+    def of_parameter(self) -> bool:
+        """Whether its coefficients are other values of base parameters, by the same names."""
+        return self.kind == VALUE and not self.grouped
+
+    @property
     def key(self) -> Key:
         """What it is and where, whatever its shape."""
         return self.effect, self.joint

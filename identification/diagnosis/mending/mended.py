@@ -72,13 +72,13 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         beside, old = without_findings(found.search), Player(old_regressors)
         runs = [*prepared_runs(found.roles.test, old_regressors)]
 
-        def refitted(held: bool = False) -> Before:
+        def without(held: bool) -> Before:
             fit = refit(fitted_runs(found, old_regressors), old_regressors, as_known, held=held)
             return Before(runs, old, fit.written, beside)
 
-        fitted = near = before = refitted()
+        fitted = near = before = without(held=False)
         if as_known is not None:
-            near = refitted(held=True)
+            near = without(held=True)
             values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
             trains = {name: x for name, x in beside.items() if name not in values}
             before = Before(runs, old, values, trains)
@@ -100,13 +100,13 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, model.played)
-        pair, without, held = (one.and_after(played, model.swings) for one in (before, fitted, near))
+        pair, free, held = (one.and_after(played, model.swings) for one in (before, fitted, near))
     tried = untouched(bank, *pair)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
     if prior is not None:
-        told += _gain(held, without[0], found.roles.tested) if model.findings else [_FITTED]
-    told += objections(untouched(bank, *without), found.roles.tested, left_out)
+        told += _gain(held[0], free[0], pair[1], found.roles.tested) if model.findings else [_FITTED]
+    told += objections(untouched(bank, *free), found.roles.tested, left_out)
     told += hardly_shown(untouched(bank, *held), found.roles.tested, model.findings)
     return Mended(
         text=text,
@@ -124,20 +124,17 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     )
 
 
-def _gain(held: tuple[Sequence[Played], Sequence[Played]], free: Sequence[Played], runs: str) -> Iterator[str]:
-    """What the findings do on ``runs``, in words, beside fits without them: one ``held`` near the prior, with the new
-    model after it, whose values alone are further off; and one ``free`` to leave what the runs contradict.
+def _gain(near: Sequence[Played], free: Sequence[Played], after: Sequence[Played], runs: str) -> Iterator[str]:
+    """What the findings do on ``runs``, in words, beside fits without them, one ``near`` the prior and one ``free`` to
+    leave what the runs contradict: a prior's values alone are further off than what the runs make of them.
     """
-    old, new, other = (together(one).total for one in (*held, free))
-    if not (old.rows and new.rows):
-        return
-    left, now, away = (one.relative_to_mean for one in (old, new, other))
-    alike = _ALIKE * away < now < away / _ALIKE
-    why = f"; parameters that move far from the prior explain as much ({away:.3g} %)" if alike else ""
-    yield (
-        f"fitted to the same runs near the same prior, the model without what was found leaves {left:.3g} % of the "
-        f"{runs}, the one with it {now:.3g} %{why}"
-    )
+    held, away, new = (together(one).total for one in (near, free, after))
+    if held.rows and new.rows:
+        yield (
+            f"fitted to the same runs, the model without what was found leaves {held.relative_to_mean:.3g} % of the "
+            f"{runs} if its parameters stay near the prior, {away.relative_to_mean:.3g} % if the runs may move them "
+            f"far, and the new model {new.relative_to_mean:.3g} %"
+        )
 
 
 def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:

@@ -38,13 +38,6 @@ class Untouched:
         """Whether the model after leaves more, in parts of the torque's spread."""
         return self.after.relative_to_mean > _WORSE * self.before.relative_to_mean
 
-    def worse_than(self, other: Untouched) -> bool:
-        """Whether the model after leaves more than that of ``other``, each held against the same model before: rows of
-        the two may differ.
-        """
-        mine, theirs = self.after.relative_to_mean, other.after.relative_to_mean
-        return mine * other.before.relative_to_mean > _WORSE * theirs * self.before.relative_to_mean
-
     @property
     def alike(self) -> bool:
         """Whether both leave as much."""
@@ -104,8 +97,9 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
 
 
 def hardly_shown(tried: Mapping[int, Untouched], runs: str, found: Sequence[Finding]) -> Iterator[str]:
-    """Findings without which their joints are as near to the noise as with them: ``runs`` tell nothing of them. Another
-    value than the known one a fit takes up.
+    """Findings without which their joints are as near to the noise as with them: ``runs`` tell nothing of them.
+
+    It is not asked of another value than the known one, which a fit without the finding takes up.
     """
     for one in found:
         if one.hypothesis.kind == VALUE:

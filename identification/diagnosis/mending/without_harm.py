@@ -7,6 +7,7 @@ other is no effect of the robot.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from generator.review.words import listed
 from identification.diagnosis.mending.untouched import Untouched
@@ -39,7 +40,7 @@ def without_harm(
         less = model_of([other for other in model.findings if other not in several])
         instead = tried_with(less)
         what = listed([one.hypothesis.named for one in several])
-        if not all(tried[j].worse_than(instead[j]) for j in several[0].amplitude):
+        if not all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
             continue
         if others := sorted(set(less.fit.contradicted).difference(model.fit.contradicted)):
             it = "it" if len(several) == 1 else "them"

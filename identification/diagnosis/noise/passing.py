@@ -30,8 +30,11 @@ _PERIODS, _BOTH = 3, 2
 #: Time [s] over which power is taken, within which stretches are one, that one lasts at least, and from the first row
 #: before which nothing is told: what fades from there on is no disturbance that comes and goes.
 _WINDOW, _APART, _SHORTEST, _BEGINNING = 0.5, 1.0, 0.25, 1.0
-#: By how much the power of a stretch is above the usual one, and above that of the same phase in other periods.
+#: By how much the power of a stretch is above the usual one at least, and above that of its phase in other periods.
 _FAR, _ALONE = 16.0, 4.0
+#: How unlikely noise is as far: the power to which the ratio of the upper quartile of powers to their median is raised,
+#: which is large where noise stays for as long as power is taken over.
+_UNLIKELY = 5
 #: Least part of all that differs between periods that disturbed stretches hold, and their most of the rows.
 _MOST, _FEW = 0.25, 0.25
 
@@ -91,8 +94,9 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
     every = np.concatenate([one.power for one in compared])
     if not (known := np.isfinite(every)).any():
         return
-    usual = float(np.median(every[known]))
-    found = [_stretches(one, usual, run) for one, (run, _) in zip(compared, runs, strict=True)]
+    median, upper = np.quantile(every[known], [0.5, 0.75]).tolist()
+    far = median * max(_FAR, (upper / median) ** _UNLIKELY) if median > 0 else 0.0
+    found = [_stretches(one, far, run) for one, (run, _) in zip(compared, runs, strict=True)]
     inside = [one.rows[stretch] for one, ones in zip(compared, found, strict=True) for stretch in ones]
     if not inside:
         return
@@ -109,11 +113,13 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
 class _Compared:
     """What ``rows`` (N) have beside other periods at their phase, its ``power`` (N) about each, NaN where that is not
     known; and ``elsewhere`` (N) the most of it, of two periods of all that the model leaves, in others at the phase.
+    Row number ``begins`` is the first that counts.
     """
 
     rows: Array
     power: Array
     elsewhere: Array
+    begins: int
 
 
 def _compared(e: Array, run: Prepared, k: int) -> _Compared:
@@ -126,13 +132,13 @@ def _compared(e: Array, run: Prepared, k: int) -> _Compared:
     rows[:, several] = own[:, several]
     if len(several):
         rows[:, several] -= np.nanmedian(own[:, several], axis=0)
-    less, more = np.argsort(np.where(there, left, -1.0)[:, both], axis=0)[-_BOTH:]
+    *_, less, more = np.argsort(np.where(there, left, -1.0)[:, both], axis=0)
     rows[more, both] = own[more, both] - own[less, both]
     different = rows.ravel()[: len(e)]
     power = _power(different, run)
-    usual = by_period(power, run.period)
-    usual[:, both] = left[:, both]
-    return _Compared(different, power, _elsewhere(usual, run)[: len(e)])
+    others = by_period(power, run.period)
+    others[:, both] = left[:, both]
+    return _Compared(different, power, _elsewhere(others, run)[: len(e)], int(np.argmax(run.kept[k])))
 
 
 def _power(different: Array, run: Prepared) -> Array:
@@ -143,12 +149,11 @@ def _power(different: Array, run: Prepared) -> Array:
     return np.where(known, square / np.maximum(count, 1 / width), np.nan)
 
 
-def _stretches(one: _Compared, usual: float, run: Prepared) -> list[slice]:
-    """Stretches of a run whose power is far above the ``usual`` one, and above that of other periods then."""
-    far = np.nan_to_num(one.power) > np.maximum(_FAR * usual, _ALONE * one.elsewhere)
-    places = np.flatnonzero(far)
+def _stretches(one: _Compared, far: float, run: Prepared) -> list[slice]:
+    """Stretches of a run whose power is ``far`` or more, and above that of other periods then."""
+    places = np.flatnonzero(np.nan_to_num(one.power) > np.maximum(far, _ALONE * one.elsewhere))
     parts = np.split(places, np.flatnonzero(np.diff(places) > _APART * run.rate) + 1)
-    first = np.argmax(np.isfinite(one.power)) + _BEGINNING * run.rate
+    first = one.begins + _BEGINNING * run.rate
     # A single moment fills one window.
     least = (_SHORTEST + _WINDOW) * run.rate
     return [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]

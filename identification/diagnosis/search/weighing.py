@@ -265,8 +265,8 @@ class Weighing:
 
     def _by_prior(self, variant: Variant, others: Sequence[Variant]) -> bool:
         """Whether a fit that knows nothing beforehand takes up what a variant makes, and it tells why the runs
-        contradict more values that are known than it has coefficients, or the one that it alone is of, and makes them
-        contradict no other.
+        contradict more values that are known than it has coefficients, or that of which it is another value, and makes
+        them contradict no other.
         """
         if self.free or self._prior is None:
             return False
@@ -277,10 +277,10 @@ class Weighing:
             return False
         solutions = [self.normal.solution(columns_of(each)) for each in (others, [*others, variant])]
         far, near = (self._prior.far(x[:p], covariance[:p, :p])[self._parameters] for x, covariance in solutions)
-        told = int(np.sum((far > FAR) & (near < _AGREED)))
-        itself = variant.hypothesis.kind == VALUE and not variant.hypothesis.grouped
-        least = len(variant.columns) + variant.hypothesis.free + (not itself)
-        return told >= least and not np.any((near > FAR) & (far < FAR))
+        told = (far > FAR) & (near < _AGREED)
+        own = [self.bank.base.index(one.name) for one in variant.coefficients if variant.hypothesis.of_parameter]
+        enough = told[own].all() if own else told.sum() > len(variant.columns) + variant.hypothesis.free
+        return bool(enough and not np.any((near > FAR) & (far < FAR)))
 
     @property
     def _parameters(self) -> slice:

@@ -37,7 +37,7 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
     balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
     ``repeats`` those of any effect; where it is little of what links do that stand elsewhere, of which a ``free``
-    fit takes up most, however they come to stand there; or where it is a value as one of a body.
+    fit takes up most, however they come to stand there; or where no motion tells it from a value of a body.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     if reasons := _any_torque(one, remains, several):

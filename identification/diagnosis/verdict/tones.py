@@ -13,11 +13,11 @@ from identification.diagnosis.search.loop import Search
 
 Array = NDArray[np.float64]
 
-#: Part of what differs between periods that one oscillation must be; and that one must be which comes less than so
-#: often in a period: noise that stays for seconds looks like it.
-_MOST, _SLOW, _QUICK = 0.5, 0.75, 2
-#: Times in a run that it comes at least: what is slower is a drift.
-_COMES = 1.5
+#: Times that it comes at least in the rows of all periods but one, which the others tell: what is slower is a drift.
+_COMES = 1.0
+#: Part of what differs between periods that one oscillation must be; and that it must be where it comes less than
+#: ``_QUICK`` times in those rows: noise that stays for a time looks like it.
+_MOST, _SLOW, _QUICK = 0.5, 0.75, 6
 #: Frequencies that are looked at, for each that a run's rows tell apart.
 _FINE = 4
 #: Fewest rows of a run.
@@ -44,25 +44,32 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
                 continue
             e = between_periods(bank.residual(r, k, weights, white=False), kept, run.period)
             e = np.where(kept, e, 0.0)
-            lines.append(_lines(e, int(kept.sum()), run.rate, _COMES * run.rate / len(e)))
+            once = run.rate / (int(kept.sum()) * (1 - 1 / run.times))
+            lines.append(_lines(e, kept, run.rate, _COMES * once))
             total += float(e @ e)
-            quick = max(quick, _QUICK * run.rate / run.period)
+            quick = max(quick, _QUICK * once)
         if not total:
             continue
         frequency = max((one for one, _ in lines), key=len)
-        power = np.sum([np.interp(frequency, *one, left=0.0) for one in lines], axis=0)
-        at = int(np.argmax(power / np.where(frequency < quick, _SLOW, _MOST)))
-        one = Tone(float(frequency[at]), float(power[at]) / total)
-        if one.part > (_SLOW if one.frequency < quick else _MOST):
-            result[k] = one
+        part = np.sum([np.interp(frequency, *one, left=0.0) for one in lines], axis=0) / total
+        least_part = np.where(frequency < quick, _SLOW, _MOST)
+        most = int(np.argmax(part / least_part))
+        if part[most] > least_part[most]:
+            result[k] = Tone(float(frequency[most]), float(part[most]))
     return result
 
 
-def _lines(e: Array, rows: int, rate: float, least: float) -> tuple[Array, Array]:
-    """Frequencies [Hz] from the ``least`` on and the squares of rows e (N), ``rows`` of them not zero, that an
+def _lines(e: Array, kept: NDArray[np.bool_], rate: float, least: float) -> tuple[Array, Array]:
+    """Frequencies [Hz] from the ``least`` on and the squares of rows e (N), zero where they are not ``kept``, that an
     oscillation of each takes away.
+
+    With c and s the products of e with cosine and sine, and C, S and D those of these with themselves and each other
+    over the kept rows, which differ where joints rest: (S c^2 - 2 D c s + C s^2) / (C S - D^2).
     """
-    count = _FINE * len(e)
+    count, rows = _FINE * len(e), int(kept.sum())
     frequency = np.fft.rfftfreq(count, 1 / rate)
-    inside = (frequency >= least) & (frequency < rate / 2)
-    return np.asarray(frequency[inside]), 2 / rows * np.abs(np.fft.rfft(e, count)[inside]) ** 2
+    inside = np.flatnonzero((frequency >= least) & (frequency < rate / 2))
+    products, twice = np.fft.rfft(e, count)[inside], np.fft.fft(kept, count)[2 * inside % count]
+    c, s = products.real, -products.imag
+    C, S, D = (rows + twice.real) / 2, (rows - twice.real) / 2, -twice.imag / 2
+    return np.asarray(frequency[inside]), (S * c**2 - 2 * D * c * s + C * s**2) / (C * S - D**2)
