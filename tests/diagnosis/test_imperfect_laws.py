@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from identification.diagnosis.columns.hypothesis import EFFECT, VALUE
 from identification.diagnosis.search.imperfect_laws import lacking
 from identification.outcome import Value
 
@@ -18,12 +19,13 @@ def variant(
     variable: str = "qd",
     preset: Mapping[str, Value] | None = None,
     joint: int | None = None,
+    kind: str = EFFECT,
 ) -> Any:
     joint = joints[0] + 1 if joint is None else joint
     hypothesis = SimpleNamespace(
         effect=effect,
         joint=joint,
-        kind="effect",
+        kind=kind,
         stated=False,
         variable=variable,
         preset=preset or {},
@@ -40,6 +42,8 @@ def variant(
         (variant("load_friction", (2,), "load"), variant("stribeck_friction", (1,)), 1e-5),
         (variant("load_friction", (2,), "load"), variant("coulomb_friction", (1,)), 0.0),
         (variant("viscous_friction", (1,)), variant("stribeck_friction", (1,)), 0.0),
+        (variant("rotor_inertia", (1,), "qdd"), variant("viscous_friction", (1,)), 0.0),
+        (variant("rotor_inertia", (1,), "qdd", kind=VALUE), variant("viscous_friction", (1,)), 0.01),
         (variant("gradual_friction", (1,)), variant("torque_delay", (0, 1), "frequency", joint=0), 0.002),
         (variant("dahl_friction", (1,), "time since reversal"), variant("torque_delay", (0, 1), "f", joint=0), 0.01),
         (variant("gradual_friction", (1,)), variant("torque_delay", (1,), "frequency"), 0.01),

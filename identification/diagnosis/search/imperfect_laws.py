@@ -13,8 +13,9 @@ from identification.diagnosis.search.likely import balances, common
 _BEHIND = ("joint_elasticity", "backlash", "torque_delay")
 #: What a joint has one of, as of balancers: a robot file says no more, and the second tells what the first one leaves.
 _ONE_OF = ("joint_elasticity", "backlash")
-#: Laws are never exact: least part of what others that are not common explain on the same joint, where they show over
-#: nearly the same, and where they are alike: friction of the speed, or behind the motor.
+#: Laws are never exact: least part of what others that are not common (beside another value than the known one, of all)
+#: explain on the same joint, where they show over nearly the same, and where they are alike: friction of the speed, or
+#: behind the motor.
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
 _SHIFTED = 0.002
@@ -45,7 +46,7 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
             return inf
         if balances(mine.effect) and balances(theirs.effect):
             least = max(least, _SECOND * drop)
-        elif not common(one):
+        elif not common(one) or mine.kind == VALUE:
             part = _part(mine, theirs)
             near = bool(set(one.coordinates) & set(variant.coordinates))
             least = max(least, (part if near else min(part, _ANYWHERE)) * drop)
