@@ -117,6 +117,11 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
     return tuple(rigid[key] for key in sorted(rigid, key=lambda key: (key[0], order.index(key[1]))))
 
 
+def names_of_effects(robot: Robot) -> frozenset[str]:
+    """Names of the parameters of a robot's effects, which no body has; raises as ``effects_of``."""
+    return frozenset(name for one in effects_of(robot) for name in one.names)
+
+
 def _check_joint(use: EffectUse, effect: Effect, robot: Robot, joint: Joint, there: list[Effect]) -> None:
     """The joint can carry the effect, beside those that are there."""
     number = joint.number

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from generator.effects import offset, rotor_inertia
 from generator.effects.effect import Effect
-from generator.effects.library import effects_of
+from generator.effects.library import names_of_effects
 from generator.robot.description import Joint
 from identification.diagnosis.columns.effect_columns import EffectColumns
 from identification.diagnosis.columns.hypothesis import VALUE, Coefficient, Hypothesis
@@ -53,6 +53,5 @@ def _beyond(effect: Effect, variable: str, joint: Joint, k: int, scene: Scene) -
 
 def _with_bodies(scene: Scene, name: str) -> bool:
     """Whether a base parameter holds a parameter together with those of bodies."""
-    of_effects = {each for one in effects_of(scene.robot) for each in one.names}
     holding = [terms for terms in scene.regressors.model.grouping.numeric().values() if name in terms]
-    return any(not of_effects.issuperset(terms) for terms in holding)
+    return any(not names_of_effects(scene.robot).issuperset(terms) for terms in holding)

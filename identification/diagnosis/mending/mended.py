@@ -71,10 +71,10 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         as_known = None if prior is None else prior_of(old_regressors.model, prior)
         beside, old = without_findings(found.search), Player(old_regressors)
         runs = [*prepared_runs(found.roles.test, old_regressors)]
+        fitted_to = fitted_runs(found, old_regressors)
 
         def without(held: bool) -> Before:
-            fit = refit(fitted_runs(found, old_regressors), old_regressors, as_known, held=held)
-            return Before(runs, old, fit.written, beside)
+            return Before(runs, old, refit(fitted_to, old_regressors, as_known, held=held).written, beside)
 
         fitted = near = before = without(held=False)
         if as_known is not None:

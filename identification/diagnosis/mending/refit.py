@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.effects.library import effects_of
+from generator.effects.library import names_of_effects
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
 from identification.colour import inflation
@@ -135,7 +135,7 @@ def _far(
 ) -> tuple[str, ...]:
     """Base parameters of bodies that are far from what was known."""
     found, deviations = (np.array([one[name] for name in regressors.names]) for one in (values, std))
-    effects = {name for one in effects_of(regressors.model.robot) for name in one.names}
+    effects = names_of_effects(regressors.model.robot)
     far = prior.far(found, np.diag(deviations**2)) > FAR
     return tuple(name for name, is_far in zip(regressors.names, far, strict=True) if is_far and name not in effects)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.effects.library import effects_of, library
+from generator.effects.library import effects_of, library, names_of_effects
 from generator.review.decimals import scientific
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import EFFECT
@@ -55,8 +55,7 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
     before = np.diag(inverse(prior.precision))
     values = np.array([found.values[name] for name in names])
     far = prior.far(values, found.covariance[: len(names), : len(names)])
-    stated = effects_of(found.bank.robot)
-    effects = {name for one in stated for name in one.names}
+    stated, effects = effects_of(found.bank.robot), names_of_effects(found.bank.robot)
     rubs = {name: one.joint.number for one in stated if one.effect.dissipates for name in one.names}
     return tuple(
         Contradicted(
