@@ -13,6 +13,7 @@ from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.roles import Roles
+from identification.diagnosis.search.invisible import invisible
 from identification.diagnosis.search.loop import Search, search
 from identification.diagnosis.search.scaling import taken_up
 from identification.diagnosis.verdict import few_rows, odd_run, remarks, trembling
@@ -146,5 +147,5 @@ def diagnose(
 def _invisible(found: Search) -> tuple[Hypothesis, ...]:
     """What these runs cannot show, without what was found all the same."""
     chosen = {one.evidence.variant.key for one in found.choices}
-    taken = {one.key: one for one in (*found.weighing.invisible(), *taken_up(found.weighing))}
+    taken = {one.key: one for one in (*invisible(found.weighing), *taken_up(found.weighing))}
     return tuple(one for key, one in taken.items() if key not in chosen)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from scipy.signal import lfilter
 
 from generator.robot.readers import read
@@ -27,6 +28,23 @@ def test_a_soft_contact_is_firmly_no_balancer_and_no_spring(tmp_path: Path) -> N
     assert (one.hypothesis.effect, one.status) == ("gas_balancer", TENTATIVE)
     assert OTHER_TORQUE in [other.effect for other in one.alternatives]
     assert one.doubts
+
+
+@pytest.mark.parametrize(("stiffness", "hardening"), [(20.0, 2.0), (0.5, 5.0)])
+def test_a_spring_that_is_mostly_its_hardening_may_be_any_torque(
+    tmp_path: Path, stiffness: float, hardening: float
+) -> None:
+    def spring(q: Array, qd: Array) -> Array:
+        return np.asarray(stiffness * (q - 0.3) + hardening * (q - 0.3) ** 3)
+
+    lying = ARM.replace("[0 m/s2, 0 m/s2, -9.81 m/s2]", "[0 m/s2, 9.81 m/s2, 0 m/s2]")
+    truth = {name: value for name, value in TRUTH.items() if not name.startswith("M")}
+    regressors, sources = recorded(tmp_path, [spring] * 3, lying, truth)
+    (one,) = diagnosis_of(sources, regressors).findings
+    mostly = hardening > stiffness
+    assert one.hypothesis.effect == "cable_spring"
+    assert bool(one.doubts) == mostly
+    assert (OTHER_TORQUE in [other.effect for other in one.alternatives]) == mostly
 
 
 def loaded(folder: Path, share: float, rotor: float) -> Diagnosis:

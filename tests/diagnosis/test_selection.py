@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import likely_orders
+from identification.diagnosis.search.invisible import invisible
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import UNSURE
@@ -369,7 +370,7 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     seen = data.base[:, 0] + data.column()
     one = data.bank(0.3 * hidden, [fixed("hidden", hidden), fixed("seen", seen), fixed("nowhere", 0 * seen)])
     weighing = Weighing(one, TRAIN, VALIDATE, None)
-    assert [each.effect for each in weighing.invisible()] == ["hidden", "nowhere"]
+    assert [each.effect for each in invisible(weighing)] == ["hidden", "nowhere"]
     assert Selection(weighing).search() == []
 
 
@@ -380,4 +381,4 @@ def test_a_column_that_no_row_shows_makes_nothing_visible() -> None:
     both = (Coefficient("c", "1"), Coefficient("nothing", "1"))
     pair = np.stack([hidden, 0 * hidden], axis=1)[:, :, None]
     one = data.bank(0.3 * hidden, [Hypothesis("pair", "pair", 1, both, lambda scene, _: pair[scene.number])])
-    assert [each.effect for each in Weighing(one, TRAIN, VALIDATE, None).invisible()] == ["pair"]
+    assert [each.effect for each in invisible(Weighing(one, TRAIN, VALIDATE, None))] == ["pair"]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
-from identification.diagnosis.columns.hypothesis import VALUE, Hypothesis, Key
+from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.columns.normal_equations import (
     FAR,
     Normal,
@@ -54,8 +54,6 @@ _UNSEEN, _CHANCE, _AGREED = 0.01, 2.0, 2.5
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
 #: A power that is none.
 _TINY = 1e-300
-#: What shows an effect that makes no torque along the runs.
-_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 #: Part of what an effect explains that it explains without what refines it.
 _MAIN = 0.5
 #: Part of what an effect explains that is not of the noise of positions.
@@ -377,22 +375,6 @@ class Weighing:
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""
         return not all(map(self.normal.hides, variant.columns))
-
-    def invisible(self) -> list[Hypothesis]:
-        """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make
-        no torque along the runs.
-        """
-        hidden: dict[Key, list[bool]] = {}
-        whose: dict[Key, Hypothesis] = {}
-        for variant in self.bank.variants:
-            key = variant.key
-            # Of a value that the fit tells there is nothing to be shown.
-            if variant.hypothesis.kind != VALUE:
-                hidden.setdefault(key, []).append(not self.visible(variant))
-                whose[key] = variant.hypothesis
-        taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
-        nowhere = [one for key, one in self.bank.nowhere.items() if key not in hidden and not one.measured]
-        return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
 
 
 def _beyond(drop: float, less: float, count: int) -> bool:

@@ -75,10 +75,11 @@ def _written(x: float, digits: int) -> str:
 class Finding:
     """An effect on ``joints`` that the model lacks: ``parameters`` and ``shape`` values by name.
 
-    ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number.
-    ``shape_std`` are standard deviations of the shape values that were searched. ``disagreement`` tells in words how
-    the runs disagree on its amplitude, if they do; ``apart`` whether no other shape of those that are tried alone does
-    as well; ``sure`` that such a torque acts, whatever makes it. ``doubts`` say in words why it may be another one.
+    ``amplitude`` is the rms of its torque on the fitted rows of each joint it acts on [N m, N], by joint number, and
+    ``refined`` how much of it coefficients that only refine make, in parts of what the rest does. ``shape_std`` are
+    standard deviations of the shape values that were searched. ``disagreement`` tells in words how the runs disagree on
+    its amplitude, if they do; ``apart`` whether no other shape of those that are tried alone does as well; ``sure``
+    that such a torque acts, whatever makes it. ``doubts`` say in words why it may be another one.
     """
 
     hypothesis: Hypothesis
@@ -91,6 +92,7 @@ class Finding:
     shape_std: Mapping[str, float]
     disagreement: str = ""
     apart: bool = True
+    refined: float = 0.0
     sure: bool = True
     doubts: tuple[str, ...] = ()
 

@@ -14,7 +14,6 @@ from identification.diagnosis.noise.may_act import maps_taken
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.likely import pulls
 from identification.diagnosis.search.loop import Search
-from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.verdict.alternatives import alternatives
 from identification.diagnosis.verdict.doubts import beside_any_torque, doubted, swinging
 from identification.diagnosis.verdict.finding import Finding
@@ -60,7 +59,8 @@ def findings(
                 parameters=values,
                 evidence=one.evidence,
                 alternatives=alternatives(hypothesis, one),
-                amplitude=_amplitude(found, one, solution[at]),
+                amplitude=_amplitude(found, variant, solution[at]),
+                refined=_refined(found, variant, solution[at]),
                 shape_std=of_shape,
                 disagreement=disagreements.get(variant.key, ""),
                 apart=one.apart,
@@ -110,8 +110,8 @@ def _remains(found: Search, one: Finding, left: Mapping[int, float]) -> float:
     return left.get(found.bank.robot.numbers[one.evidence.place], 0.0) / one.evidence.size
 
 
-def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
-    variant = one.evidence.variant
+def _amplitude(found: Search, variant: Variant, values: Array) -> dict[int, float]:
+    """The rms [N m, N] of what coefficients make on the fitted rows of each joint, by joint number."""
     moving = found.bank.robot.moving
     result = {}
     for j in variant.coordinates:
@@ -122,3 +122,13 @@ def _amplitude(found: Search, one: Choice, values: Array) -> dict[int, float]:
             power, rows = power + float(torque @ torque), rows + torque.size
         result[moving[j].number] = float(np.sqrt(power / max(rows, 1)))
     return result
+
+
+def _refined(found: Search, variant: Variant, values: Array) -> float:
+    """How much coefficients that only refine make on the joint where they make most, in parts of what the rest does."""
+    refines = np.array([one.refines for one in variant.coefficients])
+    if not refines.any():
+        return 0.0
+    more, plain = (_amplitude(found, variant, np.where(which, values, 0.0)) for which in (refines, ~refines))
+    most = max(more, key=lambda number: more[number])
+    return more[most] / plain[most] if plain[most] else math.inf

@@ -1,0 +1,30 @@
+"""What the runs cannot show, whatever it were."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from identification.diagnosis.columns.hypothesis import VALUE, Hypothesis, Key
+from identification.diagnosis.search.weighing import Weighing
+
+#: What shows an effect that makes no torque along the runs.
+_ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
+
+
+def invisible(weighing: Weighing) -> list[Hypothesis]:
+    """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make no
+    torque along the runs.
+    """
+    hidden: dict[Key, list[bool]] = {}
+    whose: dict[Key, Hypothesis] = {}
+    for variant in weighing.bank.variants:
+        key = variant.key
+        # Of a value that the fit tells there is nothing to be shown.
+        if variant.hypothesis.kind != VALUE:
+            hidden.setdefault(key, []).append(not weighing.visible(variant))
+            whose[key] = variant.hypothesis
+    taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
+    nowhere = [one for key, one in weighing.bank.nowhere.items() if key not in hidden and not one.measured]
+    return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
