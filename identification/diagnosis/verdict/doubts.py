@@ -24,7 +24,7 @@ _LEFT, _PULLED = 1.0, 0.15
 #: parts of them, from which it is any.
 _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What only refines a torque of the position, in parts of the rest, from which it bends as no known law does.
-_BENT = 0.5
+_BENT = 1.0
 #: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
 #: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
@@ -83,7 +83,7 @@ def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[
         _MUCH: _much(one, remains),
         "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
         "the runs do not determine its values to a fifth": loose,
-        "what only refines it makes more than half of what the rest does": one.refined > _BENT,
+        "what only refines it makes more than the rest of it does": one.refined > _BENT,
         _SMALL: one.evidence.size < _FAINT,
     }
     return [reason for reason, holds in reasons.items() if holds]
