@@ -11,6 +11,7 @@ import pytest
 from scipy.signal import lfilter
 
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
+from identification.diagnosis.verdict.tones import lines
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
 from tests.recorded import Array, Recorded
@@ -62,6 +63,16 @@ def test_an_oscillation_of_its_own_is_unexplained(frequency: float, tmp_path: Pa
     assert match
     assert float(match[1]) == pytest.approx(frequency, rel=0.05)
     assert (found.after.joint, found.after.variable) == (1, "time")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("rows", range(100, 130))
+def test_the_part_of_an_oscillation_is_all_of_it_whatever_the_number_of_rows(rows: int) -> None:
+    e = 2.0 * np.sin(2 * np.pi * 0.7 * np.arange(rows) / 10.0 + 1.0)
+    frequency, part = lines(e, np.ones(rows, dtype=bool), 10.0, 0.1)
+    best = int(np.argmax(part))
+    assert frequency[best] == pytest.approx(0.7, abs=10.0 / 4 / rows)
+    assert 0.95 < part[best] / (e @ e) <= 1 + 1e-9
 
 
 @pytest.mark.parametrize(("frequency", "told"), [(1.337, True), (0.077, False)])

@@ -36,7 +36,7 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
     """By coordinate, the oscillation that is most of what differs between periods with values of columns by number."""
     result, bank = {}, found.bank
     for k in range(bank.dof):
-        lines: list[tuple[Array, Array]] = []
+        spectra: list[tuple[Array, Array]] = []
         total, quick = 0.0, 0.0
         for r, run in enumerate(bank.runs):
             kept = run.kept[k]
@@ -45,13 +45,13 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
             e = between_periods(bank.residual(r, k, weights, white=False), kept, run.period)
             e = np.where(kept, e, 0.0)
             once = run.rate / (int(kept.sum()) * (1 - 1 / run.times))
-            lines.append(_lines(e, kept, run.rate, _COMES * once))
+            spectra.append(lines(e, kept, run.rate, _COMES * once))
             total += float(e @ e)
             quick = max(quick, _QUICK * once)
         if not total:
             continue
-        frequency = max((one for one, _ in lines), key=len)
-        part = np.sum([np.interp(frequency, *one, left=0.0) for one in lines], axis=0) / total
+        frequency = max((one for one, _ in spectra), key=len)
+        part = np.sum([np.interp(frequency, *one, left=0.0) for one in spectra], axis=0) / total
         least_part = np.where(frequency < quick, _SLOW, _MOST)
         most = int(np.argmax(part / least_part))
         if part[most] > least_part[most]:
@@ -59,7 +59,7 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
     return result
 
 
-def _lines(e: Array, kept: NDArray[np.bool_], rate: float, least: float) -> tuple[Array, Array]:
+def lines(e: Array, kept: NDArray[np.bool_], rate: float, least: float) -> tuple[Array, Array]:
     """Frequencies [Hz] from the ``least`` on and the squares of rows e (N), zero where they are not ``kept``, that an
     oscillation of each takes away.
 
@@ -68,7 +68,8 @@ def _lines(e: Array, kept: NDArray[np.bool_], rate: float, least: float) -> tupl
     """
     count, rows = _FINE * len(e), int(kept.sum())
     frequency = np.fft.rfftfreq(count, 1 / rate)
-    inside = np.flatnonzero((frequency >= least) & (frequency < rate / 2))
+    # At half the rate, which rounding puts on either side of it, a sine has no rows.
+    inside = np.flatnonzero(frequency[: count // 2] >= least)
     products, twice = np.fft.rfft(e, count)[inside], np.fft.fft(kept, count)[2 * inside % count]
     c, s = products.real, -products.imag
     C, S, D = (rows + twice.real) / 2, (rows - twice.real) / 2, -twice.imag / 2
