@@ -26,6 +26,9 @@ out ?= generated
 # Where make was called from, so that `make -C checkout robot=mine.yaml` finds a file beside the caller.
 export CALLER := $(PWD)
 
+# A folder that is asked for is the caller's, too.
+INTO = into="$(out)"; case "$(origin out) $$into" in 'file '*|*' /'*) ;; *) into="$${CALLER:-.}/$$into" ;; esac
+
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
 .PHONY: help generate all-robots list excite simulate identify gains stiffness output-error compare diagnose \
@@ -42,11 +45,11 @@ generate: $(RUNTIME)
 	@file="$$robot"; \
 	if [ -z "$$file" ]; then echo 'error: Makefile:1:1: no robot, expected make robot=NAME or robot=PATH.yaml' >&2; exit 2; fi; \
 	if [ ! -e "$$file" ] && [ -n "$$CALLER" ] && [ -e "$$CALLER/$$file" ]; then file="$$CALLER/$$file"; fi; \
-	$(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library \
+	$(INTO); $(COUNTERPOISE) generate "$$file" --out "$$into" --self-test --library \
 	    $(if $(build_in),--build-in "$(build_in)")
 
 all-robots: $(RUNTIME) ## generate, compile and self-test every robot of robots/
-	@for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$(out)" --self-test --library || exit $$?; done
+	@$(INTO); for file in robots/*.yaml; do $(COUNTERPOISE) generate "$$file" --out "$$into" --self-test --library || exit $$?; done
 
 list: $(RUNTIME) ## the robots of robots/ and their parameter sets
 	@$(COUNTERPOISE) list

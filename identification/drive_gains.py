@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
+from identification import torque_constants
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import coupling
+from identification.drive_train import coupling, stated_constants
 from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -177,7 +178,7 @@ def _carrying(run: Run, payload: Payload | None) -> Run:
     if carried is None:
         raise InputError(run.place, "nothing tells the payload of this run", "payload: {M: ... kg} in its sidecar")
     if not any(carried.known.values()):
-        raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass at least")
+        raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass or first moments")
     return replace(run, payload=carried)
 
 
@@ -300,13 +301,11 @@ def _residuals(fit: Fit, parts: Sequence[Part]) -> Residuals:
 
 
 def _doubts(residuals: Residuals, constants: Mapping[int, tuple[float, float]], robot: Robot) -> list[str]:
-    notes = []
-    for m, one in residuals.per_joint.items():
-        number = robot.moving[m].number
-        if one.relative_to_mean > _DOUBTFUL:
-            notes.append(f"motor {number}: {one.relative_to_mean:.0f} % of its torque's spread is unexplained")
-        if m in constants and constants[m][0] < 0:
-            notes.append(
-                f"motor {number}: its torque constant comes out negative; is the sign of its gear ratio right?"
-            )
-    return notes
+    notes = [
+        f"motor {robot.moving[m].number}: {one.relative_to_mean:.0f} % of its torque's spread is unexplained"
+        for m, one in residuals.per_joint.items()
+        if one.relative_to_mean > _DOUBTFUL
+    ]
+    found = {robot.moving[m].number: value for m, (value, _) in constants.items()}
+    exchanged = "the empty and the loaded runs exchanged, or the currents of the other sign"
+    return notes + torque_constants.doubts(found, stated_constants(robot), exchanged)

@@ -29,6 +29,12 @@ def constants(robot: Robot) -> Array:
     return np.array([float(kt) for kt in drives.torque_constants[drives.torque_constant]])
 
 
+def stated_constants(robot: Robot) -> dict[int, float]:
+    """Torque constants in use [N m/A] by the number of their motor's joint; none where the file tells none."""
+    stated = robot.drives is not None and bool(robot.drives.torque_constants)
+    return dict(zip(robot.numbers, constants(robot).tolist(), strict=True)) if stated else {}
+
+
 def with_constants(robot: Robot, values: Sequence[float]) -> Robot:
     """The robot with these torque constants (n) [N m/A]; itself where it has no drives."""
     drives = robot.drives

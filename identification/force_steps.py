@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification import torque_constants
 from identification.colour import scatter
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import constants, coupling, motor_torques
+from identification.drive_train import constants, coupling, motor_torques, stated_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
@@ -30,7 +31,7 @@ from identification.residuals import Residual
 from identification.run_filters import filters_of
 from identification.shared_samples import unshared
 from identification.signals import EFFORTS, WRENCH, NoColumns
-from identification.torque_constants import Turning, torque_constant
+from identification.torque_constants import Turning
 
 Array = NDArray[np.float64]
 
@@ -116,6 +117,8 @@ def force_steps(
     kt, motor_residuals = _constants(robot, poses)
     if kt and not np.any(Ia):
         notes.append("torque constants without the rotors' acceleration: no inertia Iam or Ia was given")
+    found = {j: one.value for j in robot.numbers if (one := kt.get(f"kt{j}")) and one.value is not None}
+    notes += torque_constants.doubts(found, stated_constants(robot), "the wrench or the currents of the other sign")
     notes = [note for run, _ in runs for note in run.notes] + notes
     return ForceSteps(robot, poses, components, stiffness, kt, residuals, motor_residuals, tuple(notes))
 
@@ -239,7 +242,7 @@ def _stiffness(
             values[name] = Value(None, np.inf, unit, refused=why)
             continue
         slope, residuals[k] = _slope([one.q[k] for one in shown], [one.wrench_torque[k] for one in shown])
-        values[name] = _value(slope, unit)
+        values[name] = _stiff(_value(slope, unit))
         notes += _contradictions(name, slope, [(one.run.name, one.q[k], one.wrench_torque[k]) for one in shown])
     return values, residuals, notes
 
@@ -258,7 +261,7 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
             values[name] = Value(None, np.inf, "N m/A", refused=why)
             continue
         try:
-            kt, std, residuals[m] = torque_constant([_of_motor(one, m, to_motors) for one in pressed])
+            kt, std, residuals[m] = torque_constants.torque_constant([_of_motor(one, m, to_motors) for one in pressed])
         except ValueError as error:
             values[name] = Value(None, np.inf, "N m/A", refused=str(error))
             continue
@@ -303,6 +306,13 @@ def _value(slope: tuple[float, float], unit: str) -> Value:
     if relative > LIMIT:
         return Value(None, np.inf, unit, refused=f"relative std {100 * relative:.3g} %")
     return Value(value, std, unit)
+
+
+def _stiff(one: Value) -> Value:
+    """A stiffness, refused where it is negative."""
+    if one.value is None or one.value > 0:
+        return one
+    return Value(None, np.inf, one.unit, refused="the joint turns against the force; is the wrench's sign right?")
 
 
 def _contradictions(name: str, pooled: tuple[float, float], poses: Sequence[tuple[str, Array, Array]]) -> list[str]:

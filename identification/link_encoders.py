@@ -1,9 +1,10 @@
 """Latency of link-side encoders, and what stiffness is left once it is removed, from runs of a robot that moves.
 
 The link is where the motor is, less the drive train's twist; its encoder tells it T later:
-q - qs = c + T qd + tau / k, tau what the drive train transmits. Latency times speed looks like the twist under viscous
-friction, and mostly is far larger. So all that goes with the motor's own motion counts as latency, friction and inertia
-of the motor (1, qd, sign qd, qdd), as does an eccentric encoder (sin q, cos q): k is what the remaining torque shows.
+q - qs = c + T qd + tau / k, tau what the drive train transmitted then. Latency times speed looks like the twist under
+viscous friction, and mostly is far larger. So all that goes with the motor's own motion counts as latency, friction and
+inertia of the motor (1, qd, sign qd, qdd), as does an eccentric encoder (sin q, cos q): k is what the remaining torque
+shows.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
 
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
+from identification.corrections import earlier
 from identification.dataset import Run, load
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import Value
@@ -36,6 +39,11 @@ _STILL = 2e-3
 _SIGN = 3
 #: What the filtered sign of a speed may be off one where the joint neither stands nor turns back.
 _ONE_WAY = 0.05
+#: How far from the motor an encoder of the link may be, in parts of how far the joint goes.
+_ASTRAY = 0.8
+#: Longest latency [s] for which the torques of then are looked up, how often, and the part of the latency's standard
+#: deviation by which it may change at the end.
+_LONGEST, _ROUNDS, _SETTLED = 0.2, 6, 0.05
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
 _NO_ROW = "no row is above the joint's standstill speed"
@@ -115,23 +123,45 @@ def of_runs(
         mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
         if not mine:
             continue
-        kept[k] = rows = _rows(mine, k, joint, float(recipe.standstills(robot)[k]))
+        for run, _ in mine:
+            _follows(run, k, joint)
+        standstill, name = float(recipe.standstills(robot)[k]), f"k{joint.number}"
         viscous = _viscous(joint, friction or {})
-        name = f"k{joint.number}"
-        stiffness[name], late, residuals[k] = _told(rows, joint, viscous)
+        at_once = _rows(mine, k, joint, standstill, 0.0)
+        kept[k], (stiffness[name], late, residuals[k]) = at_once, _told(at_once, joint, viscous)
+        ago = 0.0
+        for _ in range(_ROUNDS):
+            if late.value is None or abs(late.value) > _LONGEST or abs(late.value - ago) <= _SETTLED * late.std:
+                break
+            ago = late.value
+            kept[k] = _rows(mine, k, joint, standstill, ago)
+            stiffness[name], late, residuals[k] = _told(kept[k], joint, viscous)
         still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
         seen = late.refused or np.isfinite(late.std)
         latency[f"latency{joint.number}"] = _STANDS if still else late if seen else _UNSEEN
-        mistaken[name] = _inverse(*_last(rows.twist, rows.constants, rows.torque), stiffness[name].unit)
+        mistaken[name] = _inverse(*_last(at_once.twist, at_once.constants, at_once.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
     found = tuple(zip(runs, filters, strict=True))
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
 
-def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float) -> Rows:
+def _follows(run: Run, k: int, joint: Joint) -> None:
+    """Raises InputError where a joint's link-side encoder does not go where its motor goes."""
+    name = f"qs{joint.number}"
+    way, apart = float(run.q[k].std()), float((run.q[k] - run.others[name]).std())
+    if np.ptp(run.q[k]) >= _STILL and apart > _ASTRAY * way:
+        problem = f"{name} differs from the motor's position by {100 * apart / way:.0f} % of how far the joint goes"
+        unit = joint.position_unit
+        raise InputError(run.place, problem, f"the position of link {joint.number} in {unit}, with the joint's sign")
+
+
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> Rows:
     """Without torques that are cut off and, of a joint that moves, without what is near a standstill [rad/s, m/s]:
     what sticks hides from the twist any torque up to its friction.
+
+    An encoder that is late tells where the link was so long ``ago`` [s]: the torque that twisted the drive train, what
+    the motion took of it, and the eccentricity are those of then, the speed is the mean since.
     """
     parts = []
     for number, (run, filters) in enumerate(runs):
@@ -139,13 +169,14 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
             smoothed(x, filters.order, filters.cutoff, run.rate)
             for x in (run.q[k], run.others[f"qs{joint.number}"], run.tau[k])
         )
-        qd = derivative(q, run.period)
-        own = [qd, np.sign(qd), derivative(qd, run.period)]
+        then, torque = earlier(np.stack([q, torque]), (-ago, -ago), run.period)
+        qd = derivative(then, run.period)
+        own = [(q - then) / ago if ago else qd, np.sign(qd), derivative(qd, run.period)]
         if joint.sigma != PRISMATIC:
-            own += [np.sin(q), np.cos(q)]
+            own += [np.sin(then), np.cos(then)]
         inner = filters.inner(run.samples)
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
-        bad = np.zeros(q.shape, dtype=bool) if run.unusable is None else run.unusable[k]
+        bad = _bad(run, k, round(abs(ago) / run.period + 0.5))
         turning = np.zeros(columns.shape[1], dtype=bool)
         if np.ptp(run.q[k]) >= _STILL:
             bad = bad | (np.abs(qd) <= standstill)
@@ -157,6 +188,13 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
     joined = np.concatenate(parts, axis=1)
     count = len(runs)
     return Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
+
+
+def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
+    """Samples (N) within so many ``steps`` of a torque that was cut off or lost, or of an end of the recording."""
+    unusable = np.zeros(run.samples, dtype=bool) if run.unusable is None else run.unusable[k]
+    around = np.pad(unusable, steps, constant_values=True)
+    return np.asarray(maximum_filter1d(around, 2 * steps + 1)[steps : len(around) - steps])
 
 
 def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:

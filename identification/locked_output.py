@@ -37,6 +37,8 @@ _STANDSTILL = 0.2
 _FEWEST = 3
 #: Motion [rad, m] beyond which an output is not blocked: no drive train yields so far.
 _BLOCKED = 0.05
+#: Part of how far a motor turns in the other runs below which a run shows nothing of it.
+_TURNS = 0.05
 #: Relative standard deviation from which a stiffness is refused.
 LIMIT = 0.1
 _STEMS = (
@@ -108,7 +110,17 @@ def locked_output(
         raise InputError(
             found[0][0].place, problem_text, "a motor that turns slowly to and fro against the blocked output"
         )
+    if (full[name].value or 0.0) < 0:
+        problem_text = f"{name} comes out negative: the torque falls as the motor turns on"
+        raise InputError(found[0][0].place, problem_text, f"torque and position of joint {number} with one sign")
+    full = {one: _shown(value) for one, value in full.items()}
     notes = [note for run, _ in found for note in run.notes]
+    ways = [float(np.ptp(run.q[k])) for run, _ in found]
+    notes += [
+        f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of {name}"
+        for (run, _), way in zip(found, ways, strict=True)
+        if way < _TURNS * max(ways)
+    ]
     if joint.number not in robot.flexible:
         notes.append(f"the file of {robot.name} does not list joint {number} as flexible")
     whole, small = _residual(factor, solution), _residual(factor, best)
@@ -176,6 +188,13 @@ def _values(
         else Value(solution.values[name], solution.std(name) * float(colour), units[name])
         for name in kept
     }
+
+
+def _shown(one: Value) -> Value:
+    """A value, refused where its standard deviation is larger."""
+    if one.value is None or one.relative_std <= 100:
+        return one
+    return Value(None, np.inf, one.unit, refused=f"relative std {one.relative_std:.3g} %")
 
 
 def _residual(factor: Factor, solution: Solution) -> Residual:

@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 _CUTOFF, _RATE = 5.0, 5.0
 #: Highest cut-off of a filter, in parts of the sampling rate.
 _HIGHEST = 0.45
+#: Least frequency [Hz] of a recipe, below that of any robot's motion, and highest order of its filter.
+_LEAST, _HIGHEST_ORDER = 1e-3, 20
 #: Periods of the cut-off that the filter's ends are given.
 _ENDS = 5.0
 #: Speeds below which revolute [rad/s] and prismatic joints [m/s] stand still.
@@ -146,12 +148,23 @@ def read(path: Path) -> Recipe:
     for name, least in (("order", 1), ("factor", 1), ("dropped_first", 0), ("dropped_last", 0)):
         if name in keys:
             values[name] = _whole(keys[name], name, least)
+    for name in ("dynamics", "cutoff", "order"):
+        if name in keys:
+            check_filter(name, float(values[name]), keys[name].value.place)  # type: ignore[arg-type]
     if "factor" in keys:
         check_stages(fields.integer(keys["factor"].value, "factor"), keys["factor"].value.place)
     for name, known in (("weights", (JOINT, NONE)), ("freedom", (PARAMETERS, SAMPLES))):
         if name in keys:
             values[name] = fields.word(keys[name].value, name, known)
     return Recipe().changed(**values)
+
+
+def check_filter(name: str, value: float, place: Place) -> None:
+    """Raises InputError for a frequency ``dynamics`` or ``cutoff`` [Hz] and an ``order`` that no filter has."""
+    if name == "order" and value > _HIGHEST_ORDER:
+        raise InputError(place, f"{name} is {value:g}", f"a whole number up to {_HIGHEST_ORDER}")
+    if name != "order" and value < _LEAST:
+        raise InputError(place, f"{name} is {value:g}", f"a frequency from {_LEAST:g} Hz on")
 
 
 def check_stages(factor: int, place: Place) -> None:

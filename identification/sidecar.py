@@ -10,7 +10,7 @@ from generator import expressions
 from generator.cli.given_once import given_once
 from generator.errors import InputError, Place
 from generator.robot import fields
-from generator.robot.document import Entry, Text
+from generator.robot.document import Entry, Table, Text
 from generator.robot.parameters import INERTIAL, NOT_NEGATIVE
 from generator.robot.readers import document
 from identification.formula import Formula, formulas
@@ -77,6 +77,9 @@ def read(run: Path) -> Sidecar:
     if not path.is_file():
         return Sidecar()
     root = document(path, "the sidecar of a run")
+    if isinstance(root, Table) and "joints" in root.entries:
+        problem = f"the robot file of this name would be the sidecar of {run.name}"
+        raise InputError(root.place, problem, "another name for the run or for the robot's file")
     keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
     payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(

@@ -66,7 +66,7 @@ class Form:
             float(field if self.separator == "," else field.replace(",", "."))
         except ValueError:
             return False
-        return "_" not in field
+        return field.isascii() and "_" not in field
 
     def _ended(self, line: str) -> str:
         return line.rstrip("\n").removesuffix(self.separator) if self.trailing else line

@@ -7,12 +7,13 @@ forces are both noisy, so the instrument is the motor's position, which follows 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.review.words import listed, ranges
 from identification.colour import scatter
 from identification.residuals import Residual
 
@@ -20,6 +21,8 @@ Array = NDArray[np.float64]
 
 #: Fewest samples an unknown.
 _FEWEST = 3
+#: Times what the file states, or part of it, from which another unit is likelier than another constant.
+_FAR = 10.0
 #: Part of torques times positions that friction must not be able to stand for.
 _SEEN = 1e-3
 
@@ -34,6 +37,25 @@ class Turning:
     tau: Array
     position: Array
     direction: Array
+
+
+def doubts(found: Mapping[int, float], stated: Mapping[int, float], exchanged: str) -> list[str]:
+    """What is to be told of torque constants ``found`` [N m/A], by motor's number, beside those that the robot's file
+    has ``stated``: their signs, which all are another where something was ``exchanged``, in words, and their sizes.
+    """
+    negative = [number for number, one in found.items() if one < 0]
+    if len(negative) > 1 and len(negative) == len(found):
+        notes = [f"all torque constants come out negative: are {exchanged}?"]
+    else:
+        why = "its torque constant comes out negative; is the sign of its gear ratio right?"
+        notes = [f"motor {number}: {why}" for number in negative]
+    times = {number: abs(one / stated[number]) for number, one in found.items() if one and stated.get(number)}
+    if far := {number: one for number, one in times.items() if not 1 / _FAR < one < _FAR}:
+        sizes = dict.fromkeys(f"{one:.3g}" for one in (min(far.values()), max(far.values())))
+        motors = f"motor{'s' if len(far) > 1 else ''} {listed(ranges(far).split(', '))}"
+        asked = "is what is known of the load in SI units, and are the currents in A?"
+        notes.append(f"{motors}: {' to '.join(sizes)} times the torque constant of the file; {asked}")
+    return notes
 
 
 def torque_constant(poses: Sequence[Turning]) -> tuple[float, float, Residual]:

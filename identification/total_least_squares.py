@@ -26,6 +26,8 @@ _INVOLVED = 1e-4
 #: Eigenvalues of the scaled information below this part of the largest are zero.
 _SEEN = 1e-13
 _ITERATIONS, _SETTLED = 20, 1e-6
+#: Times a gain of one step, or part of it, that it may be in the next: beyond, nothing that is known holds it.
+_RUNAWAY = 1e6
 _TINY = 1e-300
 
 
@@ -76,9 +78,11 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
     sigma[live] = [one.noise() for one in reduced]
     k, chi, scale, separation = np.ones(gains), np.zeros(p), 0.0, 0.0
     hidden = np.zeros(p, dtype=bool)
-    for _ in range(_ITERATIONS):
+    for step in range(_ITERATIONS):
         previous = k
         k, chi, hidden, scale, separation = _once(reduced, live, np.maximum(np.abs(k), _TINY)[live], sigma[live], gains)
+        if step and _runs_away(k[live], previous[live]):
+            scale = 0.0
         if scale == 0.0 or np.all(np.abs(k - previous)[live] <= _SETTLED * np.abs(k)[live]):
             break
     fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation)
@@ -143,6 +147,12 @@ def _once(
     chi = (Vt[:rank].T @ ((U[:, :rank].T @ target) / s[:rank])) / size[:p]
     separation = float(values[-2] / max(values[-1], _TINY)) if len(values) > 1 else np.inf
     return gains, chi, hidden, scale, separation
+
+
+def _runs_away(k: Array, previous: Array) -> bool:
+    """Whether any gain of a step is no longer of the size that it had."""
+    now, before = np.abs(k), np.abs(previous)
+    return bool(np.any((now > _RUNAWAY * before) | (_RUNAWAY * now < before)))
 
 
 def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tuple[Array, float]:

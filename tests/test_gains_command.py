@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -184,7 +185,7 @@ def test_runs_that_show_no_gain_are_refused(
     cases = [
         ((a, tmp_path / "torques.csv", "M=20"), "torques.csv:1:1: there are no columns of efforts, expected i1 to i3"),
         ((a, b), "b.csv:1:1: nothing tells the payload of this run, expected payload: {M: ... kg} in its sidecar"),
-        ((a, b, "M=0"), "b.csv:1:1: nothing is known of payload L, expected its mass at least"),
+        ((a, b, "M=0"), "b.csv:1:1: nothing is known of payload L, expected its mass or first moments"),
         ((f"{a}@0:1", b, "M=20"), "expected at least"),
         ((a, b, "K=20"), "error: --payload:1:1: payload value 'K=20'"),
         ((a, b, "XZ=0.001"), "no drive gain of lifter can be told: what is known of the payload shows in no torque"),
@@ -197,6 +198,26 @@ def test_runs_that_show_no_gain_are_refused(
         "gains", robot, "--empty", a, "--loaded", b, "--payload", "M=20", "--payload-std", "MX=1", capsys=capsys
     )
     assert "MX of payload L is not known, expected a value for its std" in done.err
+
+
+def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:
+    empty, loaded = (saved(tmp_path / f"{s}.csv", *currents(arm, s, False), 0.02, s) for s in (1, 2))
+    with pytest.raises(InputError, match="no drive gain of lifter can be told: what is known of the payload shows"):
+        drive_gains(arm.model.robot, [empty], [loaded], Payload("L", {"M": 20.0}), regressors=arm)
+
+
+def test_exchanged_runs_and_another_unit_of_the_mass_are_told(arm: Regressors, tmp_path: Path) -> None:
+    a, b = (
+        saved(tmp_path / f"{name}.csv", *currents(arm, seed, name == "b"), 0.02, seed)
+        for seed, name in enumerate("ab", 1)
+    )
+    found = drive_gains(arm.model.robot, [b], [a], Payload("L", {"M": 20.0}), regressors=arm)
+    told = "all torque constants come out negative: are the empty and the loaded runs exchanged"
+    assert [note.startswith(told) for note in found.notes if "torque constant" in note] == [True]
+    found = drive_gains(arm.model.robot, [a], [b], Payload("L", {"M": 20e3}), regressors=arm)
+    (note,) = (note for note in found.notes if "torque constant" in note)
+    assert re.match(r"motors 1, 2 and 3|motors 1 to 3", note)
+    assert "times the torque constant of the file; is what is known of the load in SI units" in note
 
 
 def test_a_run_that_is_there_twice_is_refused(arm: Regressors, tmp_path: Path) -> None:

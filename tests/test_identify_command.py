@@ -183,6 +183,8 @@ REFUSED = {
     ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",
     ("--cutoff", "-1"): "error: --cutoff:1:1: -1, expected a number above 0",
     ("--order", "0"): "error: --order:1:1: 0, expected a whole number from 1 on",
+    ("--order", "100"): "error: --order:1:1: order is 100, expected a whole number up to 20",
+    ("--dynamics", "1e-9"): "error: --dynamics:1:1: dynamics is 1e-09, expected a frequency from 0.001 Hz on",
     ("--factor", "0"): "error: --factor:1:1: 0, expected a whole number from 1 on",
     ("--factor", "17"): "error: --factor:1:1: factor is 17, expected a product of numbers up to 13",
     ("--standstill", "-1"): "error: --standstill:1:1: -1, expected a number that is not negative",
@@ -208,6 +210,8 @@ def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str
         ("cutof: 3\n", "1:1: unknown key 'cutof' in the recipe, expected perhaps 'cutoff'"),
         ("dynamics: 0\n", "1:11: dynamics is 0, expected a number above 0"),
         ("order: 0\n", "1:8: order is 0, expected a whole number from 1 on"),
+        ("order: 21\n", "1:8: order is 21, expected a whole number up to 20"),
+        ("cutoff: 1e-4\n", "1:9: cutoff is 0.0001, expected a frequency from 0.001 Hz on"),
         ("factor: 17\n", "1:9: factor is 17, expected a product of numbers up to 13"),
         ("weights: all\n", "1:10: weights is 'all', expected one of joint, none"),
     ):

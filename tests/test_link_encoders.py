@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -55,6 +56,33 @@ def test_latency_and_stiffness_are_told_apart(machine: Machine, tmp_path: Path) 
     assert "latency1 lacks Fv1/k1: no viscous friction was given" in unaware.notes
     lost = MOTORS["Fvm1"] / MOTORS["k1"]
     assert unaware.latency["latency1"].value == pytest.approx(LATENCY - lost, abs=1e-4)
+
+
+def test_the_latency_moves_no_stiffness(machine: Machine, tmp_path: Path) -> None:
+    """The torque is that of then: taken of now it moves k by up to 7 % here."""
+    for seed in range(6):
+        found = []
+        for delay in (0.0, 0.01):
+            settings = replace(RUN, seed=seed, link_delay=delay, noise=(0.001,), resolution=(1e-6,))
+            found.append(link_encoders(machine.robot, [recorded(machine, settings, tmp_path / "a.csv")], MOTORS))
+        at_once, late = found
+        for name, one in at_once.stiffness.items():
+            assert late.stiffness[name].value == pytest.approx(one.value, rel=5e-3)
+        for name, one in at_once.latency.items():
+            assert one.value is not None
+            assert late.latency[name].value == pytest.approx(0.01 + one.value, abs=1e-5)
+
+
+@pytest.mark.parametrize("wrong", [lambda qs: np.degrees(qs), lambda qs: -qs, lambda qs: 0 * qs])
+def test_an_encoder_that_does_not_follow_its_motor_is_refused(
+    machine: Machine, tmp_path: Path, wrong: Callable[[np.ndarray], np.ndarray]
+) -> None:
+    path = Path(recorded(machine, RUN, tmp_path / "a.csv"))
+    names, *lines = path.read_text().splitlines()
+    columns = dict(zip(names.split(","), np.array([one.split(",") for one in lines], dtype=float).T, strict=True))
+    Recorded(columns | {"qs2": wrong(columns["qs2"])}).save(path)
+    with pytest.raises(InputError, match=r"a.csv:1:1: qs2 differs from the motor's position by \d+ % of how far"):
+        link_encoders(machine.robot, [str(path)])
 
 
 def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -> None:

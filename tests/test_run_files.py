@@ -93,6 +93,9 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
             load(str(path), robot)
     with pytest.raises(InputError, match=r"a.yaml:1:1: a run file ending in '.yaml', expected a run in .csv"):
         load(str(side), robot)
+    side.write_text("name: mine\njoints: []\n")
+    with pytest.raises(InputError, match=r"a.yaml:1:1: the robot file of this name would be the sidecar of a.csv"):
+        load(str(path), robot)
     side.write_text("robot: other\n")
     with pytest.raises(InputError, match=r"a.yaml:1:1: this is a run of other, expected one of two_links"):
         load(str(path), robot)

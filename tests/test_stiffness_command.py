@@ -232,6 +232,42 @@ def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert results["essential"]["parameters"]["k2"]["essential"] is True
 
 
+def with_columns(path: str, signs: str, sign: float) -> str:
+    """A run with columns whose names begin with one of ``signs`` times a ``sign``."""
+    names, *lines = Path(path).read_text().splitlines()
+    values = np.array([line.split(",") for line in lines], dtype=float).T
+    columns = {
+        name: sign * one if name[:-1] in signs.split() else one
+        for name, one in zip(names.split(","), values, strict=True)
+    }
+    return str(Recorded(columns).save(Path(path)))
+
+
+def test_another_sign_of_force_torque_or_current_makes_no_stiffness(tmp_path: Path) -> None:
+    turned = with_columns(pressed(tmp_path / "wrench.csv", TURNED, axes="xyz"), "f", -1.0)
+    with pytest.raises(InputError, match=r"can be told: the joint turns against the force; is the wrench's sign right"):
+        force_steps(ROBOT, [turned])
+    turned = with_columns(blocked(tmp_path / "a.csv"), "tau", -1.0)
+    with pytest.raises(InputError, match=r"a.csv:1:1: k2 comes out negative: .* expected torque and position"):
+        locked_output(ROBOT, 2, [turned])
+    turned = with_columns(pressed(tmp_path / "currents.csv", TURNED, axes="xyz"), "i", -1.0)
+    found = force_steps(ROBOT, [turned])
+    assert found.stiffness["k2"].value == pytest.approx(K[1], rel=0.05)
+    assert any(note.startswith("all torque constants come out negative: are the wrench or") for note in found.notes)
+
+
+def test_a_run_in_which_the_blocked_motor_rests_is_told(tmp_path: Path) -> None:
+    one, resting = blocked(tmp_path / "a.csv"), blocked(tmp_path / "b.csv", 1)
+    names, *lines = Path(resting).read_text().splitlines()
+    values = dict(zip(names.split(","), np.array([line.split(",") for line in lines], dtype=float).T, strict=True))
+    still = np.full_like(values["t"], -1.5)
+    Recorded(values | {"q2": still, "tau2": 300.0 + values["tau3"]}).save(Path(resting))
+    found = locked_output(ROBOT, 2, [one, resting])
+    told = "b.csv: the motor of joint 2 hardly turns: this run tells nothing of k2"
+    assert [note.endswith(told) for note in found.notes if "hardly" in note] == [True]
+    assert not any("hardly turns" in note for note in locked_output(ROBOT, 2, [one]).notes)
+
+
 def test_runs_that_show_no_stiffness_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, here = blocked(tmp_path / "a.csv"), tmp_path
     pressed(here / "straight.csv", STRAIGHT)

@@ -1,8 +1,8 @@
 """Identify the drive gains of all motors by total least squares, from runs without and with a known payload.
 
-Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. The known values of the payload, at
-least its mass, are in the sidecars of the loaded runs or in --payload. A gain that the runs cannot show is refused by
-name.
+Runs hold motor currents (columns i1 .. in) and are as in `counterpoise identify`. The known values of the payload, its
+mass or first moments at least, are in the sidecars of the loaded runs or in --payload. A gain that the runs cannot
+show is refused by name.
 
 DIR receives results.json, report.html and the robot file with the gains and the parameters in it.
 """

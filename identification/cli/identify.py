@@ -201,6 +201,9 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     for name in ("order", "factor"):
         if getattr(arguments, name) is not None:
             whole_number(getattr(arguments, name), f"--{name}", 1)
+    for name in ("dynamics", "cutoff", "order"):
+        if getattr(arguments, name) is not None:
+            recipes.check_filter(name, getattr(arguments, name), command_line(f"--{name}"))
     if arguments.factor is not None:
         recipes.check_stages(arguments.factor, command_line("--factor"))
     if arguments.standstill is not None:

@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> None:
             found = links
         else:
             locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
-            values, document = dict(locked.essential), stiffness_results.of_locked(locked)
+            values, document = dict(locked.values), stiffness_results.of_locked(locked)
             found = locked
     files = stiffness_results.save(document, values, robot, path, folder, {REPORT: report(found, document)})
     total = document["residual"]["train"]["total"]
