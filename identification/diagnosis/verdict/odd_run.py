@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 from generator.review.words import listed
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, lack_of_fit
+from identification.diagnosis.verdict.own_range import own_range
 
 #: Part of what is unexplained, in squares, that stays without the odd run, and without any other one; and by how much
 #: that is more.
@@ -28,7 +29,11 @@ def notes(found: Search, lacking: Collection[int]) -> list[str]:
     if len(runs) == len(gone) == 2:
         return [f"{listed(names)} do not agree, each alone is explained: look for {_OTHER} in one of them"]
     if len(runs) > 2 and odd in gone and all(left[r] > max(_STAYS, _MORE * left[odd]) for r in left if r != odd):
-        return [f"without {found.bank.runs[odd].sampled.run.file} the other runs agree: look for {_OTHER} there"]
+        name, alone = found.bank.runs[odd].sampled.run.file, own_range(found, odd, runs, lacking)
+        told = f"without {name} the other runs agree"
+        if not alone:
+            return [f"{told}: look for {_OTHER} there"]
+        return [f"{told}; most of what it keeps is where they do not go, {alone}: look there, or for {_OTHER} in it"]
     return []
 
 

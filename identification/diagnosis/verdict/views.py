@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 #: Bins over the range of a variable.
 BINS = 24
 #: Rows of a bin from which its mean is shown, and of all bins in the mean.
-_ROWS = 4
+FEW_ROWS = 4
 #: Change of a variable, in parts of its largest value, that is rounding.
 _CONSTANT = 1e-12
 #: Part of what the best variable explains from which a simpler one is named instead.
@@ -89,7 +89,7 @@ def views(
     """All views of coordinate k's residuals, one (N rows) and a colour of noise a run; the strongest variable first."""
     kept = [run.kept[k] for run in runs]
     e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
-    if len(e) < _ROWS * BINS:
+    if len(e) < FEW_ROWS * BINS:
         return ()
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
     seen = _Rows(
@@ -121,7 +121,7 @@ def _view(seen: _Rows, name: str, unit: str, x: Array, sides: Sequence[int]) -> 
         rows = np.ones(len(e), dtype=bool) if side == 0 else side * seen.qd > 0
         count = np.bincount(at[rows], minlength=BINS)
         total = np.bincount(at[rows], weights=e[rows] - e.mean(), minlength=BINS)
-        used = count >= _ROWS
+        used = count >= FEW_ROWS
         mean = np.where(used, total / np.maximum(count, 1), 0.0)
         band = np.where(used, 2 * np.sqrt(seen.power / np.maximum(count, 1)), np.inf)
         explained += float(count[used] @ mean[used] ** 2)
