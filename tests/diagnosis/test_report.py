@@ -16,7 +16,7 @@ from identification.diagnosis.verdict.finding import Told
 from identification.outcome import Value
 from identification.report.diagnose.report import report
 from identification.report.diagnose.subject import Subject
-from identification.report.diagnose.words import values, verdict
+from identification.report.diagnose.words import change, values, verdict
 from identification.report.numbers import plain
 from identification.report.titles import titles
 from tests.diagnosis.diagnosed_arm import NOISE, STAYS, Case, case
@@ -54,6 +54,18 @@ def test_the_untouched_run_is_measured_against_noise(named: Case) -> None:
     assert one.closed > 0.9
     assert one.after.rms == pytest.approx(one.floor, rel=0.2)
     assert one.relative_floor == pytest.approx(one.after.relative_to_mean * one.floor / one.after.rms)
+
+
+def test_untouched_runs_at_the_noise_are_told_beside_fitted_ones_that_keep_more(named: Case) -> None:
+    """Noise of the fitted runs as large as what is left of the untouched one."""
+    assert named.after is not None
+    after = replace(named.after, tried={1: replace(named.after.tried[1], floor=10.0)})
+    at_noise = "that is not more than the noise that was measured on the fitted runs"
+    assert f"{at_noise}." in " ".join(change(Subject(named.found, after)))
+    (lack,) = named.found.after.lack
+    left = replace(named.found.after, lack=(replace(lack, p=1e-9, size=0.5, repeats=True),))
+    words = " ".join(change(Subject(replace(named.found, after=left), after)))
+    assert f"{at_noise}, though these keep 0.5 times as much beside it." in words
 
 
 def test_the_steps_are_of_the_runs_that_test(named: Case) -> None:

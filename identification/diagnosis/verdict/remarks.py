@@ -144,11 +144,11 @@ def _little(lacks: Sequence[Lack], bouncing: Collection[int]) -> Iterator[str]:
     little, bounced = ([text for joint, text in sizes.items() if (joint in bouncing) == does] for does in (False, True))
     if little:
         yield (
-            f"more than noise is left, little beside what was explained there: {listed(little)}; a diagnosis of the "
-            "new robot file may show what it is"
+            f"the fitted runs keep more than noise, little beside what was explained there: {listed(little)}; a "
+            "diagnosis of the new robot file may show what it is"
         )
     if bounced:
         yield (
-            "more than noise is left where a link bounces in a gap, in an order that the smallest error changes: "
-            f"{listed(bounced)}"
+            "the fitted runs keep more than noise where a link bounces in a gap, in an order that the smallest error "
+            f"changes: {listed(bounced)}"
         )

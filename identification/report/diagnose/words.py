@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from generator.review.words import listed, minus, unit
 from identification.diagnosis.columns.hypothesis import on_joints
-from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING
+from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING, Diagnosis
 from identification.diagnosis.runs.played import together
 from identification.diagnosis.verdict.contradiction import Contradicted
 from identification.diagnosis.verdict.finding import FIRM, Finding, Told
@@ -162,11 +162,18 @@ def change(subject: Subject) -> Iterator[str]:
         before, after = (plain(value.relative_to_mean, 3) for value in (one.before, one.after))
         yield f"Joint {number} is left with {after}\u202f%, instead of {before}\u202f%;"
         if one.after.relative_to_mean <= one.relative_floor:
-            yield "that is not more than the noise that was measured on the fitted runs."
+            beside = _beside(subject.found, number)
+            yield f"that is not more than the noise that was measured on the fitted runs{beside}."
             continue
         yield f"noise alone would leave about {plain(one.relative_floor, 2)}\u202f%."
         if one.closed is not None:
             yield f"{plain(100 * one.closed, 3)}\u202f% of the gap between the two, in squares, is closed."
+
+
+def _beside(found: Diagnosis, number: int) -> str:
+    """What the fitted runs keep on a joint beside the noise that was measured on them, which is not held against it."""
+    lack = next(one for one in found.after.lack if one.joint == number)
+    return f", though these keep {plain(lack.size, 2)} times as much beside it" if lack.told else ""
 
 
 def mode(subject: Subject) -> str:
