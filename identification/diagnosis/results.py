@@ -105,7 +105,7 @@ def _where(one: Where) -> dict[str, Any]:
 
 
 def _lack(one: Lack) -> dict[str, Any]:
-    burst = None if one.burst is None else {"run": one.burst[0], "time": one.burst[1]}
+    burst = None if one.burst is None else {"run": one.burst.run, "time": one.burst.time, "count": one.burst.count}
     return {
         "joint": one.joint,
         "ratio": one.ratio,

@@ -82,9 +82,23 @@ def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
     e[620:628] += 8.0
     found = lack(e, period)
     assert found.burst is not None
-    run, t = found.burst
-    assert run == "A.csv"
-    assert t == pytest.approx(624 / 50, abs=0.15)
+    assert (found.burst.run, found.burst.count) == ("A.csv", 1)
+    assert found.burst.time == pytest.approx(624 / 50, abs=0.15)
+    assert found.event == f"once, at {found.burst.time:.2f} s of A.csv"
+
+
+def test_events_of_several_moments_and_runs_are_counted() -> None:
+    """Two in one run, the second the largest, and one in another."""
+    draw = np.random.default_rng(6)
+    first, second = one_run(0), one_run(0, "B.csv")
+    e, other = draw.normal(size=(2, COUNT))
+    e[220:228] += 7.0
+    e[620:628] += 8.0
+    other[420:428] += 7.0
+    found = lack_of_fit([first, second], [e[first.kept[0]], other[second.kept[0]]], 0, 3)
+    assert found.burst is not None
+    assert found.event == f"at least 3 times, most at {found.burst.time:.2f} s of A.csv"
+    assert found.burst.time == pytest.approx(624 / 50, abs=0.15)
 
 
 def test_what_comes_again_with_each_period_is_no_event_but_lacks() -> None:

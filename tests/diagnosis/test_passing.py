@@ -54,6 +54,14 @@ def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -
     assert any("as in no other period of the motion: these rows are left out" in note for note in found.notes)
 
 
+def test_a_brake_that_drags_twice_is_told_to_do_so(tmp_path: Path) -> None:
+    """Five seconds each, at other phases of the motion."""
+    found = diagnosed(tmp_path, lambda t, q, qd: drag(t, q, qd) + drag(t - 15.0, q, qd))
+    assert len(found.search.passing) == 2
+    longest = max(found.search.passing, key=lambda one: one.ends - one.begins)
+    assert found.after.region == f"2 times, longest from {longest.when}"
+
+
 def touch(t: Array, _: Array, qd: Array) -> Array:
     """A push of half a second."""
     return np.asarray(DRAG * np.exp(-(((t - FROM) / 0.25) ** 2)))

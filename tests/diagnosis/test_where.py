@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.hypothesis import BASE, EFFECT
+from identification.diagnosis.verdict.burst import Burst
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks, of_links
 from identification.diagnosis.verdict.unexplained import Unexplained
@@ -33,7 +34,7 @@ def seen(*lacks: Lack) -> Where:
 
 BY_CHANCE = Lack(1, 1.4, 0.01, 0.6, True)
 SIGNIFICANT = Lack(2, 1.2, 1e-9, 0.4, True)
-EVENT = Lack(3, 1.0, 0.5, 0.0, True, ("A.csv", 12.4))
+EVENT = Lack(3, 1.0, 0.5, 0.0, True, Burst("A.csv", 12.4))
 
 
 def test_the_largest_of_those_that_count_is_told() -> None:
@@ -135,7 +136,7 @@ def test_time_that_orders_a_motion_says_nothing_of_a_weight(of_speed: float, tol
 @pytest.mark.parametrize("happens", [True, False])
 def test_what_a_finding_explains_did_not_happen_once(happens: bool) -> None:
     """The largest of a spring's torque looks like an event until it is taken away."""
-    pulse = replace(SIGNIFICANT, burst=("A.csv", 12.4))
+    pulse = replace(SIGNIFICANT, burst=Burst("A.csv", 12.4))
     after = seen(BY_CHANCE, pulse if happens else SIGNIFICANT)
     found = led(located(seen(BY_CHANCE, pulse), [pulse]), finding("q"), after)
     assert (found.event != "") == happens

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter1d
 from scipy.stats import chi2, f
 
 from identification.diagnosis.runs.prepared import Prepared
+from identification.diagnosis.verdict.burst import Burst, burst
 
 Array = NDArray[np.float64]
 
@@ -25,14 +24,8 @@ CHANCE = 1e-4
 #: Size from which it is told from noise; where nothing repeats, nor follows the motion, the noise is not known apart
 #: from the model.
 _SMALL, _APERIODIC = 0.2, 0.5
-#: Rows of a burst that is looked for.
-_BURST = 10
 #: Degrees of freedom between periods from which they are compared.
 _COMPARED = 50
-#: By how much an event must stand out of the rest of the residual, in parts of its mean power.
-_OUTSTANDING = 12.0
-#: By how much an event's power is above that of what may come late at the time.
-_BEYOND = 4.0
 
 
 @dataclass(frozen=True)
@@ -40,8 +33,8 @@ class Lack:
     """Of a joint: the part ``size`` of the noise's rms that the model leaves unexplained, ratio and p-value.
 
     ``ratio`` is 1 when the model is right. ``repeats`` tells whether periods were compared; ``follows`` what of the
-    motion it follows, where that was compared with the rest. ``burst`` is the time [s] and run of an event that happens
-    once, None without one.
+    motion it follows, where that was compared with the rest. ``burst`` is what happens for a moment, None where nothing
+    does.
     """
 
     joint: int
@@ -49,13 +42,13 @@ class Lack:
     p: float
     size: float
     repeats: bool
-    burst: tuple[str, float] | None = None
+    burst: Burst | None = None
     follows: str = ""
 
     @property
     def event(self) -> str:
-        """What happens once on the joint, in words: when; empty where nothing does."""
-        return "" if self.burst is None else f"once, at {self.burst[1]:.2f} s of {Path(self.burst[0]).name}"
+        """What happens on the joint for a moment, in words: when; empty where nothing does."""
+        return "" if self.burst is None else self.burst.words
 
     @property
     def part(self) -> float:
@@ -102,56 +95,20 @@ def lack_of_fit(
         phases += int(twice.sum())
         freedom += int(inside.sum()) - int(twice.sum())
         repeats += float(count[twice].sum())
-    burst = _burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
+    happens = burst(runs, residuals, k, late or [np.zeros_like(e) for e in residuals])
     if not phases or freedom <= _COMPARED:
-        return _powerful(residuals, number, burst)
+        return _powerful(residuals, number, happens)
     ratio = (common / phases) / max(differing / freedom + rounded, 1e-300)
     size = float(np.sqrt(max(ratio - 1, 0.0) * phases / repeats))
-    compared = Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, burst)
+    compared = Lack(number, float(ratio), float(f.sf(ratio, phases, freedom)), size, True, happens)
     others = [e for run, e in zip(runs, residuals, strict=True) if not run.period]
-    return max(compared, _powerful(others, number, burst), key=lambda one: one.part)
+    return max(compared, _powerful(others, number, happens), key=lambda one: one.part)
 
 
-def _powerful(residuals: Sequence[Array], number: int, burst: tuple[str, float] | None) -> Lack:
+def _powerful(residuals: Sequence[Array], number: int, happens: Burst | None) -> Lack:
     """Of the power of white residuals against that of the noise."""
     rows = sum(len(e) for e in residuals)
     power = sum(float(e @ e) for e in residuals)
     ratio = power / max(rows, 1)
     p = float(chi2.sf(power, rows)) if rows else 1.0
-    return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, burst)
-
-
-def _burst(
-    runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]
-) -> tuple[str, float] | None:
-    """Where the residual is far above the noise, above what may be ``late`` then, and above itself a period before or
-    after, for a short time, once in all runs; not where a joint is unsettled.
-    """
-    found: list[tuple[float, str, float]] = []
-    rows = sum(map(len, residuals))
-    for run, e, known in zip(runs, residuals, late, strict=True):
-        if len(e) < 5 * _BURST:
-            continue
-        unsettled = run.unsettled[k][run.kept[k]]
-        power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
-        place = np.flatnonzero(run.kept[k])[_BURST // 2 :][: len(power)]
-        least = np.maximum(least, _a_period_away(power, place, run.period))
-        power[power < _BEYOND * least] = 0.0
-        if power.max() < _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0):
-            continue
-        i = int(np.argmax(power))
-        found.append((float(power[i]), run.sampled.run.name, float(run.t[place[i]])))
-    if not found:
-        return None
-    power_, name, t = max(found)
-    return (name, t) if chi2.logsf(power_, _BURST) < np.log(1e-12 / max(rows, 1)) else None
-
-
-def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
-    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before or after; zero without one."""
-    if not period:
-        return np.zeros_like(power)
-    rows = np.zeros(place[-1] + 1 + 2 * period)
-    rows[place + period] = power
-    near = maximum_filter1d(rows, _BURST)
-    return np.asarray(np.maximum(near[place], near[place + 2 * period]))
+    return Lack(number, ratio, p, float(np.sqrt(max(ratio - 1, 0.0))), False, happens)

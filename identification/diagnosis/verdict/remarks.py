@@ -113,7 +113,7 @@ def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[st
 
 
 def of_lacks(lacks: Sequence[Lack], left: Unexplained, named: bool) -> list[str]:
-    """Of what the last model leaves on each joint: what happens once, what it follows, why it counts as explained."""
+    """Of what the last model leaves on each joint: what happens there, what it follows, why it counts as explained."""
     if left.lacks:
         shown = None if left.where is None else left.where.joint
         events = [

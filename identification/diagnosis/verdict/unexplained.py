@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -89,7 +90,7 @@ def unexplained(
     lacks = large or doubtful or [last.lack[k] for k in passed or overlooked or unseen]
     where = located(last, lacks)
     if passed:
-        where = _told_by(passed, where, "time", f"once, from {passed[next(iter(passed))]}")
+        where = _told_by(passed, where, "time", passed[next(iter(passed))])
     elif overlooked:
         where = _told_by(overlooked, where, "time", "changes with time or from run to run")
     elif unseen:
@@ -175,10 +176,12 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
 
 
 def _passed(found: Search) -> dict[int, str]:
-    """By coordinate, what lasts longest first, when something passes by, in words."""
+    """By coordinate, what lasts longest first, how often and when something passes by, in words."""
     result: dict[int, str] = {}
+    often = Counter(one.k for one in found.passing)
     for one in sorted(found.passing, key=lambda one: one.begins - one.ends):
-        result.setdefault(one.k, one.when)
+        times = "once, from" if often[one.k] == 1 else f"{often[one.k]} times, longest from"
+        result.setdefault(one.k, f"{times} {one.when}")
     return result
 
 

@@ -56,7 +56,7 @@ class Where:
 
     @property
     def event(self) -> str:
-        """What happens once on the joint, in words: when; empty where nothing does."""
+        """What happens on the joint for a moment, in words: when; empty where nothing does."""
         return next((one.event for one in self.lack if one.joint == self.joint), "")
 
 
@@ -117,8 +117,8 @@ def led(before: Where, first: Finding, after: Where) -> Where:
     on no joint that where most is missing.
 
     Another variable that orders far more of the residual stays where means over both would show it, unless the finding
-    couples joints: none of one joint's orders what follows two. What seemed to happen once is a part of the finding
-    where ``after`` it nothing does.
+    couples joints: none of one joint's orders what follows two. What seemed to happen for a moment is a part of the
+    finding where ``after`` it nothing does.
     """
     lacks = {one.joint: one.part for one in before.lack}
     joint = first.hypothesis.joint or max(first.amplitude, key=lambda one: (lacks.get(one, 0.0), first.amplitude[one]))

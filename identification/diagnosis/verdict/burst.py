@@ -1,0 +1,79 @@
+"""What happens on a joint for a moment: where its residual is far above the noise and above itself a period away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+from scipy.stats import chi2
+
+from identification.diagnosis.runs.prepared import Prepared
+
+Array = NDArray[np.float64]
+
+#: Rows of a burst that is looked for.
+_BURST = 10
+#: By how much it must stand out of the rest of the residual, in parts of its mean power.
+_OUTSTANDING = 12.0
+#: By how much its power is above that of what may come late at the time.
+_BEYOND = 4.0
+#: Chance of all rows together beyond which noise makes none.
+_CHANCE = 1e-12
+#: Time [s] within which bursts of a run are one.
+_APART = 1.0
+
+
+@dataclass(frozen=True)
+class Burst:
+    """The largest of ``count`` bursts on a joint in all runs: the ``run`` it is in, and its ``time`` there [s]."""
+
+    run: str
+    time: float
+    count: int = 1
+
+    @property
+    def words(self) -> str:
+        """How often, and when."""
+        when = f"at {self.time:.2f} s of {Path(self.run).name}"
+        return f"once, {when}" if self.count == 1 else f"at least {self.count} times, most {when}"
+
+
+def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]) -> Burst | None:
+    """Where the white residual of coordinate k is far above the noise, above what may be ``late`` then, and above
+    itself a period before or after, for a short time; not where a joint is unsettled.
+    """
+    found: list[tuple[float, str, float]] = []
+    rows = sum(map(len, residuals))
+    for run, e, known in zip(runs, residuals, late, strict=True):
+        if len(e) < 5 * _BURST:
+            continue
+        unsettled = run.unsettled[k][run.kept[k]]
+        power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
+        place = np.flatnonzero(run.kept[k])[_BURST // 2 :][: len(power)]
+        least = np.maximum(least, _a_period_away(power, place, run.period))
+        power[power < _BEYOND * least] = 0.0
+        far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
+        t = run.t[place]
+        for each in np.split(far, np.flatnonzero(np.diff(t[far]) > _APART) + 1):
+            if len(each):
+                i = each[np.argmax(power[each])]
+                found.append((float(power[i]), run.sampled.run.name, float(t[i])))
+    sure = [one for one in found if chi2.logsf(one[0], _BURST) < np.log(_CHANCE / max(rows, 1))]
+    if not sure:
+        return None
+    _, name, time = max(sure)
+    return Burst(name, time, len(sure))
+
+
+def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
+    """The most that powers in the rows ``place`` are, about a ``period`` [rows] before or after; zero without one."""
+    if not period:
+        return np.zeros_like(power)
+    rows = np.zeros(place[-1] + 1 + 2 * period)
+    rows[place + period] = power
+    near = maximum_filter1d(rows, _BURST)
+    return np.asarray(np.maximum(near[place], near[place + 2 * period]))
