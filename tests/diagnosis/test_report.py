@@ -15,6 +15,7 @@ from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.verdict.finding import Told
 from identification.outcome import Value
 from identification.report.diagnose.report import report
+from identification.report.diagnose.sections import summary
 from identification.report.diagnose.subject import Subject
 from identification.report.diagnose.words import change, values, verdict
 from identification.report.numbers import plain
@@ -180,6 +181,16 @@ def test_what_no_effect_explains_is_said_to_be_unexplained(named: Case) -> None:
     assert f"The findings below are therefore tentative: {found.findings[0].hypothesis.title} on joint 1" in one.words
     nameless = replace(found, findings=())
     assert "tentative" not in Case(nameless, None, report(nameless)).words
+
+
+@pytest.mark.parametrize(("unexplained", "told"), [(0, 1), (2, 2)])
+def test_the_card_is_of_the_joint_that_stays_unexplained(unexplained: int, told: int, named: Case) -> None:
+    """On joint 1 most is closed, on joint 2 nothing."""
+    assert named.after is not None
+    one = named.after.tried[1]
+    after = replace(named.after, tried={1: one, 2: replace(one, after=one.before)})
+    found = replace(named.found, after=replace(named.found.after, joint=unexplained))
+    assert f"left on joint {told}" in str(summary.render(Subject(found, after)))
 
 
 def test_a_dry_run_says_where_and_no_more(named: Case) -> None:

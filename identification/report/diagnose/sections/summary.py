@@ -50,7 +50,11 @@ def _cards(subject: Subject) -> Iterator[Markup]:
 
 
 def _told(subject: Subject) -> int:
-    """The joint on which most is closed; where nothing is, the one in question, or that with most beside the noise."""
+    """The joint that stays unexplained; without one, that on which most is closed; where nothing is, the one in
+    question, or that with most beside the noise.
+    """
+    if subject.found.after.joint in subject.tried:
+        return subject.found.after.joint
     closed = {k: one.before.rms - one.after.rms for k, one in subject.tried.items()}
     best, asked = max(closed, key=lambda k: closed[k]), subject.found.before.joint
     if closed[best] > _LITTLE * subject.tried[best].before.rms:
