@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from identification.diagnosis.columns.hypothesis import BASE, VALUE
 from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED, diagnose
+from identification.diagnosis.mending.mended import mended
 from identification.diagnosis.mending.untouched import Untouched, hardly_shown, objections
 from identification.diagnosis.runs.played import Played, aligned
 from identification.diagnosis.runs.roles import Roles
 from identification.residuals import Residual
-from tests.diagnosis.diagnosed_arm import ready, recorded, torque
+from tests.diagnosis.diagnosed_arm import NOISE, STAYS, ready, recorded, torque
+from tests.recorded import Recorded
 
 RUNS = "untouched runs"
 
@@ -40,6 +44,33 @@ def test_joints_that_keep_more_than_noise_are_told() -> None:
     (told,) = objections({1: tried(40.0, 20.0), 2: tried(60.0, 26.75), 3: tried(1.5, 1.5)}, RUNS)
     where = "on joint 1 (40 %, noise 2 %), joint 2 (53.5 %, noise 2 %)"
     assert told.startswith(f"the untouched runs keep far more than noise {where}: the model lacks more than was found")
+
+
+def test_joints_on_which_runs_are_noisier_are_told_so() -> None:
+    noisy, both = replace(tried(2.5, 2.5), louder=2.3), replace(tried(4.0, 4.0), louder=2.3)
+    far, noisier = objections({1: noisy, 2: both}, RUNS)
+    assert far.startswith("the untouched runs keep far more than noise on joint 2 (8 %, noise 2 %): the model lacks")
+    assert noisier.startswith(
+        "the untouched runs are noisier than the fitted ones on joint 1 (5 %, noise 2 %): as much"
+    )
+
+
+@pytest.mark.parametrize(
+    ("loud", "load", "told"), [(4.0, 0.0, "noisier than the fitted"), (1.0, 8.0, "keep far more than noise")]
+)
+def test_noise_of_a_run_is_told_from_what_its_model_lacks(loud: float, load: float, told: str, tmp_path: Path) -> None:
+    """A last run with noise ``loud`` times that of the others, or with a weight of ``load`` N on an arm of a metre."""
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    t, q, tau = np.loadtxt(sources[2], delimiter=",", skiprows=1).T
+    more = NOISE * np.sqrt(loud**2 - 1) * np.random.default_rng(7).normal(size=len(t))
+    tau += lfilter([1], [1, -STAYS], more) + load * np.cos(q)
+    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(sources[2]))
+    *runs, test = (ready(one, regressors) for one in sources)
+    roles = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
+    found = diagnose(regressors, runs, roles, test=[test])
+    notes = mended(tmp_path / "arm.yaml", found, None, tmp_path / "out").notes
+    (note,) = (one for one in notes if one.startswith("the untouched runs"))
+    assert told in note
 
 
 def test_what_hardly_shows_is_told() -> None:

@@ -9,24 +9,30 @@ import numpy as np
 
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import VALUE
+from identification.diagnosis.columns.whitening import at_rate, colour, stretches
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.played import Played, together
 from identification.diagnosis.verdict.finding import Finding
-from identification.residuals import Residual
+from identification.residuals import Residual, rms
 
 #: Least gap to the noise, in squares of the residual, of which a share is told.
 _GAP = 0.25
 #: How much more of a joint a model must leave to be worse; and how much more than noise, to lack something, in its rms.
 _WORSE, _LACKING = 1.05, 2.0
+#: How far above their own noise runs are, at most, that are only noisier.
+_NOISIER = 1.25
 
 
 @dataclass(frozen=True)
 class Untouched:
-    """A joint of the untouched runs: residual of the model before and of the one after, rms of noise [N m, N]."""
+    """A joint of the untouched runs: residual of the model before and of the one after, rms of noise [N m, N] by the
+    fitted runs, and how many times as large what no row before foretells is as in those.
+    """
 
     before: Residual
     after: Residual
     floor: float
+    louder: float = 1.0
 
     @property
     def relative_floor(self) -> float:
@@ -37,6 +43,16 @@ class Untouched:
     def worse(self) -> bool:
         """Whether the model after leaves more, in parts of the torque's spread."""
         return self.after.relative_to_mean > _WORSE * self.before.relative_to_mean
+
+    @property
+    def lacking(self) -> bool:
+        """Whether the model after leaves far more than noise."""
+        return self.after.relative_to_mean > _LACKING * self.relative_floor
+
+    @property
+    def noisier(self) -> bool:
+        """Whether that is noise of these runs' own, as it is from row to row: what a model lacks is smoother."""
+        return self.after.relative_to_mean < _NOISIER * self.louder * self.relative_floor
 
     @property
     def alike(self) -> bool:
@@ -60,15 +76,25 @@ def untouched(bank: Bank, before: Sequence[Played], after: Sequence[Played]) -> 
     """
     old, new = together(before).per_joint, together(after).per_joint
     return {
-        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, after[0].rate))
+        joint.number: Untouched(old[k], new[k], noise_floor(bank, k, after[0].rate), _louder(bank, k, after))
         for k, joint in enumerate(bank.robot.moving)
         if old[k].rows and new[k].rows and k in bank.shown
     }
 
 
+def _louder(bank: Bank, k: int, after: Sequence[Played]) -> float:
+    """What no row before foretells of the residuals of coordinate k, in parts of that of the fitted runs' noise."""
+    rows = [part for one in after for part in stretches(one.measured[k] - one.model[k], one.kept[k])]
+    usual = [
+        at_rate(colours[k], run.rate, after[0].rate).deviations[-1]
+        for run, colours in zip(bank.runs, bank.colours, strict=True)
+    ]
+    return colour(rows).deviations[-1] / rms(np.array(usual))
+
+
 def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[int] = ()) -> list[str]:
     """What ``runs`` (in words) on which models were ``tried`` say against the one after: joints that it explains less
-    well, or not down to the noise.
+    well, or not down to the noise; and joints on which they are only noisier.
 
     A share is that of the torque's spread. A model without what was found and is ``unwritten``, on joints by number,
     leaves more than noise there.
@@ -79,11 +105,15 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
         for number, one in tried.items()
         if one.worse
     ]
-    lacking = [
-        f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
-        for number, one in tried.items()
-        if number not in unwritten and one.after.relative_to_mean > _LACKING * one.relative_floor
-    ]
+    far = {number: one for number, one in tried.items() if number not in unwritten and one.lacking}
+    lacking, noisier = (
+        [
+            f"joint {number} ({one.after.relative_to_mean:.3g} %, noise {one.relative_floor:.2g} %)"
+            for number, one in far.items()
+            if one.noisier == noise
+        ]
+        for noise in (False, True)
+    )
     notes = []
     if worse:
         notes.append(f"the new model explains the {runs} less well on {', '.join(worse)}")
@@ -92,6 +122,11 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
         notes.append(
             f"the {runs} keep far more than noise on {where}: the model lacks more than was found, or they show"
             " what the others did not"
+        )
+    if noisier:
+        notes.append(
+            f"the {runs} are noisier than the fitted ones on {', '.join(noisier)}: as much more changes from row to"
+            " row, where little of what a model lacks shows"
         )
     return notes
 
