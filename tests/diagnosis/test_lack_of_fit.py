@@ -87,6 +87,18 @@ def test_an_event_that_happens_once_is_told_with_its_time(period: int) -> None:
     assert found.event == f"once, at {found.burst.time:.2f} s of A.csv"
 
 
+@pytest.mark.parametrize("at", [620, 621, 625, 633])
+def test_the_time_of_an_event_lies_within_it(at: int) -> None:
+    """Of three rows, wherever the noise beside it makes the power of ten largest."""
+    draw = np.random.default_rng(8)
+    for _ in range(20):
+        e = draw.normal(size=COUNT)
+        e[at : at + 3] += 12.0
+        found = lack(e)
+        assert found.burst is not None
+        assert at / 50 <= found.burst.time <= (at + 2) / 50
+
+
 def test_events_of_several_moments_and_runs_are_counted() -> None:
     """Two in one run, the second the largest, and one in another."""
     draw = np.random.default_rng(6)

@@ -29,7 +29,9 @@ _APART = 1.0
 
 @dataclass(frozen=True)
 class Burst:
-    """The largest of ``count`` bursts on a joint in all runs: the ``run`` it is in, and its ``time`` there [s]."""
+    """The largest of ``count`` bursts on a joint in all runs: the ``run`` it is in, and the ``time`` of its largest row
+    there [s].
+    """
 
     run: str
     time: float
@@ -52,16 +54,20 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         if len(e) < 5 * _BURST:
             continue
         unsettled = run.unsettled[k][run.kept[k]]
-        power, least = (np.convolve(np.where(unsettled, 0.0, x**2), np.ones(_BURST), "valid") for x in (e, known))
-        place = np.flatnonzero(run.kept[k])[_BURST // 2 :][: len(power)]
+        square, of_late = (np.where(unsettled, 0.0, x**2) for x in (e, known))
+        power, least = (np.convolve(x, np.ones(_BURST), "valid") for x in (square, of_late))
+        kept = np.flatnonzero(run.kept[k])
+        place = kept[_BURST // 2 :][: len(power)]
         least = np.maximum(least, _a_period_away(power, place, run.period))
         power[power < _BEYOND * least] = 0.0
         far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
         t = run.t[place]
         for each in np.split(far, np.flatnonzero(np.diff(t[far]) > _APART) + 1):
             if len(each):
-                i = each[np.argmax(power[each])]
-                found.append((float(power[i]), run.sampled.run.name, float(t[i])))
+                i = int(each[np.argmax(power[each])])
+                # The rows about a short burst hold the same power wherever it is in them.
+                largest = kept[i + int(np.argmax(square[i : i + _BURST]))]
+                found.append((float(power[i]), run.sampled.run.name, float(run.t[largest])))
     sure = [one for one in found if chi2.logsf(one[0], _BURST) < np.log(_CHANCE / max(rows, 1))]
     if not sure:
         return None
