@@ -12,6 +12,7 @@ from generator.robot.description import PRISMATIC, Joint
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
+from identification.diagnosis.runs.first_swing import FirstSwings
 from identification.diagnosis.runs.link_side import LinkSides, Train, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.stated_elasticity import stated
@@ -69,7 +70,7 @@ def _hypothesis(joint: Joint, sides: LinkSides, rotor: ShapeRange | None, found:
         "elasticity of the drive train",
         joint.number,
         (Coefficient(f"compliance{joint.number}", "m/N" if joint.sigma == PRISMATIC else "rad/(N m)", 0.0),),
-        partial(_columns, sides),
+        partial(_columns, sides, FirstSwings()),
         shapes=(
             *([rotor] if rotor else []),
             ShapeRange("k", joint.stiffness_unit, low, high, step=_FINE),
@@ -102,6 +103,6 @@ def _agrees(least: float, coefficients: Array, shape: Mapping[str, float]) -> bo
     return bool(least < shape["k"] * coefficients[0] < 1 / least)
 
 
-def _columns(sides: LinkSides, scene: Scene, shape: Mapping[str, float]) -> Array:
+def _columns(sides: LinkSides, first: FirstSwings, scene: Scene, shape: Mapping[str, float]) -> Array:
     side = sides.along(scene, shape["Iam"])
-    return shape["k"] * side.torque_per(side.deflection(Train(shape["k"], shape["damping"])))[None]
+    return shape["k"] * first.torque(side, Train(shape["k"], shape["damping"]))[None]

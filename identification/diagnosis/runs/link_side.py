@@ -97,9 +97,15 @@ class LinkSide:
 
     def deflection(self, train: Train) -> Motion:
         """The link's motion against the motor's on a drive train of plain numbers."""
+        return self._played(train, self.start(train))
+
+    def free(self, train: Train, start: tuple[float, float]) -> Motion:
+        """The same without a load, from a ``start``: deflection [rad, m] and its speed [rad/s, m/s]."""
+        return replace(self, load=np.zeros_like(self.load))._played(train, start)
+
+    def _played(self, train: Train, start: tuple[Value, Value]) -> Motion:
         given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
-        steps = _many_steps(self.scene.motion.samples)
-        _, played = steps(list(self.start(train)), self.along, given)
+        _, played = _many_steps(self.scene.motion.samples)(list(start), self.along, given)
         return alone(self.scene.motion, self.k, np.asarray(played))
 
     def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
@@ -108,7 +114,7 @@ class LinkSide:
         return train.stiffness, d, train.gap / 2, self.scene.period
 
     def start(self, train: Train) -> tuple[Value, Value]:
-        """Deflection and its speed. The log does not tell how the link swings when it begins: it hangs still."""
+        """Deflection and its speed when the log begins, of a link that hangs still."""
         k, half = train.stiffness, train.gap / 2
         e = -(half * np.sign(self.load[0]) + self.load[0] / k)
         return e, (self.load[0] - self.load[1]) / (self.scene.period * k)

@@ -66,7 +66,7 @@ def alike(sides: Sequence[LinkSide], grids: Sequence[Array]) -> Alike:
     Where a link bounces at the ends of a gap the phase of a swing hangs on the smallest error; the mean pull does not.
     """
     coarse = _Played(sides, [_combinations(grids)] * len(sides))
-    looks = [(s, rows) for rows in (_Rows(sides[0], width) for width in _WIDTHS) for s in range(len(sides))]
+    looks = [(s, rows) for rows in (Rows(sides[0], width) for width in _WIDTHS) for s in range(len(sides))]
     near = [
         _combinations([_about(x, grid) for x, grid in zip(coarse.most_alike(s, rows)[1], grids, strict=True)])
         for s, rows in looks
@@ -95,29 +95,31 @@ def _samples(scene: Scene) -> int:
     return min(scene.motion.samples, round(_PLAYED / scene.period), _SAMPLES)
 
 
-class _Rows:
+class Rows:
     """What the rows of a joint show through windows ``width`` rows wide, without those in which it stands and without
     what other base parameters would explain.
     """
 
     def __init__(self, side: LinkSide, width: int) -> None:
         scene, k = side.scene, side.k
-        self._width, count = width * scene.sampled.filters.factor, _samples(scene)
+        self._width, self.samples = width * scene.sampled.filters.factor, _samples(scene)
+        count = self.samples
         self._kept = windowed(scene.sampled.left_out[k, :count].astype(float), self._width) == 0
         base = windowed(scene.regressors.base(scene.motion.part(0, count))[k], self._width)[:, self._kept]
         # Few rows are explained by anything.
         self._base = _directions(base if base.shape[1] > _ROWS * len(base) else base[:0])
-        self._left = self._seen((scene.tau - scene.model_torque)[k, :count])
+        self.left = self.seen((scene.tau - scene.model_torque)[k, :count])
 
-    def _seen(self, torque: Array) -> Array:
+    def seen(self, torque: Array) -> Array:
+        """Rows (... x M) that count, of torques (... x ``samples``), without what base parameters explain."""
         rows = windowed(torque, self._width)[..., self._kept]
         return np.asarray(rows - (rows @ self._base.T) @ self._base)
 
     def cosines(self, torques: Array) -> Array:
         """Of torques (K x N) with the residual (K); not a number where a torque is none, or has no end."""
-        seen = self._seen(torques)
+        seen = self.seen(torques)
         size = np.linalg.norm(seen, axis=1)
-        return np.asarray(np.where(np.isfinite(size), seen @ self._left / size, np.nan))
+        return np.asarray(np.where(np.isfinite(size), seen @ self.left / size, np.nan))
 
 
 def _directions(rows: Array) -> Array:
@@ -140,7 +142,7 @@ class _Played:
             for i, torque in enumerate(swings(sides, [Train(*one) for one in trains], count)):
                 self._torques[i] = torque
 
-    def most_alike(self, s: int, rows: _Rows) -> tuple[float, tuple[float, ...]]:
+    def most_alike(self, s: int, rows: Rows) -> tuple[float, tuple[float, ...]]:
         """The largest cosine of a swing along side s with the residual, and the combination that swings so."""
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             cosines = rows.cosines(self._torques[:, s].T)
