@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,10 @@ from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.shape_uncertainty import apart, variances
 from identification.outcome import Value
+
+
+#: What the model of a swing is not sure of.
+LINEAR = 0.01
 
 
 def told(
@@ -38,22 +43,23 @@ def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
 
 def test_where_both_agree_the_noise_decides() -> None:
     values, shape = told(1.0001e-3, {"compliance1": ("k", -1)})
-    assert values["compliance1"].std == pytest.approx(1.0001e-6)
-    assert shape == {"k": 1.0, "damping": 0.01}
+    assert values["compliance1"].std == pytest.approx(hypot(1.0001e-6, LINEAR * 1.0001e-3))
+    assert shape == {"k": pytest.approx(hypot(1.0, LINEAR * 1000.0)), "damping": 0.01}
 
 
 def test_what_is_known_well_stays_beside_what_is_not() -> None:
     for vague in (30.0, np.inf):
         values, shape = told(1.02e-3, {"compliance1": ("k", -1)}, vague)
-        assert values["compliance1"].std == pytest.approx(1.02e-6)
-        assert shape["k"] == vague
+        assert values["compliance1"].std == pytest.approx(hypot(1.02e-6, LINEAR * 1.02e-3))
+        assert shape["k"] == pytest.approx(hypot(vague, LINEAR * 1000.0))
 
 
 @pytest.mark.parametrize(("value", "twice"), [(1.02e-3, {}), (0.0, {"compliance1": ("k", -1)})])
 def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[str, tuple[str, int]]) -> None:
     values, shape = told(value, twice)
-    assert values["compliance1"].std == pytest.approx(1e-3 * value)
-    assert shape == {"k": 1.0, "damping": 0.01}
+    model = LINEAR if twice else 0.0
+    assert values["compliance1"].std == pytest.approx(hypot(1e-3, model) * value)
+    assert shape == {"k": pytest.approx(hypot(1.0, model * 1000.0)), "damping": 0.01}
 
 
 @pytest.mark.parametrize(

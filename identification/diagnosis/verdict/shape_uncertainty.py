@@ -20,6 +20,8 @@ from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
+#: Part of what a swing tells, of which its model, linear in the deflection, is not sure.
+_LINEAR = 0.01
 #: Part of a parameter that the rows must show for it to be known at all.
 _SEEN = 0.99
 
@@ -111,11 +113,14 @@ def apart(
     hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
 ) -> tuple[dict[str, Value], dict[str, float]]:
     """Coefficients, and standard deviations of the ``shape``, of which those that are told twice are as uncertain as
-    the two are apart, at least, where that is more than both deviations explain.
+    the two are apart, at least, where that is more than both deviations explain, and as the model of a swing.
     """
     coefficients, deviation = dict(values), dict(std)
     for name, (other, power) in hypothesis.twice.items():
         one = coefficients[name]
+        if other in deviation:
+            deviation[other] = hypot(deviation[other], _LINEAR * shape[other])
+            one = coefficients[name] = replace(one, std=hypot(one.std, _LINEAR * (one.value or 0.0)))
         if one.value and one.value > 0 and other in deviation:
             part = abs(log(one.value) - power * log(shape[other]))
             if part <= hypot(one.std / one.value, deviation[other] / shape[other]):
