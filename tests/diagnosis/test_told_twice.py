@@ -14,7 +14,6 @@ from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.shape_uncertainty import apart, variances
 from identification.outcome import Value
 
-
 #: What the model of a swing is not sure of.
 LINEAR = 0.01
 
