@@ -32,11 +32,14 @@ class FirstSwings:
         """
         hanging = side.torque_per(side.deflection(train))
         free = np.stack([side.torque_per(side.free(train, start)) for start in ((1.0, 0.0), (0.0, 1.0))])
+        # A drive train too stiff for the samples runs away.
+        if not (np.all(np.isfinite(hanging)) and np.all(np.isfinite(free))):
+            return hanging
         rows = self._along(side)
         left = rows.left - rows.seen(hanging[side.k, : rows.samples])
         columns = rows.seen(free[:, side.k, : rows.samples])
         size = np.linalg.norm(columns, axis=1)
-        if not np.all(np.isfinite(columns)) or not np.all(size):
+        if not np.all(size):
             return hanging
         start = np.linalg.lstsq((columns / size[:, None]).T, left, rcond=None)[0] / size
         after = left - start @ columns
