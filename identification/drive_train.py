@@ -13,6 +13,9 @@ from generator.robot.description import Robot
 
 Array = NDArray[np.float64]
 
+#: Motion [rad, m] beyond which a drive train does more than yield.
+YIELDS = 0.05
+
 
 def coupling(robot: Robot) -> Array:
     """N (n x n): motor speeds from joint speeds; one to one where the robot has no drives."""

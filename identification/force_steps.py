@@ -22,7 +22,7 @@ from identification import torque_constants
 from identification.colour import scatter
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import constants, coupling, motor_torques, stated_constants
+from identification.drive_train import YIELDS, constants, coupling, motor_torques, stated_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
 from identification.outcome import Value
@@ -45,8 +45,6 @@ _LAG = 4
 LIMIT = 0.1
 #: Difference of two poses, in parts and in standard deviations, from which they contradict each other.
 _APART, _DEVIATIONS = 0.2, 4.0
-#: Motion [rad, m] beyond which a joint does more than yield.
-_STILL = 0.05
 #: Part of a joint's largest speed from which its motor turns.
 _TURNING = 0.2
 
@@ -146,10 +144,10 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     if not any(name in run.others for name in WRENCH):
         raise InputError(run.place, "there are no columns of the wrench", f"one at least of {' '.join(WRENCH)}")
     for joint, positions in zip(robot.moving, run.q, strict=True):
-        if np.ptp(positions) > _STILL:
+        if np.ptp(positions) > YIELDS:
             unit = joint.position_unit
             problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
-            raise InputError(run.place, problem, f"a robot pressed on a stop, at most {_STILL:g} {unit}")
+            raise InputError(run.place, problem, f"a robot pressed on a stop, at most {YIELDS:g} {unit}")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)

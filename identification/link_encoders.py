@@ -21,6 +21,7 @@ from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
 from identification.corrections import earlier
 from identification.dataset import Run, load
+from identification.drive_train import YIELDS
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import Value
 from identification.recipe import Filters, Recipe
@@ -39,9 +40,8 @@ _STILL = 2e-3
 _SIGN = 3
 #: What the filtered sign of a speed may be off one where the joint neither stands nor turns back.
 _ONE_WAY = 0.05
-#: How far from the motor an encoder of the link may be, in parts of how far the joint goes, and beyond what any drive
-#: train yields [rad, m].
-_ASTRAY, _YIELDS = 0.8, 0.05
+#: How far from the motor an encoder of the link may be beyond what a drive train yields, in parts of the joint's way.
+_ASTRAY = 0.8
 #: Longest latency [s] for which the torques of then are looked up, how often, and the part of the latency's standard
 #: deviation by which it may change at the end.
 _LONGEST, _ROUNDS, _SETTLED = 0.2, 6, 0.05
@@ -151,7 +151,7 @@ def _follows(run: Run, k: int, joint: Joint) -> None:
     """Raises InputError where a joint's link-side encoder does not go where its motor goes."""
     name = f"qs{joint.number}"
     way, apart = float(run.q[k].std()), float((run.q[k] - run.others[name]).std())
-    if way > 0 and apart > max(_ASTRAY * way, _YIELDS):
+    if way > 0 and apart > max(_ASTRAY * way, YIELDS):
         problem = f"{name} differs from the motor's position by {100 * apart / way:.0f} % of how far the joint goes"
         unit = joint.position_unit
         raise InputError(run.place, problem, f"the position of link {joint.number} in {unit}, with the joint's sign")

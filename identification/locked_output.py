@@ -17,6 +17,7 @@ from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.colour import inflation
 from identification.dataset import Run, load
+from identification.drive_train import YIELDS
 from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, triangular
 from identification.filtering import decimated, derivative, kept_rows, smoothed
@@ -35,8 +36,6 @@ RECIPE = Recipe(dynamics=5.0)
 _STANDSTILL = 0.2
 #: Fewest rows a parameter.
 _FEWEST = 3
-#: Motion [rad, m] beyond which an output is not blocked: no drive train yields so far.
-_BLOCKED = 0.05
 #: Part of how far a motor turns in the other runs below which a run shows nothing of it.
 _TURNS = 0.05
 #: Relative standard deviation from which a stiffness is refused.
@@ -138,10 +137,10 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
 
 def _check(run: Run, k: int, joint: Joint) -> None:
     motion = float(np.ptp(run.q[k]))
-    if motion > _BLOCKED:
+    if motion > YIELDS:
         unit = joint.position_unit
         problem = f"joint {joint.number} moves by {motion:.3g} {unit}"
-        raise InputError(run.place, problem, f"a blocked output, at most {_BLOCKED:g} {unit}")
+        raise InputError(run.place, problem, f"a blocked output, at most {YIELDS:g} {unit}")
 
 
 def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) -> float:

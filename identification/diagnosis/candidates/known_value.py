@@ -53,5 +53,6 @@ def _beyond(effect: Effect, variable: str, joint: Joint, k: int, scene: Scene) -
 
 def _with_bodies(scene: Scene, name: str) -> bool:
     """Whether a base parameter holds a parameter together with those of bodies."""
+    of_effects = names_of_effects(scene.robot)
     holding = [terms for terms in scene.regressors.model.grouping.numeric().values() if name in terms]
-    return any(not names_of_effects(scene.robot).issuperset(terms) for terms in holding)
+    return any(not of_effects.issuperset(terms) for terms in holding)
