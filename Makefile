@@ -26,8 +26,9 @@ out ?= generated
 # Where make was called from, so that `make -C checkout robot=mine.yaml` finds a file beside the caller.
 export CALLER := $(PWD)
 
-# A folder that is asked for is the caller's, too.
-INTO = into="$(out)"; case "$(origin out) $$into" in 'file '*|*' /'*) ;; *) into="$${CALLER:-.}/$$into" ;; esac
+# A folder that is asked for is the caller's, too; that of the house is this one's.
+INTO = into="$(or $(out),$(CURDIR)/generated)"; \
+    case "$$into" in /*) ;; *) [ "$(origin out)" = file ] || into="$${CALLER:-.}/$$into" ;; esac
 
 .DEFAULT_GOAL := $(if $(robot),generate,help)
 .NOTPARALLEL:
@@ -36,7 +37,7 @@ INTO = into="$(out)"; case "$(origin out) $$into" in 'file '*|*' /'*) ;; *) into
 
 help: ## this list
 	@echo 'make robot=NAME             generate, compile and self-test a robot of robots/, say robot=kr500'
-	@echo 'make robot=PATH.yaml        the same for a robot file of your own; out=DIR writes elsewhere than generated/'
+	@echo 'make robot=PATH.yaml        the same for a robot file of your own; out=DIR, from where you are, instead of generated/'
 	@echo 'make robot=... build_in=SET the same with a parameter set as numbers in the code, into generated/<robot>_<SET>/'
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | while IFS='|' read -r name text; \
 	    do printf '%-27s %s\n' "make $$name" "$$text"; done

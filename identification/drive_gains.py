@@ -250,6 +250,9 @@ def _observable(
         relative = _relative(fit)
         live = [m for m in range(n) if m not in refused]
         worst = max(live, key=lambda m: relative[m])
+        if fit.unsettled and not LIMIT < relative[worst] < np.inf:
+            problem = f"no drive gain of {robot.name} can be told: the currents contradict what is known of the payload"
+            raise InputError(first.place, problem, "currents of all motors and the payload of one and the same run")
         if relative[worst] <= LIMIT:
             return fit, refused, parts
         size = f"{100 * relative[worst]:.3g} %" if np.isfinite(relative[worst]) else "infinite"

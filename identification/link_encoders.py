@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +43,13 @@ _SIGN = 3
 _ONE_WAY = 0.05
 #: How far from the motor an encoder of the link may be beyond what a drive train yields, in parts of the joint's way.
 _ASTRAY = 0.8
-#: Longest latency [s] for which the torques of then are looked up, how often, and the part of the latency's standard
-#: deviation by which it may change at the end.
-_LONGEST, _ROUNDS, _SETTLED = 0.2, 6, 0.05
+#: Longest latency [s] for which the torques of then are looked up, and how often.
+_LONGEST, _ROUNDS = 0.2, 8
+#: By how much a latency may change at the end, in parts of its standard deviation or of a sample.
+_SETTLED, _SETTLED_STEP = 0.05, 1e-3
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
+_TOO_LATE = f"no latency up to {_LONGEST:g} s goes with the torque and the motion of then"
 _NO_ROW = "no row is above the joint's standstill speed"
 
 
@@ -100,9 +103,14 @@ def link_encoders(
     ``friction`` holds Fvm or Fv by name [SI]: torque that is lost before the drive train twists, so that Fv/k is
     missing in the speed's coefficient.
 
-    Raises InputError for runs that are too short, without link-side encoders, or in which no such joint moves.
+    Raises InputError for runs that are too short, without link-side encoders, in which one does not go where its motor
+    goes, or in which no such joint moves.
     """
-    found = of_runs(robot, [load(str(source), robot, recipe.columns) for source in sources], friction, recipe)
+    runs = [load(str(source), robot, recipe.columns) for source in sources]
+    for run in runs:
+        for k, joint in enumerate(robot.moving):
+            _check(run, k, joint)
+    found = of_runs(robot, runs, friction, recipe)
     place = found.runs[0][0].place
     if not found.latency:
         names = f"qs{robot.moving[0].number} to qs{robot.moving[-1].number}, any of them"
@@ -124,19 +132,10 @@ def of_runs(
         mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
         if not mine:
             continue
-        for run, _ in mine:
-            _follows(run, k, joint)
         standstill, name = float(recipe.standstills(robot)[k]), f"k{joint.number}"
         viscous = _viscous(joint, friction or {})
         at_once = _rows(mine, k, joint, standstill, 0.0)
-        kept[k], (stiffness[name], late, residuals[k]) = at_once, _told(at_once, joint, viscous)
-        ago = 0.0
-        for _ in range(_ROUNDS):
-            if late.value is None or abs(late.value) > _LONGEST or abs(late.value - ago) <= _SETTLED * late.std:
-                break
-            ago = late.value
-            kept[k] = _rows(mine, k, joint, standstill, ago)
-            stiffness[name], late, residuals[k] = _told(kept[k], joint, viscous)
+        kept[k], (stiffness[name], late, residuals[k]) = _of_then(at_once, mine, k, joint, standstill, viscous)
         still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
         seen = late.refused or np.isfinite(late.std)
         latency[f"latency{joint.number}"] = _STANDS if still else late if seen else _UNSEEN
@@ -147,14 +146,52 @@ def of_runs(
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
 
-def _follows(run: Run, k: int, joint: Joint) -> None:
-    """Raises InputError where a joint's link-side encoder does not go where its motor goes."""
-    name = f"qs{joint.number}"
-    way, apart = float(run.q[k].std()), float((run.q[k] - run.others[name]).std())
-    if way > 0 and apart > max(_ASTRAY * way, YIELDS):
-        problem = f"{name} differs from the motor's position by {100 * apart / way:.0f} % of how far the joint goes"
-        unit = joint.position_unit
-        raise InputError(run.place, problem, f"the position of link {joint.number} in {unit}, with the joint's sign")
+def astray(run: Run, k: int, joint: Joint) -> float:
+    """How far the link-side encoder of a joint, coordinate k, is from its motor, in parts of how far the joint goes;
+    zero where that is what a drive train yields, the encoder is late, or there is none.
+    """
+    qs = run.others.get(f"qs{joint.number}")
+    if qs is None:
+        return 0.0
+    way, apart = float(run.q[k].std()), float((run.q[k] - qs).std())
+    return apart / way if way > 0 and apart > max(_ASTRAY * way, YIELDS) else 0.0
+
+
+def _check(run: Run, k: int, joint: Joint) -> None:
+    if apart := astray(run, k, joint):
+        name, unit = f"qs{joint.number}", joint.position_unit
+        problem = f"{name} differs from the motor's position by {100 * apart:.0f} % of how far the joint goes"
+        expected = f"the position of link {joint.number} in {unit}, with the joint's sign, at most {_LONGEST:g} s late"
+        raise InputError(run.place, problem, expected)
+
+
+def _of_then(
+    at_once: Rows,
+    runs: Sequence[tuple[Run, Filters]],
+    k: int,
+    joint: Joint,
+    standstill: float,
+    viscous: float | None,
+) -> tuple[Rows, tuple[Value, Value, Residual]]:
+    """Rows with torque and motion of then, and what they tell, beginning with those ``at_once``; refused where no
+    latency that is not too long is told by rows of its own.
+    """
+    rows, told = at_once, _told(at_once, joint, viscous)
+    ago, least = 0.0, _SETTLED_STEP * runs[0][0].period
+    for _ in range(_ROUNDS):
+        late = told[1]
+        if late.value is None or abs(late.value - ago) <= max(_SETTLED * late.std, least):
+            return rows, told
+        if abs(late.value) > _LONGEST:
+            break
+        ago = late.value
+        rows = _rows(runs, k, joint, standstill, ago)
+        told = _told(rows, joint, viscous)
+    return rows, (
+        Value(None, np.inf, joint.stiffness_unit, refused=_TOO_LATE),
+        Value(None, np.inf, "s", refused=_TOO_LATE),
+        told[2],
+    )
 
 
 def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> Rows:
@@ -177,7 +214,7 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
             own += [np.sin(then), np.cos(then)]
         inner = filters.inner(run.samples)
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
-        bad = _bad(run, k, round(abs(ago) / run.period + 0.5))
+        bad = _bad(run, k, ceil(abs(ago) / run.period))
         turning = np.zeros(columns.shape[1], dtype=bool)
         if np.ptp(run.q[k]) >= _STILL:
             bad = bad | (np.abs(qd) <= standstill)

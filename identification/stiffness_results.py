@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from math import inf
 from pathlib import Path
@@ -27,10 +28,7 @@ _STD = "of coloured residuals, their correlation as found"
 def of_locked(found: LockedOutput) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md."""
     number = found.joint.number
-    values = {
-        name: Value(one.value, one.std, one.unit, essential=name in found.essential)
-        for name, one in found.values.items()
-    }
+    values = {name: dataclasses.replace(one, essential=name in found.essential) for name, one in found.values.items()}
     norms = {
         "train": outcome.norms({number: found.residual}, Residuals({0: found.residual}).total),
         "test": None,
@@ -49,7 +47,7 @@ def of_locked(found: LockedOutput) -> dict[str, Any]:
         "parameters": outcome.parameters(values),
         "residual": norms,
         "essential": {"parameters": outcome.parameters(found.essential), "residual": kept},
-        "notes": list(found.notes),
+        "notes": [*found.notes, *refusals(values)],
     }
 
 

@@ -47,7 +47,7 @@ def doubts(found: Mapping[int, float], stated: Mapping[int, float], exchanged: s
     if len(negative) > 1 and len(negative) == len(found):
         notes = [f"all torque constants come out negative: are {exchanged}?"]
     else:
-        why = "its torque constant comes out negative; is the sign of its gear ratio right?"
+        why = "its torque constant comes out negative; is the sign of its gear ratio right, and of its currents?"
         notes = [f"motor {number}: {why}" for number in negative]
     times = {number: abs(one / stated[number]) for number, one in found.items() if one and stated.get(number)}
     if far := {number: one for number, one in times.items() if not 1 / _FAR < one < _FAR}:

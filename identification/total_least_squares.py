@@ -26,7 +26,8 @@ _INVOLVED = 1e-4
 #: Eigenvalues of the scaled information below this part of the largest are zero.
 _SEEN = 1e-13
 _ITERATIONS, _SETTLED = 20, 1e-6
-#: Times a gain of one step, or part of it, that it may be in the next: beyond, nothing that is known holds it.
+#: Times a gain of one step, or part of it, that it may be in the next: the largest factor between units of a current,
+#: from uA to A. Beyond, nothing that is known holds it.
 _RUNAWAY = 1e6
 _TINY = 1e-300
 
@@ -46,8 +47,9 @@ class Fit:
     """Gains ``k`` (n), parameters ``chi`` (p), covariance of [k, chi], which of chi are ``hidden`` (p).
 
     ``scale`` is the part of the known column that no parameter can stand for; 0 where the scale of all is open.
-    ``sigma`` is the noise of each current, ``separation`` the second smallest singular value over the smallest,
-    ``condition`` that of the rows' derivatives by gains and parameters, columns of unit length.
+    ``unsettled`` tells that the steps to the gains come to no end. ``sigma`` is the noise of each current,
+    ``separation`` the second smallest singular value over the smallest, ``condition`` that of the rows' derivatives by
+    gains and parameters, columns of unit length.
     """
 
     k: Array
@@ -58,6 +60,7 @@ class Fit:
     sigma: Array
     separation: float
     condition: float = np.inf
+    unsettled: bool = False
 
     def errors(self, part: Part) -> Array:
         """k i - B chi - w of a part (rows)."""
@@ -69,6 +72,7 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
     """Gains and parameters of all ``parts``; gains without rows are zero, with an infinite variance.
 
     Standard deviations are those of a first-order perturbation; residuals may be coloured, by motor (``inflation``).
+    They are infinite where the scale is open or the steps run away.
     """
     p = parts[0].B.shape[1]
     rows = np.array([sum(len(one.i) for one in parts if one.gain == m) for m in range(gains)])
@@ -78,15 +82,17 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
     sigma[live] = [one.noise() for one in reduced]
     k, chi, scale, separation = np.ones(gains), np.zeros(p), 0.0, 0.0
     hidden = np.zeros(p, dtype=bool)
+    unsettled = lost = False
     for step in range(_ITERATIONS):
         previous = k
         k, chi, hidden, scale, separation = _once(reduced, live, np.maximum(np.abs(k), _TINY)[live], sigma[live], gains)
-        if step and _runs_away(k[live], previous[live]):
-            scale = 0.0
-        if scale == 0.0 or np.all(np.abs(k - previous)[live] <= _SETTLED * np.abs(k)[live]):
+        change = _change(k[live], previous[live])
+        unsettled = scale > 0.0 and bool(np.any(change > _SETTLED))
+        lost = scale == 0.0 or (step > 0 and bool(np.any(change > _RUNAWAY)))
+        if lost or not unsettled:
             break
-    fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation)
-    if not scale:
+    fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation, unsettled=unsettled)
+    if lost:
         return replace(fit, covariance=np.full((gains + p, gains + p), np.inf))
     covariance, condition = _covariance(fit, parts, live)
     return replace(fit, covariance=covariance, condition=condition)
@@ -125,7 +131,8 @@ def _once(
         V[:, number] = one.T[:, -1]
         stacked.append(np.column_stack([one.T[:, :-1], V]) / (k[number] * sigma[number]))
     T = triangular(np.concatenate(stacked))
-    size = np.linalg.norm(T[:, : p + 1], axis=0) + _TINY
+    size = np.linalg.norm(T[:, : p + 1], axis=0)
+    size[size == 0.0] = 1.0
     A, noise = T[:, : p + 1] / size, np.sqrt([one.rows for one in reduced]) / k
     U, s, Vt = np.linalg.svd(A[:, :p], full_matrices=True)
     rank = int((s > _RANK * s[0]).sum())
@@ -149,10 +156,11 @@ def _once(
     return gains, chi, hidden, scale, separation
 
 
-def _runs_away(k: Array, previous: Array) -> bool:
-    """Whether any gain of a step is no longer of the size that it had."""
+def _change(k: Array, previous: Array) -> Array:
+    """Of gains from a step to the next, in parts of the smaller of both."""
     now, before = np.abs(k), np.abs(previous)
-    return bool(np.any((now > _RUNAWAY * before) | (_RUNAWAY * now < before)))
+    change: Array = np.abs(k - previous) / (np.minimum(now, before) + _TINY)
+    return change
 
 
 def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tuple[Array, float]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import importlib
 import json
+import os
 import re
+import subprocess
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -133,6 +135,18 @@ def test_every_target_that_is_named_exists() -> None:
     targets = set(re.findall(r"^([a-z-]+):", text("Makefile"), re.MULTILINE))
     named = {word for name in DOCUMENTS for word in re.findall(r"(?:`|^)make ([a-z][a-z-]*)\b(?!=)", text(name), re.M)}
     assert {"test", "help"} <= named <= targets
+
+
+@pytest.mark.parametrize(
+    ("out", "into"),
+    [([], "generated"), (["out="], f"{ROOT}/generated"), (["out=a b/c"], "{here}/a b/c"), (["out=/d /e"], "/d /e")],
+)
+def test_a_folder_that_make_is_given_is_the_callers(out: list[str], into: str, tmp_path: Path) -> None:
+    shown = """shown: ; @$(INTO); echo "$$into\""""
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", "out"))}
+    words = ["make", "-s", "--no-print-directory", "-C", str(ROOT), "--eval", shown, *out, "shown"]
+    done = subprocess.run(words, cwd=tmp_path, env=inherited | {"PWD": str(tmp_path)}, capture_output=True, text=True)
+    assert done.stdout.strip() == into.format(here=tmp_path), done.stderr
 
 
 def test_every_document_is_listed() -> None:

@@ -216,8 +216,12 @@ def test_exchanged_runs_and_another_unit_of_the_mass_are_told(arm: Regressors, t
     assert [note.startswith(told) for note in found.notes if "torque constant" in note] == [True]
     found = drive_gains(arm.model.robot, [a], [b], Payload("L", {"M": 20e3}), regressors=arm)
     (note,) = (note for note in found.notes if "torque constant" in note)
-    assert re.match(r"motors 1, 2 and 3|motors 1 to 3", note)
-    assert "times the torque constant of the file; is what is known of the load in SI units" in note
+    told = r"motors (1, 2 and 3|1 to 3): (?P<least>\S+) to (?P<most>\S+) times the torque constant of the file; is what"
+    sizes = re.match(told, note)
+    assert sizes is not None, note
+    times = 1000 * KT / (0.6, 0.6, 0.5)
+    assert float(sizes["least"]) == pytest.approx(times.min(), rel=0.02)
+    assert float(sizes["most"]) == pytest.approx(times.max(), rel=0.02)
 
 
 def test_a_run_that_is_there_twice_is_refused(arm: Regressors, tmp_path: Path) -> None:
@@ -229,3 +233,13 @@ def test_a_run_that_is_there_twice_is_refused(arm: Regressors, tmp_path: Path) -
     for empty, loaded in (([a, a], [b]), ([a], [b, b])):
         with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in"):
             drive_gains(arm.model.robot, empty, loaded, Payload("L", {"M": 20.0}), regressors=arm)
+
+
+def test_currents_of_another_run_are_refused(arm: Regressors, tmp_path: Path) -> None:
+    """Those of one motor in the loaded run: no gain explains both runs, and the steps to one come to no end."""
+    empty = saved(tmp_path / "a.csv", *currents(arm, 1, False), 0.02, 0)
+    t, motion, i = currents(arm, 2, True)
+    i[2] = currents(arm, 2, False)[2][2]
+    loaded = saved(tmp_path / "b.csv", t, motion, i, 0.02, 1)
+    with pytest.raises(InputError, match=r"b\.csv:1:1: no drive gain of lifter can be told: the currents contradict"):
+        drive_gains(arm.model.robot, [empty], [loaded], Payload("L", {"M": 20.0}), {"M": 0.02}, regressors=arm)

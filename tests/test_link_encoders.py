@@ -15,7 +15,7 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.dataset import load
 from identification.inverse_model import identify
-from identification.link_encoders import link_encoders, of_runs
+from identification.link_encoders import astray, link_encoders, of_runs
 from identification.recipe import Recipe
 from identification.report.stiffness import report as stiffness_report
 from identification.simulation.machine import Machine, compiled
@@ -31,6 +31,17 @@ from tests.test_real_runs import DATA as RECORDINGS
 DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
+
+#: A linear axis on a belt.
+SLIDE = """\
+name: slide
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
+effects:
+  - {effect: viscous_friction, joints: all}
+  - {effect: coulomb_friction, joints: all}
+"""
 
 
 def recorded(machine: Machine, settings: Settings, path: Path) -> str:
@@ -83,6 +94,53 @@ def test_an_encoder_that_does_not_follow_its_motor_is_refused(
     Recorded(columns | {"qs2": wrong(columns["qs2"])}).save(path)
     with pytest.raises(InputError, match=r"a.csv:1:1: qs2 differs from the motor's position by \d+ % of how far"):
         link_encoders(machine.robot, [str(path)])
+    run = load(str(path), machine.robot)
+    assert [astray(run, k, joint) > 0 for k, joint in enumerate(machine.robot.moving)] == [False, True]
+
+
+def test_an_encoder_that_is_too_late_is_refused(machine: Machine, tmp_path: Path) -> None:
+    run = load(recorded(machine, RUN, tmp_path / "a.csv"), machine.robot)
+    steps = round(0.4 / run.period)
+    late = {**run.others, "qs1": np.roll(run.others["qs1"], steps)}
+    found = of_runs(machine.robot, [replace(run, others=late)], MOTORS)
+    told = "no latency up to 0.2 s goes with the torque and the motion of then"
+    assert found.latency["latency1"].refused == found.stiffness["k1"].refused == told
+    assert found.latency["latency2"].value is not None
+
+
+def test_a_linear_axis_has_a_latency_too(tmp_path: Path) -> None:
+    """A slide whose scale is 4 ms late and whose belt yields, in metres and newtons."""
+    (tmp_path / "slide.yaml").write_text(SLIDE)
+    robot = read(tmp_path / "slide.yaml")
+    t = 1e-3 * np.arange(20000)
+    q, qd, qdd = (
+        sum(a * w**n * np.sin(w * t + n * np.pi / 2) for a, w in ((0.4, 1.9), (0.1, 5.3), (0.05, 11.0)))
+        for n in range(3)
+    )
+    torque = 80 * qdd + 120 * qd + 60 * np.sign(qd) + 400 * np.sin(3 * q)
+    link = q - torque / 5e5
+    late = np.interp(t - 0.004, t, link) + 1e-6 * np.random.default_rng(1).normal(size=len(t))
+    path = Recorded({"t": t, "q1": q, "tau1": torque, "qs1": late}).save(tmp_path / "a.csv")
+    found = link_encoders(robot, [str(path)])
+    k, latency = found.stiffness["k1"], found.latency["latency1"]
+    assert (k.unit, latency.unit) == ("N/m", "s")
+    assert k.value == pytest.approx(5e5, rel=0.02)
+    assert latency.value == pytest.approx(0.004, abs=3e-5)
+
+
+def test_rows_near_a_torque_that_was_lost_are_not_used(machine: Machine, tmp_path: Path) -> None:
+    """It stays what it was; the late encoder asks for the torques of then."""
+    run = load(recorded(machine, replace(RUN, link_delay=0.0055), tmp_path / "a.csv"), machine.robot)
+    lost = np.zeros((2, run.samples), dtype=bool)
+    tau = run.tau.copy()
+    for start in range(2000, 28000, 3000):
+        lost[0, start : start + 500] = True
+        tau[0, start : start + 500] = tau[0, start]
+    for told in (replace(run, unusable=lost), replace(run, tau=tau, unusable=lost)):
+        one = of_runs(machine.robot, [told], MOTORS).stiffness["k1"]
+        assert one.value == pytest.approx(MOTORS["k1"], abs=3 * one.std)
+        assert one.relative_std < 1
+    assert of_runs(machine.robot, [replace(run, tau=tau)], MOTORS).stiffness["k1"].value is None
 
 
 def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.force_steps import ForceSteps, force_steps
 from identification.locked_output import LockedOutput, locked_output
+from identification.stiffness_results import of_locked
 from tests.commands import command
 from tests.newton_euler import Arm
 from tests.recorded import Recorded
@@ -266,6 +267,17 @@ def test_a_run_in_which_the_blocked_motor_rests_is_told(tmp_path: Path) -> None:
     told = "b.csv: the motor of joint 2 hardly turns: this run tells nothing of k2"
     assert [note.endswith(told) for note in found.notes if "hardly" in note] == [True]
     assert not any("hardly turns" in note for note in locked_output(ROBOT, 2, [one]).notes)
+
+
+def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) -> None:
+    """The viscous friction of a motor that turns slowly, in noise that is larger than its torque."""
+    found = locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", noise=2000.0)])
+    document = of_locked(found)
+    lost = [name for name, one in found.values.items() if one.refused]
+    assert lost == ["Fvm2"]
+    for name in lost:
+        assert document["parameters"][name]["refused"].startswith("relative std")
+        assert any(note.startswith(f"{name} cannot be told: relative std") for note in document["notes"])
 
 
 def test_runs_that_show_no_stiffness_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

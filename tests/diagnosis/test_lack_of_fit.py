@@ -16,15 +16,23 @@ Array = NDArray[np.float64]
 PERIOD, COUNT = 200, 1000
 
 
-def one_run(period: int = PERIOD, name: str = "A.csv", unsettled_at: slice = slice(0)) -> Any:
+def one_run(
+    period: int = PERIOD,
+    name: str = "A.csv",
+    unsettled_at: slice = slice(0),
+    left_out: slice = slice(0),
+    rate: float = 50.0,
+) -> Any:
     kept = np.arange(COUNT) % 17 != 0
+    kept[left_out] = False
     unsettled = np.zeros((1, COUNT), dtype=bool)
     unsettled[0, unsettled_at] = True
     sampled = SimpleNamespace(run=SimpleNamespace(name=name))
     return SimpleNamespace(
         period=period,
         times=COUNT / period if period else 0.0,
-        t=np.arange(COUNT) / 50,
+        t=np.arange(COUNT) / rate,
+        rate=rate,
         kept=kept[None],
         unsettled=unsettled,
         sampled=sampled,
@@ -109,8 +117,28 @@ def test_events_of_several_moments_and_runs_are_counted() -> None:
     other[420:428] += 7.0
     found = lack_of_fit([first, second], [e[first.kept[0]], other[second.kept[0]]], 0, 3)
     assert found.burst is not None
-    assert found.event == f"at least 3 times, most at {found.burst.time:.2f} s of A.csv"
+    assert found.event == f"at least 3 times, the largest at {found.burst.time:.2f} s of A.csv"
     assert found.burst.time == pytest.approx(624 / 50, abs=0.15)
+
+
+@pytest.mark.parametrize("run", [one_run(0, left_out=slice(630, 700)), one_run(0, rate=0.8)])
+def test_one_event_beside_rows_that_are_left_out_or_slow_counts_once(run: Any) -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    e[620:628] += 8.0
+    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3)
+    assert found.burst is not None
+    assert found.event.startswith("once, at ")
+
+
+def test_two_events_on_both_sides_of_rows_that_are_left_out_count_twice() -> None:
+    draw = np.random.default_rng(6)
+    e = draw.normal(size=COUNT)
+    e[626:629] += 15.0
+    e[700:703] += 12.0
+    run = one_run(0, left_out=slice(630, 700))
+    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3)
+    assert found.event.startswith("at least 2 times, the largest at 12.5")
 
 
 def test_what_comes_again_with_each_period_is_no_event_but_lacks() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,8 +13,9 @@ import pytest
 
 from identification.diagnosis.diagnosis import UNEXPLAINED
 from identification.diagnosis.verdict import odd_run
-from tests.diagnosis.diagnosed_arm import Hidden, diagnosis_of, recorded, torque
-from tests.recorded import Array
+from identification.observation import Motion
+from tests.diagnosis.diagnosed_arm import NOISE, TRUTH, Hidden, diagnosis_of, recorded, torque
+from tests.recorded import Array, Recorded, fourier
 
 
 def loaded(q: Array, qd: Array) -> Array:
@@ -48,6 +50,27 @@ def test_the_run_that_differs_from_the_others_is_told(hidden: list[Hidden], told
     notes = [note for note in found.notes if "agree" in note]
     assert len(notes) == (told is not None)
     assert all((told or "") in note for note in notes)
+
+
+def test_the_speed_that_one_run_alone_reaches_is_told_of_both_directions(tmp_path: Path) -> None:
+    """It is played half as fast again, and slips there."""
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    t, q, _ = np.loadtxt(sources[0], delimiter=",", skiprows=1).T
+    t = t / 1.5
+    motion = fourier(regressors.model.robot, 40.0, 100.0, 1)[1]
+    qd, qdd = 1.5 * motion.qd, 1.5**2 * motion.qdd
+    tau = regressors.torques(TRUTH, Motion(q[None], qd, qdd))[0] + NOISE * np.random.default_rng(5).normal(size=len(t))
+    tau -= 40.0 * np.sign(qd[0]) * np.clip(np.abs(qd[0]) - 0.65, 0.0, None)
+    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(sources[0]))
+    found = diagnosis_of(sources, regressors)
+    (note,) = (note for note in found.notes if "agree" in note)
+    told = (
+        r"without 1.csv the other runs agree; most .* where they do not go, at \|qd\| (\S+) to (\S+) rad/s of joint 1:"
+    )
+    span = re.match(told, note)
+    assert span is not None, note
+    assert 0.55 < float(span[1]) < 0.68
+    assert float(span[2]) == pytest.approx(np.abs(qd).max(), rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from generator.robot.description import Joint
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
-from identification.link_encoders import RECIPE, of_runs
+from identification.link_encoders import RECIPE, astray, of_runs
 from identification.outcome import Value
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ _SURE = 5.0
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """One a joint whose link has an encoder that is late, by as much as ``measured``; none for a delay that the robot's
-    file states.
+    file states, nor for an encoder that goes elsewhere than its motor.
     """
     if not scenes:
         return []
@@ -44,7 +44,10 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     return [
         _hypothesis(joint, latency)
         for k, joint in enumerate(robot.moving)
-        if (latency := found.get(f"latency{joint.number}")) and not (stated and stated[k]) and _late(latency)
+        if (latency := found.get(f"latency{joint.number}"))
+        and not (stated and stated[k])
+        and not any(astray(run, k, joint) for run in runs)
+        and _late(latency)
     ]
 
 

@@ -51,7 +51,7 @@ class Untouched:
 
     @property
     def noisier(self) -> bool:
-        """Whether that is noise of these runs' own, as it is from row to row: what a model lacks is smoother."""
+        """Whether it may be noise of these runs' own, as it is from row to row: what most models lack is smoother."""
         return self.after.relative_to_mean < _NOISIER * self.louder * self.relative_floor
 
     @property
@@ -94,7 +94,7 @@ def _louder(bank: Bank, k: int, after: Sequence[Played]) -> float:
 
 def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[int] = ()) -> list[str]:
     """What ``runs`` (in words) on which models were ``tried`` say against the one after: joints that it explains less
-    well, or not down to the noise; and joints on which they are only noisier.
+    well, or not down to the noise; and joints on which they may only be noisier.
 
     A share is that of the torque's spread. A model without what was found and is ``unwritten``, on joints by number,
     leaves more than noise there.
@@ -125,8 +125,8 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
         )
     if noisier:
         notes.append(
-            f"the {runs} are noisier than the fitted ones on {', '.join(noisier)}: as much more changes from row to"
-            " row, where little of what a model lacks shows"
+            f"the {runs} keep far more than the fitted ones' noise on {', '.join(noisier)}: as much more changes from"
+            " row to row, so they may only be noisier; or the model lacks something as quick, such as a ripple"
         )
     return notes
 

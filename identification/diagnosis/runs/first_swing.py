@@ -38,8 +38,9 @@ class FirstSwings:
         rows = self._along(side)
         left = rows.left - rows.seen(hanging[side.k, : rows.samples])
         columns = rows.seen(free[:, side.k, : rows.samples])
-        size = np.linalg.norm(columns, axis=1)
-        if not np.all(size):
+        with np.errstate(over="ignore"):
+            size = np.linalg.norm(columns, axis=1)
+        if not np.all(np.isfinite(size) & (size > 0)):
             return hanging
         start = np.linalg.lstsq((columns / size[:, None]).T, left, rcond=None)[0] / size
         after = left - start @ columns

@@ -41,7 +41,7 @@ class Burst:
     def words(self) -> str:
         """How often, and when."""
         when = f"at {self.time:.2f} s of {Path(self.run).name}"
-        return f"once, {when}" if self.count == 1 else f"at least {self.count} times, most {when}"
+        return f"once, {when}" if self.count == 1 else f"at least {self.count} times, the largest {when}"
 
 
 def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]) -> Burst | None:
@@ -61,13 +61,13 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         least = np.maximum(least, _a_period_away(power, place, run.period))
         power[power < _BEYOND * least] = 0.0
         far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
-        t = run.t[place]
-        for each in np.split(far, np.flatnonzero(np.diff(t[far]) > _APART) + 1):
-            if len(each):
-                i = int(each[np.argmax(power[each])])
-                # The rows about a short burst hold the same power wherever it is in them.
-                largest = kept[i + int(np.argmax(square[i : i + _BURST]))]
-                found.append((float(power[i]), run.sampled.run.name, float(run.t[largest])))
+        # The rows about a short burst hold the same power wherever it is in them.
+        times = run.t[kept[np.array([i + np.argmax(square[i : i + _BURST]) for i in far], dtype=int)]]
+        apart = max(_APART, _BURST / run.rate)
+        for one in np.split(np.arange(len(far)), np.flatnonzero(np.diff(times) > apart) + 1):
+            if len(one):
+                largest = one[np.argmax(power[far[one]])]
+                found.append((float(power[far[largest]]), run.sampled.run.name, float(times[largest])))
     sure = [one for one in found if chi2.logsf(one[0], _BURST) < np.log(_CHANCE / max(rows, 1))]
     if not sure:
         return None

@@ -83,7 +83,7 @@ def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[
         _MUCH: _much(one, remains),
         "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
         "the runs do not determine its values to a fifth": loose,
-        "what only refines it makes more than the rest of it does": one.refined > _BENT,
+        "its hardening makes more torque than its stiffness": one.refined > _BENT,
         _SMALL: one.evidence.size < _FAINT,
     }
     return [reason for reason, holds in reasons.items() if holds]

@@ -20,7 +20,7 @@ from identification.outcome import Value
 
 Array = NDArray[np.float64]
 
-#: Part of what a swing tells, of which its model, linear in the deflection, is not sure.
+#: Part of what a swing tells, on a spring or in a gap, of which its model is not sure: it is linear in the deflection.
 _LINEAR = 0.01
 #: Part of a parameter that the rows must show for it to be known at all.
 _SEEN = 0.99
@@ -112,8 +112,8 @@ def variances(A: Array, preset: Mapping[int, float]) -> Array:
 def apart(
     hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
 ) -> tuple[dict[str, Value], dict[str, float]]:
-    """Coefficients, and standard deviations of the ``shape``, of which those that are told twice are as uncertain as
-    the two are apart, at least, where that is more than both deviations explain, and as the model of a swing.
+    """Coefficients, and standard deviations of the ``shape``: those that are told twice are never surer than the model
+    of a swing is, and at least as unsure as the two are apart where their deviations do not explain that.
     """
     coefficients, deviation = dict(values), dict(std)
     for name, (other, power) in hypothesis.twice.items():

@@ -173,7 +173,7 @@ def change(subject: Subject) -> Iterator[str]:
 def _beside(found: Diagnosis, number: int) -> str:
     """What the fitted runs keep on a joint beside the noise that was measured on them, which is not held against it."""
     lack = next(one for one in found.after.lack if one.joint == number)
-    return f", though these keep {plain(lack.size, 2)} times as much beside it" if lack.told else ""
+    return f", though these keep {plain(lack.size, 2)} times that rms beside it" if lack.told else ""
 
 
 def mode(subject: Subject) -> str:
