@@ -6,7 +6,7 @@ move by their usual steps. Where little speaks for a step it is short (Levenberg
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +27,13 @@ _DIFFERENCE, _LONGEST = 0.05, 1.0
 _DAMPING = 1.0
 
 
-def refined(weighing: Weighing, variant: Variant, others: Sequence[Variant], steps: int = _STEPS) -> Variant:
-    """The variant with the shape that explains most beside ``others``, in at most so many ``steps``."""
-    free = [shape for shape in variant.hypothesis.shapes if shape.free]
+def refined(
+    weighing: Weighing, variant: Variant, others: Sequence[Variant], steps: int = _STEPS, held: Collection[str] = ()
+) -> Variant:
+    """The variant with the shape that explains most beside ``others``, in at most so many ``steps``; values that are
+    ``held`` by name stay.
+    """
+    free = [shape for shape in variant.hypothesis.shapes if shape.free and shape.name not in held]
     if not free:
         return variant
     best = weighing.of(variant, others)

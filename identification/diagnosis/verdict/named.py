@@ -18,6 +18,7 @@ from identification.diagnosis.verdict.alternatives import alternatives
 from identification.diagnosis.verdict.doubts import beside_any_torque, doubted, swinging
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.gap_crossings import left_between
+from identification.diagnosis.verdict.shape_reach import reaching
 from identification.diagnosis.verdict.shape_uncertainty import apart, deviations
 from identification.outcome import Value
 
@@ -50,6 +51,7 @@ def findings(
         for c, i in zip(variant.coefficients, at, strict=True):
             values[c.name] = Value(float(solution[i]), float(std[i]), c.unit)
         values, of_shape = apart(hypothesis, values, variant.shape, shape_std.get(id(one), {}))
+        of_shape = reaching(found, one, of_shape, left)
         small = _small(found, one.evidence)
         result.append(
             Finding(
