@@ -14,7 +14,7 @@ from benchmarks.binned import Curve, binned
 from benchmarks.chart import Group, chart
 from benchmarks.documents import README, ROOT, replaced
 from benchmarks.table import table
-from generator.cli.progress import stage
+from generator.progress import stage
 from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.readers import read

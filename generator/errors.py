@@ -27,14 +27,14 @@ class InputError(Exception):
     """
 
     def __init__(self, place: Place, problem: str, expected: str) -> None:
-        # Of one line even where a name that it tells has several.
+        # A name in the message may have several lines; the message is one.
         super().__init__(" ".join(f"{place}: {problem}, expected {expected}".splitlines()))
         self.place = place
         self.problem = problem
         self.expected = expected
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """As it is, from another process too: an exception is else made anew of its one line."""
+        """As it is, from another process too; by default an exception is made anew of its message alone."""
         return _again, (type(self), str(self), self.__dict__)
 
 

@@ -11,13 +11,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.least_squares import RANK, Problem, Solution
 from identification.observed import Observed
 from identification.sampling import Rows
-
-Array = NDArray[np.float64]
 
 #: Blocks that the runs are cut into at least, and their usual length [s].
 _BLOCKS, _LENGTH = 20, 1.0

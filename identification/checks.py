@@ -9,8 +9,9 @@ from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, at_extremes
-from identification.recording import Array, Where
+from identification.recording import Where
 from identification.signals import Measured
 
 #: Beyond the limits, in parts of the range, that a position may be.

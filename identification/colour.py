@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Lags looked at, as a part of the samples, and their largest number.
 _PART, _MOST = 0.1, 200
@@ -16,8 +15,8 @@ _PART, _MOST = 0.1, 200
 def inflation(e: Array) -> float:
     """Variance of the mean of ``e`` (N, in time order) over that of white noise, 1 + 2 sum of its correlations.
 
-    The sum ends before the first pair of lags whose sum is not positive (initial positive sequence, Geyer 1992).
-    Never below 1.
+    The sum ends before the first of the pairs of lags (1, 2), (3, 4) ... whose sum is not positive: like the initial
+    positive sequence of Geyer (1992), whose pairs begin with lag 0. Never below 1.
     """
     e = e - e.mean() if e.size else e
     power = float(e @ e)
@@ -35,8 +34,8 @@ def inflation(e: Array) -> float:
 
 
 def scatter(instruments: Sequence[Array], errors: Sequence[Array], unknowns: int) -> float:
-    """Standard deviation of the sum of z e over runs with instruments z (N each) and residuals e (N each) of
-    ``unknowns``; noise and its colour are each run's own.
+    """Standard deviation of the sum of z e over runs with instruments z (N each) and residuals e (N each) that so
+    many ``unknowns`` leave; noise and its colour are each run's own.
     """
     rows = sum(map(len, errors))
     parts = [float(z @ z) * float(e @ e) / len(e) * inflation(e) for z, e in zip(instruments, errors, strict=True)]

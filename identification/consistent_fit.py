@@ -13,17 +13,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.factors import triangular
 from identification.inverse_model import Identification
 from identification.pseudo_inertia import of_body, uniform_bar
 from identification.residuals import Residuals, residuals
 from identification.sidecar import Payload
-
-Array = NDArray[np.float64]
 
 #: Radius of gyration of the ball that an unknown body is compared with, in parts of the longest link; that link's
 #: length [m] and the ball's mass [kg] where nothing tells them.

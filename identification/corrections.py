@@ -14,8 +14,8 @@ from scipy.signal import lfilter
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.drive_train import constants, coupling, driven, motor_torques, with_constants
-from identification.recording import Array
 
 #: What a file states for joints that no motion limits or warms [A, s, K, N m].
 NEVER = 1e6
@@ -30,7 +30,7 @@ def true_positions(q: Array, robot: Robot) -> Array:
 
 
 def recorded_positions(q: Array, robot: Robot) -> Array:
-    """What ``true_positions`` makes joint positions (n x N) [rad, m] of."""
+    """Recorded positions of true joint positions (n x N) [rad, m]: the inverse of ``true_positions``."""
     offset = robot.signals.position_offset
     return q - _column(offset) if offset else q
 
@@ -168,7 +168,7 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
 
 
 def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array | None) -> Array:
-    """What ``true_torques`` makes torques of the motors (n x N) [N m, N] of."""
+    """Recorded torques of the motors of true ones (n x N) [N m, N]: the inverse of ``true_torques``."""
     signals = robot.signals
     result = motor.copy()
     if signals.torque_delay:
@@ -180,7 +180,7 @@ def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Ar
 
 
 def recorded_links(q: Array, robot: Robot, period: float) -> Array:
-    """What ``true_links`` makes link-side positions (n x N) [rad, m] of."""
+    """Recorded link-side positions of true ones (n x N) [rad, m]: the inverse of ``true_links``."""
     delays = robot.signals.link_delay
     return earlier(q, [-delay for delay in delays], period) if delays else q
 

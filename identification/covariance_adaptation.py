@@ -9,9 +9,8 @@ import warnings
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 
 def strategy(start: Array, step: float, draw: np.random.Generator | np.random.RandomState, **options: object) -> Any:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.neighbours import at_extremes, in_a_row
-from identification.recording import Array, Where
+from identification.recording import Where
 from identification.signals import Measured
 
 #: Part of a run that may be cut off.

@@ -12,9 +12,10 @@ from scipy.interpolate import make_interp_spline
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from identification import checks, corrections, cut_off, glitches, readers, sidecar, stale_rows
+from identification.arrays import Array
 from identification.drive_train import driven
 from identification.formula import Formula, renamed
-from identification.recording import Array, Recording
+from identification.recording import Recording
 from identification.resolution import Resolution, resolution
 from identification.run_source import RunSource
 from identification.sidecar import Payload

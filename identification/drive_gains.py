@@ -10,17 +10,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
 from identification import torque_constants
+from identification.arrays import Array
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
 from identification.drive_train import coupling, stated_constants
 from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
+from identification.outcome import LIMIT
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of
@@ -29,10 +30,6 @@ from identification.shared_samples import unshared
 from identification.sidecar import Payload
 from identification.total_least_squares import Fit, Part, solve
 
-Array = NDArray[np.float64]
-
-#: Relative standard deviation from which a gain counts as not observable.
-LIMIT = 0.1
 #: Step of a payload's known value for its derivative, in standard deviations.
 _STEP = 0.5
 #: Unexplained part of a motor's torque [%] that is told.

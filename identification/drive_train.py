@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
-
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Motion [rad, m] beyond which a drive train does more than yield.
 YIELDS = 0.05

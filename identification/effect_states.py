@@ -13,9 +13,8 @@ from collections.abc import Callable
 from itertools import accumulate
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Rates of the states (N x s) for positions, speeds (N x n) and states (N x s).
 Rates = Callable[[Array, Array, Array], Array]

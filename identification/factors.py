@@ -10,11 +10,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.sampling import Rows
-
-Array = NDArray[np.float64]
 
 #: Rows that are collected before they are reduced, in multiples of the columns.
 _COLLECTED = 20

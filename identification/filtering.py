@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Order, ripple [dB] and corner (of the new Nyquist frequency) of the Chebyshev filter before decimation.
 _ORDER, _RIPPLE, _CORNER = 8, 0.05, 0.8

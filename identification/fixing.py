@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
 
 from generator import expressions
-from generator.cli.given_once import given_once
 from generator.errors import InputError, Place
+from generator.given_once import given_once
 from generator.robot.fields import nearest
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
@@ -31,6 +31,8 @@ def fixed(requests: Sequence[str], prior: Mapping[str, float] | None, model: Mod
         if not chosen:
             raise InputError(place, f"the robot has no base parameter {wanted!r}", nearest(wanted, names))
         for name in chosen:
+            if name in result:
+                raise InputError(place, f"{name} is given twice", "it once")
             if equals:
                 result[name] = float(expressions.parse_number(value, place))
             elif prior is None:

@@ -19,13 +19,14 @@ from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import torque_constants
+from identification.arrays import Array
 from identification.colour import scatter
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
 from identification.drive_train import YIELDS, constants, coupling, motor_torques, stated_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
 from identification.observation import generated_module
-from identification.outcome import Value
+from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
@@ -33,16 +34,12 @@ from identification.shared_samples import unshared
 from identification.signals import EFFORTS, WRENCH, NoColumns
 from identification.torque_constants import Turning
 
-Array = NDArray[np.float64]
-
 #: The report: Butterworth of order 5 at 10 Hz, forward and backward.
 RECIPE = Recipe(dynamics=4.0, cutoff=10.0, order=5)
 #: Part of a pose's largest change of a joint torque from which another joint's change counts as the force's.
 _LEVER = 0.05
 #: Samples (at the decimated rate) after which the noise of a signal is another, and its steps are still the same.
 _LAG = 4
-#: Relative standard deviation from which a value is refused.
-LIMIT = 0.1
 #: Difference of two poses, in parts and in standard deviations, from which they contradict each other.
 _APART, _DEVIATIONS = 0.2, 4.0
 #: Part of a joint's largest speed from which its motor turns.

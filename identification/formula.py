@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,8 @@ from generator import expressions
 from generator.errors import InputError
 from generator.robot import fields
 from generator.robot.document import Entry, Text
-from identification.recording import Array, Recording
+from identification.arrays import Array
+from identification.recording import Recording
 from identification.signals import NAMES, meant
 
 
@@ -31,12 +33,24 @@ class Formula:
             if name not in recording.columns:
                 problem = f"{recording.file} has no column {name}"
                 raise InputError(self.text.place, problem, f"one of {', '.join(recording.columns)}")
-        symbols = [sympy.Symbol(name, real=True) for name in names]
-        function: Any = sympy.lambdify(symbols, self.expression, "numpy")
-        # What a division by zero makes is refused as any other number that is not finite.
+        # What a division by zero makes, or a number too large, is refused as any other that is not finite.
         with np.errstate(all="ignore"):
-            result = function(*(recording.columns[name] for name in names))
+            result = _value(self.expression, recording.columns)
         return np.array(np.broadcast_to(np.asarray(result, dtype=float), (recording.rows,)))
+
+
+def _value(expression: sympy.Expr, columns: Mapping[str, Array]) -> Array:
+    """The numbers that an expression of sums, products and powers says (N, or one), names standing for ``columns``."""
+    if isinstance(expression, sympy.Symbol):
+        return columns[expression.name]
+    if not expression.free_symbols:
+        try:
+            return np.asarray(float(expression))
+        except OverflowError:
+            return np.asarray(np.inf)
+    parts = [_value(one, columns) for one in expression.args]
+    of = {sympy.Add: np.add, sympy.Mul: np.multiply, sympy.Pow: np.power}[expression.func]
+    return np.asarray(reduce(of, parts))
 
 
 def formulas(entry: Entry | None) -> dict[str, Formula]:

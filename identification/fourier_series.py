@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.observation import Motion
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

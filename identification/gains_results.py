@@ -11,7 +11,7 @@ from generator.robot.description import PRISMATIC, ParameterSet
 from generator.version import VERSION
 from generator.writing import replace
 from identification import outcome
-from identification.drive_gains import LIMIT, DriveGains
+from identification.drive_gains import DriveGains
 from identification.outcome import Value
 from identification.results import RESULTS, written
 from identification.robot_file import with_parameter_set
@@ -68,7 +68,7 @@ def document(found: DriveGains) -> dict[str, Any]:
             "name": "drive gains by total least squares",
             "columns": "the model's of unit length, free of noise; the currents' in units of their noise",
             "std": "first-order perturbation; residuals coloured as found, motor by motor; the payload's std added",
-            "refused_above_relative_std_percent": 100 * LIMIT,
+            "refused_above_relative_std_percent": 100 * outcome.LIMIT,
         },
         "data": {
             kind: [outcome.run(one.run, one.filters) for one in runs]

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from generator.review.words import listed, plural
+from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, off_cubics
-from identification.recording import Array, Where
+from identification.recording import Where
 from identification.signals import Measured
 from identification.timing import Clock
 

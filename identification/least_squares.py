@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.review.words import listed
+from identification.arrays import Array
 from identification.factors import Factor, triangular
-
-Array = NDArray[np.float64]
 
 #: Singular values of the scaled matrix below this part of the largest are zero.
 RANK = 1e-8

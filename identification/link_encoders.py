@@ -19,22 +19,19 @@ from scipy.ndimage import maximum_filter1d
 
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.corrections import earlier
 from identification.dataset import Run, load
 from identification.drive_train import YIELDS
 from identification.filtering import decimated, derivative, kept_rows, smoothed
-from identification.outcome import Value
+from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
 from identification.shared_samples import unshared
 
-Array = NDArray[np.float64]
-
 RECIPE = Recipe()
-#: Relative standard deviation from which a stiffness is refused.
-LIMIT = 0.1
 #: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
 _STILL = 2e-3
 #: Number of the speed's sign among twist, torque and what the motion makes of the twist.

@@ -9,12 +9,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.effects.library import effects_of
 from generator.errors import InputError
 from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.dataset import Run, load
 from identification.drive_train import YIELDS
@@ -22,13 +22,11 @@ from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, triangular
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.least_squares import Problem, Solution
-from identification.outcome import Value
+from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of
 from identification.shared_samples import unshared
-
-Array = NDArray[np.float64]
 
 #: The decimation passes twice the dynamics. The report's passes 1 Hz, which cannot tell Iam qdd from k q.
 RECIPE = Recipe(dynamics=5.0)
@@ -38,8 +36,6 @@ _STANDSTILL = 0.2
 _FEWEST = 3
 #: Part of how far a motor turns in the other runs below which a run shows nothing of it.
 _TURNS = 0.05
-#: Relative standard deviation from which a stiffness is refused.
-LIMIT = 0.1
 _STEMS = (
     ("Iam", ("kg m2", "kg")),
     ("Fvm", ("N m s/rad", "N s/m")),

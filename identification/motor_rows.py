@@ -10,12 +10,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.observation import Regressors
 from identification.sampling import Rows, Sampled, rows_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

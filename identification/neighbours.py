@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Part of a signal's range that is the rounding of its arithmetic.
 ARITHMETIC = 1e-11

@@ -23,9 +23,9 @@ from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
+from identification.arrays import Array
 from identification.effect_states import beginning, integrated
 
-Array = NDArray[np.float64]
 #: The coordinate whose torque jumps, and (coordinate, weight) of the speeds whose sum's sign it follows.
 Jump = tuple[int, tuple[tuple[int, float], ...]]
 

@@ -12,6 +12,9 @@ from identification.dataset import Run
 from identification.recipe import Filters
 from identification.residuals import Residual, Residuals
 
+#: Relative standard deviation from which a gain, a torque constant or a stiffness is refused.
+LIMIT = 0.1
+
 
 @dataclass(frozen=True)
 class Value:

@@ -98,6 +98,8 @@ def _json(path: Path) -> Any:
     except json.JSONDecodeError as error:
         place = Place(str(path), error.lineno, error.colno)
         raise InputError(place, f"not JSON: {error.msg}", "a results file") from None
+    except ValueError:
+        raise InputError(Place(str(path)), "a number has too many digits", "a results file") from None
 
 
 def _entry(one: Any, name: str, place: Place) -> Known:
@@ -119,10 +121,10 @@ def _number(value: Any, name: str, place: Place) -> float | None:
 
 
 def _of_robot(source: str, name: str, wanted: str) -> Parameters:
-    robot = read(find_robot(name))
+    path = find_robot(name)
+    robot = read(path)
     one = named_set(robot, wanted, robot.place)
     values = {key: _known(value) for key, value in {**one.values, **one.other_values}.items()}
-    path = Path(find_robot(name))
     return Parameters(source, str(path), digest(path), values, _base(robot, one, values))
 
 

@@ -12,7 +12,6 @@ from dataclasses import fields as of_class
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
 from generator.resources import data_folder
@@ -20,10 +19,9 @@ from generator.robot import fields
 from generator.robot.description import PRISMATIC, REVOLUTE, Robot
 from generator.robot.document import Entry
 from generator.robot.readers import document
+from identification.arrays import Array
 from identification.filtering import stages
 from identification.formula import Formula, formulas
-
-Array = NDArray[np.float64]
 
 #: Cut-off of the Butterworth filter and new sampling rate, in frequencies of the dynamics. MATLAB's decimation by r
 #: passes 0.4 of the new rate, which makes twice the dynamics.

@@ -6,12 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.observed import Observed
 from identification.sampling import Sampled
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.errors import Place
 from generator.review.words import listed
+from identification.arrays import Array
 
-Array: TypeAlias = NDArray[np.float64]
 #: The place of a value by its row, from 0, and its column; of the column's name without a row.
 Where: TypeAlias = Callable[[int | None, str], Place]
 

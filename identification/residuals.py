@@ -6,11 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.factors import Factor, added
-
-Array = NDArray[np.float64]
 
 
 def rms(x: Array) -> float:

@@ -6,14 +6,12 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, off_cubics
 from identification.recording import Recording
 from identification.signals import Measured, joint_torques
-
-Array = NDArray[np.float64]
 
 #: Part of a step within which most differences of rounded signals are whole steps, which part of them are most, and
 #: how many there must be.

@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 
 from generator.effects.library import undefined
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
 from identification.observation import Motion, Regressors, standing
 from identification.recipe import Filters, Recipe
-
-Array = NDArray[np.float64]
 
 #: Samples of a part at the recorded rate.
 _PART = 1 << 15

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from generator import expressions
-from generator.cli.given_once import given_once
 from generator.errors import InputError, Place
+from generator.given_once import given_once
 from generator.robot import fields
 from generator.robot.document import Entry, Table, Text
 from generator.robot.parameters import INERTIAL, NOT_NEGATIVE
@@ -113,6 +113,9 @@ def _name(name: str, place: Place) -> str:
     """``name`` itself; raises InputError for one that parameters' names cannot carry."""
     if not name.isalpha() or len(name) > _LONGEST:
         raise InputError(place, f"payload name {name!r}", "one to eight letters")
+    # MXL would be the mass of XL and the first moment of L.
+    if name[0] in "XYZ":
+        raise InputError(place, f"payload name {name!r} begins with an axis", "one that does not begin with X, Y or Z")
     return name
 
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.drive_train import constants, coupling
-from identification.recording import Array, Recording
+from identification.recording import Recording
 
 #: Stems of the columns by what they hold; the first that a file has is taken.
 POSITIONS = ("q", "qm")

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.review.words import listed
+from identification.arrays import Array
 from identification.neighbours import in_a_row
-from identification.recording import Array, Where
+from identification.recording import Where
 from identification.signals import Measured
 
 #: Rows in a row in which nothing changes that a log repeated, by how much more than a usual stretch without a change,

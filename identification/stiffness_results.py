@@ -11,7 +11,7 @@ from typing import Any
 from generator.robot.description import ParameterSet, Robot
 from generator.version import VERSION
 from generator.writing import replace
-from identification import force_steps, link_encoders, locked_output, outcome
+from identification import outcome
 from identification.force_steps import ForceSteps
 from identification.link_encoders import LinkEncoders
 from identification.locked_output import LockedOutput
@@ -40,7 +40,7 @@ def of_locked(found: LockedOutput) -> dict[str, Any]:
             "name": "stiffness by locked output",
             "std": _STD,
             "balancer_torque": list(found.removed),
-            "refused_above_relative_std_percent": 100 * locked_output.LIMIT,
+            "refused_above_relative_std_percent": 100 * outcome.LIMIT,
         },
         "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
         "condition": found.condition,
@@ -63,7 +63,7 @@ def of_steps(found: ForceSteps) -> dict[str, Any]:
             "name": "stiffness by force steps",
             "wrench": list(found.components),
             "std": _STD,
-            "refused_above_relative_std_percent": 100 * force_steps.LIMIT,
+            "refused_above_relative_std_percent": 100 * outcome.LIMIT,
         },
         "data": {"train": [outcome.run(one.run, one.filters) for one in found.poses]},
         "condition": None,
@@ -83,7 +83,7 @@ def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
         "method": {
             "name": "latency and stiffness by link-side encoders",
             "std": _STD,
-            "refused_above_relative_std_percent": 100 * link_encoders.LIMIT,
+            "refused_above_relative_std_percent": 100 * outcome.LIMIT,
         },
         "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
         "condition": max((rows.condition for rows in found.rows.values() if len(rows.torque)), default=inf),

@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 from generator.errors import InputError, Place
 from generator.review.words import listed
 from generator.symbolic.model import Model
+from identification.arrays import Array
 from identification.factors import Factor, triangular
 from identification.filtering import smoothed
 from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
 from identification.sampling import Sampled
-
-Array = NDArray[np.float64]
 
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.

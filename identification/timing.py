@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.review.words import plural
+from identification.arrays import Array
 from identification.neighbours import off_cubics
-from identification.recording import Array, Recording
+from identification.recording import Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
 _EVEN, _GAP = 0.02, 0.5

@@ -11,13 +11,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.words import listed, ranges
+from identification.arrays import Array
 from identification.colour import scatter
 from identification.residuals import Residual
-
-Array = NDArray[np.float64]
 
 #: Fewest samples an unknown.
 _FEWEST = 3

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.factors import triangular
-
-Array = NDArray[np.float64]
 
 #: Singular values of columns of unit length below this part of the largest are zero.
 _RANK = 1e-8

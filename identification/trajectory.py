@@ -7,16 +7,23 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Robot
+from identification.arrays import Array
 
-Array: TypeAlias = NDArray[np.float64]
 Value: TypeAlias = float | str
 
 #: Half the range of a joint without limits, revolute [rad] and prismatic [m], and what is kept free at a limit.
 _REACH = (np.pi / 2, 0.5)
 _MARGIN = 0.05
+
+
+class Unplanned(Exception):
+    """A trajectory that a robot or its settings do not allow: the ``problem``, and what was ``expected``."""
+
+    def __init__(self, problem: str, expected: str) -> None:
+        super().__init__(f"{problem}, expected {expected}")
+        self.problem, self.expected = problem, expected
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.place import command_line
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.resources import find_robot
 

@@ -9,8 +9,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from generator.cli.progress import stage
 from generator.cli.shared_arguments import takes_robot
+from generator.progress import stage
 from generator.resources import find_robot
 
 

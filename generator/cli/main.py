@@ -18,7 +18,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import NoReturn, Protocol, cast
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.version import VERSION
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from generator.cli.progress import stage
 from generator.cli.shared_arguments import takes_robot
+from generator.progress import stage
 from generator.resources import find_robot
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.expressions import parse_number
 from generator.symbolic.function import Signal

@@ -133,8 +133,8 @@ class Signals:
     recorded as motor torque or current was true ``torque_delay`` [s] before (it will be, where that is negative), as
     link-side position ``link_delay`` [s] before. Currents saturate at ``current_limit`` [A] either way. The warmth of a
     drive is 1 - exp(-t/``warm_up_time``) [s], or its temperature's rise over ``warm_rise`` [K], or follows the square
-    of the recorded motor torque over ``warm_torque`` [N m, N] with that time constant; from 1e6 on these four say
-    nothing. Nothing of it is in the generated functions.
+    of the recorded motor torque over ``warm_torque`` [N m, N] with that time constant; of these four, 1e6 or
+    more means that it is not stated. Nothing of it is in the generated functions.
     """
 
     position_offset: tuple[sympy.Expr, ...] = ()

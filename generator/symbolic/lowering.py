@@ -29,14 +29,14 @@ def lower(program: Program, expression: sympy.Expr, values: Mapping[sympy.Symbol
         return values[expression]
     if not expression.free_symbols:
         return program.constant(exact_constant(expression))
+    if isinstance(expression, sympy.Mul):
+        return _quotient(program, expression, values)
     arguments = [lower(program, argument, values) for argument in expression.args]
     if isinstance(expression, sympy.Add):
         total = program.zero
         for argument in arguments:
             total = total + argument
         return total
-    if isinstance(expression, sympy.Mul):
-        return _quotient(program, expression, values)
     if isinstance(expression, sympy.Pow):
         exponent = expression.exp
         if exponent.free_symbols:

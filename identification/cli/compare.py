@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.review.words import plural
 from identification.extras import needing
 

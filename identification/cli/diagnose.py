@@ -14,9 +14,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.place import command_line
-from generator.cli.progress import stage
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.resources import find_robot
 from identification.extras import needing
 
@@ -65,8 +64,7 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.report.page import REPORT
 
     path = find_robot(arguments.robot)
-    with stage(f"deriving the model of {path.stem}"):
-        robot = read(path)
+    robot = read(path)
     folder = arguments.out or Path("diagnosed") / robot.name
     wanted = Request(arguments.data, arguments.validate, arguments.test, arguments.prior, arguments.dry_run)
     found, new, files = diagnosed(path, robot, wanted, folder, lambda *about: {REPORT: report(*about)})

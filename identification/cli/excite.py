@@ -12,11 +12,11 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.bounds import above, not_negative, whole_number
-from generator.cli.place import command_line
-from generator.cli.progress import bar, stage
+from generator.bounds import above, not_negative, whole_number
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.errors import InputError
+from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.review.words import listed
 from generator.writing import spare

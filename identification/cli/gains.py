@@ -13,10 +13,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.place import command_line
-from generator.cli.progress import stage
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.errors import InputError
+from generator.progress import stage
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification.cli.shared_arguments import takes_recipe

@@ -12,10 +12,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.bounds import above, not_negative, whole_number
-from generator.cli.place import command_line
-from generator.cli.progress import stage
+from generator.bounds import above, not_negative, whole_number
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
+from generator.progress import stage
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification.cli.shared_arguments import takes_data, takes_test
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from identification.observation import Regressors
     from identification.recipe import Recipe
     from identification.sensitivity import Variation
+
+#: Largest weight of a prior: beyond, nothing of the runs is left beside it.
+_HEAVIEST = 1e12
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -125,7 +128,7 @@ def run(arguments: argparse.Namespace) -> None:
         folder = destination(arguments.out, robot.name, robot, (path, arguments.recipe), runs)
         regressors = Regressors(robot)
     options = _options(arguments, regressors)
-    weight = above(arguments.prior_weight, "--prior-weight", 0)
+    weight = above(arguments.prior_weight, "--prior-weight", 0, _HEAVIEST)
     with stage(f"identifying from {plural(len(arguments.data), 'run')}"):
         found = identify(robot, arguments.data, arguments.test, options, regressors)
     found, consistent = _consistent(arguments, found, weight) if arguments.consistent else (found, None)
@@ -183,11 +186,15 @@ def _consistent(
 
 
 def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:
-    """The standard parameters of a set that gives the bodies, None for any other."""
+    """The standard parameters of a set that gives the bodies, those that it lacks zero; None for any other."""
     if name is None:
         return None
+    from generator.robot.parameters import inertial_parameters
+
     values = {one: value.value for one, value in robot.parameter_sets[name].values.items()}
-    return values if all(f"M{joint.number}" in values for joint in robot.bodies) else None
+    if not all(f"M{joint.number}" in values for joint in robot.bodies):
+        return None
+    return {one.name: 0.0 for joint in robot.bodies for one in inertial_parameters(joint)} | values
 
 
 def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:

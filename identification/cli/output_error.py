@@ -11,11 +11,11 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.bounds import above, whole_number
-from generator.cli.place import command_line
-from generator.cli.progress import counter, stage
+from generator.bounds import above, whole_number
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.errors import InputError
+from generator.progress import counter, stage
 from generator.resources import find_robot
 from generator.review.words import plural
 from identification import executors
@@ -91,10 +91,10 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.report.page import REPORT
 
     path = find_robot(arguments.robot)
-    with stage(f"deriving the model of {path.stem}"):
-        robot = read(path)
-        runs = [*arguments.data, *arguments.test]
-        folder = destination(arguments.out, f"{robot.name}_output_error", robot, (path, arguments.recipe), runs)
+    robot = read(path)
+    runs = [*arguments.data, *arguments.test]
+    folder = destination(arguments.out, f"{robot.name}_output_error", robot, (path, arguments.recipe), runs)
+    with stage(f"deriving the model of {robot.name}"):
         settings = _settings(arguments, robot)
     with executors.opened(arguments) as executor, counter("starts") as counted:
         found = output_error(

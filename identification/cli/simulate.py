@@ -15,11 +15,11 @@ import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.given_once import given_once
-from generator.cli.place import command_line
-from generator.cli.progress import bar, stage
 from generator.cli.shared_arguments import takes_robot
+from generator.command_line import command_line
 from generator.errors import InputError
+from generator.given_once import given_once
+from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.review.words import plural
 from generator.writing import spare

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from dataclasses import replace as changed
 from pathlib import Path
 
-from generator.cli.progress import stage
 from generator.errors import InputError
+from generator.progress import stage, stages
 from generator.review.words import plural
 from generator.robot.description import Robot
 from generator.writing import replace, replacing
@@ -58,19 +58,17 @@ def diagnosed(
     """
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
-    regressors = Regressors(preferring(robot, wanted.prior))
+    with stage(f"deriving the model of {robot.name}"):
+        regressors = Regressors(preferring(robot, wanted.prior))
     prior = None if wanted.prior is None else prior_of(regressors.model, wanted.prior)
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     given = _runs(wanted, robot, regressors)
     notes += [note for run in given.recorded for note in run.notes]
 
-    def progress(text: str) -> None:
-        with stage(text):
-            pass
-
     with replacing(folder, GENERATED) as fresh:
         tests = given.tests if given.roles.untouched else ()
-        found = diagnose(regressors, given.runs, given.roles, prior, progress, wanted.dry, tests)
+        with stages() as progress:
+            found = diagnose(regressors, given.runs, given.roles, prior, progress, wanted.dry, tests)
         ended = [*doubts(found, prior, wanted.dry), *_of_noise(found, wanted.dry)]
         found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)

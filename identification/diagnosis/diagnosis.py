@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.runs.prepared import Prepared
@@ -29,8 +27,6 @@ from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
 from identification.diagnosis.verdict.waterfall import Steps, steps
 from identification.diagnosis.verdict.where import Where, led, located, seen
 from identification.observation import Regressors
-
-Array = NDArray[np.float64]
 
 FREE, KNOWN = "free_fit", "known_parameters"
 NAMED, NOTHING, UNEXPLAINED = "effects_named", "no_discrepancy", "unexplained"

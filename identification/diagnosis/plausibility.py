@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.residuals import Residual, Residuals
 from identification.suspicion import directed, ordered, suspect
-
-Array = NDArray[np.float64]
 
 #: Correlation of a run's torques with what the model makes of them from which their signs are others.
 _REVERSED = -0.5

@@ -10,14 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.excitation.limits import Limits
 from identification.excitation.noise import Noise
 from identification.excitation.shapes import SEARCHED
 from identification.observation import Motion, Regressors, standing
-
-Array = NDArray[np.float64]
 
 #: Criteria by name: mean of the logarithms of the singular values of W, its condition number.
 DETERMINANT, CONDITION = "determinant", "condition"

@@ -6,16 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.covariance_adaptation import strategy
 from identification.excitation.criterion import Criterion, sizes_and_rank
 from identification.excitation.shapes import BETWEEN, CHECKED, Shapes
 from identification.fourier_series import FourierSeries
 from identification.observation import Motion, Regressors
 
-Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
 #: Random motions looked at before the best ones are improved; how many are, and motions of a generation.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import Place
 from identification import recipe as recipes
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.excitation.noise import Noise
 from identification.factors import factors
@@ -16,8 +16,6 @@ from identification.least_squares import Problem, Solution
 from identification.observation import Regressors
 from identification.recipe import Recipe
 from identification.sampling import rows_of, sampled
-
-Array = NDArray[np.float64]
 
 
 def expected(

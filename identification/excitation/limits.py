@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
+from identification.arrays import Array
 from identification.drive_train import constants, coupling
 from identification.trajectory import room
-
-Array: TypeAlias = NDArray[np.float64]
 
 #: Of joints whose file has none [rad/s, m/s; rad/s2, m/s2].
 SPEED, ACCELERATION = 1.0, 2.0

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.drive_train import constants, coupling
-
-Array = NDArray[np.float64]
 
 #: Part of usual torques that is taken where no noise is given.
 PART = 0.02

@@ -9,13 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.excitation.limits import Limits
 from identification.fourier_series import FourierSeries, from_rest
 from identification.observation import Motion
-
-Array = NDArray[np.float64]
 
 #: Instants in a period of the highest harmonic at which the search and the final motion are looked at.
 SEARCHED, CHECKED = 40, 400

@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager
 from types import ModuleType
 from typing import Any, Protocol
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.discovery import modules
 from generator.errors import InputError
 

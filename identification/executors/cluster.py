@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from identification.extras import needing
 

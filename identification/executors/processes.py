@@ -9,7 +9,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 
 OPTION = "--workers"

@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.output_error.experiment import Experiment
 from identification.output_error.open_loop import OpenLoop
 from identification.output_error.variations import Variations, variations
-
-Array = NDArray[np.float64]
 
 #: Damping that keeps what no position shows of a first state where it is.
 _HELD = 1e-9

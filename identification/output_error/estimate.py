@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.least_squares import standard_deviation
 from identification.output_error.criterion import Criterion, Point
@@ -18,8 +18,6 @@ from identification.output_error.search import Minimum, Search, Settings, search
 from identification.output_error.uncertainty import covariance, noise_density
 from identification.residuals import Residual, Residuals
 from identification.simulation.machine import Machine
-
-Array = NDArray[np.float64]
 
 #: Singular values of the sensitivities below this part of the largest are zero; part of a parameter in a direction that
 #: no position shows, from which it is not identifiable; change of positions in units of their errors that is not seen.

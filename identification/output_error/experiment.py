@@ -6,17 +6,15 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.review.words import plural
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.filtering import derivative, smoothed
 from identification.observation import Motion
 from identification.recipe import Filters, Recipe
-
-Array = NDArray[np.float64]
 
 #: Fewest positions by which a segment is judged, and the time between two of them [s].
 _FEWEST, _STEP = 20, 4e-3

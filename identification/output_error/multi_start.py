@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.version import VERSION
 from identification import recipe as recipes
+from identification.arrays import Array
 from identification.dataset import load
 from identification.executors import Executor
 from identification.executors.here import Here
@@ -29,8 +29,6 @@ from identification.output_error.methods import methods
 from identification.output_error.search import Minimum, Search, Settings, search_of, starts
 from identification.simulation.machine import Machine, compiled
 from identification.study import Counted, key_of, study
-
-Array = NDArray[np.float64]
 
 #: Folder of the results of single starts.
 STARTS = "starts"

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.output_error.experiment import Experiment
-
-Array = NDArray[np.float64]
 
 #: Compared samples after which it is looked whether the simulation is lost, and how far that is [rad, m].
 _PIECE, _LOST = 25, 10.0

@@ -12,13 +12,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
 
+from identification.arrays import Array
 from identification.output_error.variations import mass_matrix
-
-Array = NDArray[np.float64]
 
 #: Rounds of cutting planes of a step, and part of the margin by which they may fall short.
 _ROUNDS, _SHORT = 50, 1e-6

@@ -13,11 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.output_error.criterion import Criterion, Linearised, Reduced
 from identification.output_error.experiment import Experiment
-
-Array = NDArray[np.float64]
 
 #: How often joints are weighted by their residuals, dependent columns, and what may be divided by.
 _WEIGHTINGS, _RANK, _TINY = 3, 1e-8, 1e-12

@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.output_error.open_loop import Trajectory
-
-Array = NDArray[np.float64]
 
 #: Steps of the finite differences of positions and speeds [rad, m; rad/s, m/s].
 _OF_Q, _OF_QD = 1e-5, 1e-5

@@ -16,7 +16,8 @@ from typing import NoReturn
 import numpy as np
 
 from generator.errors import InputError, Place
-from identification.recording import Array, Recording, digest, left_out
+from identification.arrays import Array
+from identification.recording import Recording, digest, left_out
 from identification.text_form import Form, decimal_mark, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")

@@ -9,7 +9,8 @@ import numpy as np
 import scipy.io
 
 from generator.errors import InputError, Place
-from identification.recording import Array, Recording, by_count, digest
+from identification.arrays import Array
+from identification.recording import Recording, by_count, digest
 
 EXTENSIONS = (".mat",)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from generator.errors import InputError, Place
+from identification.arrays import Array
 from identification.extras import needing
-from identification.recording import Array, Recording, by_count, digest, left_out
+from identification.recording import Recording, by_count, digest, left_out
 
 EXTENSIONS = (".parquet",)
 
@@ -22,7 +22,7 @@ def read(path: Path) -> Recording:
     file = str(path)
     with needing(Place(file)):
         import pyarrow
-        from pyarrow import parquet
+        from pyarrow import parquet, types
     try:
         names = list(parquet.read_schema(path).names)
         for k, name in enumerate(names):
@@ -34,7 +34,8 @@ def read(path: Path) -> Recording:
         raise InputError(Place(file), problem, "a Parquet file") from None
     columns: dict[str, Array] = {}
     for name in names:
-        with suppress(TypeError, ValueError):
-            columns[name] = np.asarray(table.column(name).to_numpy(), dtype=float)
+        column = table.column(name)
+        if any(one(column.type) for one in (types.is_integer, types.is_floating, types.is_decimal)):
+            columns[name] = np.asarray(column.to_numpy(), dtype=float)
     notes = left_out(file, [name for name in names if name not in columns])
     return Recording(file, columns, digest(path), by_count(file, names), notes)

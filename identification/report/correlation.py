@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Content, Markup, element, join, table
+from identification.arrays import Array
 from identification.report.chart import axis, chart
 from identification.report.numbers import plain
-
-Array = NDArray[np.float64]
 
 #: Correlation from which a pair is listed, and how many pairs are.
 _STRONG, _LISTED = 0.9, 12

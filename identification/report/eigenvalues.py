@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup
+from identification.arrays import Array
 from identification.report.chart import COLOURS, Trace, axis, chart, line, log_axis
 from identification.report.numbers import plain
 from identification.report.series import line as thinned
-
-Array = NDArray[np.float64]
 
 
 def eigenvalue_chart(

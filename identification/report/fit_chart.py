@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.review.markup import Markup
+from identification.arrays import Array
 from identification.report.chart import COLOURS, ESTIMATED, MEASURED, RESIDUAL, Trace, axis, chart, line
 from identification.report.series import line as thinned
-
-Array = NDArray[np.float64]
 
 #: Colours of the models after the first.
 _OTHERS = (COLOURS[3], COLOURS[2], COLOURS[4])

@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.colour import inflation
 
-Array = NDArray[np.float64]
 #: Numbers for a page, None for a gap.
 Numbers = list[float | None]
 

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Samples of a stretch at most, and the fewest of a run that counts.
 _STRETCH, _FEWEST = 512, 16

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.drive_train import coupling
-from identification.trajectory import Array
 
 #: Largest phase [rad] of the fastest mode that one step of order 4 is trusted with.
 _PHASE = 0.3

@@ -6,16 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from generator.cli.bounds import above, not_negative, whole_number
-from generator.cli.place import command_line
+from generator.bounds import above, not_negative, whole_number
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.fields import nearest
+from identification.arrays import Array
 from identification.named_set import named_set
 from identification.simulation.payload import whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectories import trajectories
-from identification.trajectory import Array, Trajectory, Value, ends_of
+from identification.trajectory import Trajectory, Value, ends_of
 
 #: Samples of the controller that a run may have.
 _MOST = 10**8

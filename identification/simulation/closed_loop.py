@@ -9,16 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.drive_train import coupling
 from identification.simulation import cascade
 from identification.simulation.checks import each
 from identification.simulation.contact import Contact, Foot
 from identification.simulation.machine import Machine
 from identification.simulation.settings import Settings
-from identification.trajectory import Array, Reference
+from identification.trajectory import Reference
 
 #: Rest [s] before the log begins, in which controller and springs take up the weight.
 _REST = 1.0

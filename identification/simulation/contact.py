@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from identification.trajectory import Array, Stop
+from identification.arrays import Array
+from identification.trajectory import Stop
 
 
 class Contact:

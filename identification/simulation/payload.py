@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.pseudo_inertia import pseudo_inertia
 from identification.sidecar import Payload
-
-Array: TypeAlias = NDArray[np.float64]
 
 #: States at which the payload's torques are compared with those of base parameters, and what may be left of them.
 _STATES, _LEFT = 200, 1e-9
@@ -28,7 +26,10 @@ def whole(payload: Payload) -> Payload:
     M, *c = (known.get(stem, 0.0) for stem in ("M", "MX", "MY", "MZ"))
     if not M > 0:
         raise InputError(command_line("--payload"), f"a mass of {M:g} kg", "M=MASS above 0 in kg")
-    second = np.outer(c, c) / M
+    with np.errstate(over="ignore"):
+        second = np.outer(c, c) / M
+    if not np.isfinite(second).all():
+        raise InputError(command_line("--payload"), f"a mass of {M:g} kg", "one that its first moments do not dwarf")
     point = np.trace(second) * np.eye(3) - second
     stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
     inertias = dict(zip(stems, point[np.triu_indices(3)].tolist(), strict=True))

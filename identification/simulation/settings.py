@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from identification.arrays import Array
 from identification.sidecar import Payload
-from identification.trajectory import Array, Value
+from identification.trajectory import Value
 
 #: Columns that are logged if asked for: the reference, encoders of the links, temperatures of the drives.
 FURTHER = ("qr", "qs", "temp")

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import corrections
+from identification.arrays import Array
 from identification.drive_train import coupling
 from identification.signals import EFFORTS, WRENCH
 from identification.simulation.checks import check, chosen, each, pose, trajectory_of
@@ -19,7 +20,7 @@ from identification.simulation.closed_loop import Log, Loop, Progress, torque_co
 from identification.simulation.machine import Machine
 from identification.simulation.payload import carried, whole
 from identification.simulation.settings import FURTHER, Settings
-from identification.trajectory import Array, Reference, Task, Value
+from identification.trajectory import Reference, Task, Unplanned, Value
 
 #: Part of a torque that is rounding.
 _ROUNDING = 1e-12
@@ -56,9 +57,8 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
     )
     try:
         reference = kind.plan(task)
-    except ValueError as error:
-        problem, _, expected = str(error).partition(", expected ")
-        raise InputError(command_line("--trajectory"), problem, expected or "settings that the robot allows") from None
+    except Unplanned as error:
+        raise InputError(command_line("--trajectory"), error.problem, error.expected) from None
     log = Loop(machine, model, settings, reference).run(progress)
     columns = _columns(machine, model, settings, reference, log)
     clean = Simulated(columns, replace(settings, noise=(0.0,), wrench_noise=(0.0,)), values, start, parameters)

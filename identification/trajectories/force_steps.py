@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from identification.trajectory import Array, Reference, Setting, Stop, Task, Trajectory
+from identification.arrays import Array
+from identification.trajectory import Reference, Setting, Stop, Task, Trajectory, Unplanned
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _AXES |= {f"-{name}": (-x, -y, -z) for name, (x, y, z) in tuple(_AXES.items())}
@@ -25,7 +26,7 @@ def _plan(task: Task) -> Reference:
     """The references yield as stop and drive trains do; the tool, as the motors have it, keeps its orientation."""
     n = len(task.pose)
     if n != 6:
-        raise ValueError(f"force_steps keeps the tool's orientation, which {n} joints cannot, expected 6")
+        raise Unplanned(f"force_steps keeps the tool's orientation, which {n} joints cannot", "6")
     axis = np.array(_AXES[str(task.settings["axis"])])
     return _held(task, axis) if task.settings["contact"] == HELD else _sliding(task, axis)
 
@@ -37,7 +38,7 @@ def _held(task: Task, axis: Array) -> Reference:
         problem = (
             f"links are held by dry friction, and there is no {lacking[0]}" if lacking else "no drive train yields"
         )
-        raise ValueError(f"{problem}, expected coulomb_friction and elastic drive trains, or contact=sliding")
+        raise Unplanned(problem, "coulomb_friction and elastic drive trains, or contact=sliding")
     pose = task.model.tool_transform(task.pose)
     torques = task.model.tool_jacobian(task.pose)[:3].T @ pose[:3, :3] @ axis
     parts = np.linspace(0.0, 1.0, _POINTS)
@@ -58,10 +59,10 @@ def _turned(task: Task, pose: Array, arms: Array) -> Array:
                 break
             jacobian = task.model.tool_jacobian(q)[3:, _ARM:]
             if np.linalg.cond(jacobian) > _SINGULAR:
-                raise ValueError("the wrist is straight, expected --pose with a bent one")
+                raise Unplanned("the wrist is straight", "--pose with a bent one")
             q[_ARM:] += np.linalg.solve(jacobian, error)
         else:
-            raise ValueError("the wrist cannot keep the tool's orientation, expected another --pose")
+            raise Unplanned("the wrist cannot keep the tool's orientation", "another --pose")
         result.append(q)
     return np.array(result)
 
@@ -112,10 +113,10 @@ def _joints(task: Task, pose: Array, direction: Array, ways: Array) -> Array:
                 break
             jacobian = task.model.tool_jacobian(q)
             if np.linalg.cond(jacobian) > _SINGULAR:
-                raise ValueError("the pose is singular, expected --pose with a bent arm and wrist")
+                raise Unplanned("the pose is singular", "--pose with a bent arm and wrist")
             q = q + np.linalg.solve(jacobian, error)
         else:
-            raise ValueError("the tool cannot be moved along the axis from this pose, expected another --pose")
+            raise Unplanned("the tool cannot be moved along the axis from this pose", "another --pose")
         result.append(q)
     return np.array(result)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from identification.fourier_series import FourierSeries, from_rest
-from identification.trajectory import Reference, Setting, Task, Trajectory
+from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned
 
 #: Instants of a period of the highest harmonic at which a series is looked at.
 _LOOKED_AT = 400
@@ -18,13 +18,13 @@ def _plan(task: Task) -> Reference:
     frequency = task.number("frequency")
     orders = np.arange(1.0, round(task.number("harmonics")) + 1)
     if 2 * np.pi * frequency * orders[-1] * task.period > _PHASE:
-        raise ValueError("the highest harmonic is too fast for the controller, expected a lower frequency")
+        raise Unplanned("the highest harmonic is too fast for the controller", "a lower frequency")
     lower, upper = task.room
     n = len(task.pose)
     room = np.minimum(upper - task.pose, task.pose - lower)
     if (room <= 0).any():
         number = task.robot.moving[int(np.argmin(room))].number
-        raise ValueError(f"joint {number} is too near to its limit, expected --pose with room on both sides")
+        raise Unplanned(f"joint {number} is too near to its limit", "--pose with room on both sides")
     drawn = task.draw.normal(size=(n, 2, len(orders))) / orders
     a, b = from_rest(drawn[:, 0], drawn[:, 1])
     looked_at = np.linspace(0, 1 / frequency, _LOOKED_AT * len(orders))

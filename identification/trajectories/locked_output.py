@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from identification.trajectory import Reference, Setting, Task, Trajectory
+from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned
 
 
 def _plan(task: Task) -> Reference:
@@ -12,7 +12,7 @@ def _plan(task: Task) -> Reference:
     held = [f"Fc{joint.number}" for joint in task.robot.moving]
     lacking = [name for name in held if name not in task.values]
     if lacking:
-        raise ValueError(f"links are held by dry friction, and there is no {lacking[0]}, expected coulomb_friction")
+        raise Unplanned(f"links are held by dry friction, and there is no {lacking[0]}", "coulomb_friction")
     w = 2 * np.pi * task.number("frequency")
     t = task.times
     s = np.clip(t * task.number("frequency"), 0.0, 1.0)

@@ -9,10 +9,11 @@ from scipy.interpolate import make_interp_spline
 
 from generator.errors import InputError
 from identification import checks, readers
+from identification.arrays import Array
 from identification.recording import Recording
 from identification.signals import measured
 from identification.timing import clock
-from identification.trajectory import Array, Reference, Setting, Task, Trajectory, ends_of
+from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned, ends_of
 
 #: Columns that are played, the first that the file has.
 _STEMS = ("qr", "q")
@@ -29,7 +30,7 @@ def _plan(task: Task) -> Reference:
     """
     file = str(task.settings["file"])
     if not file:
-        raise ValueError("no file is played, expected --set file=RUN")
+        raise Unplanned("no file is played", "--set file=RUN")
     recording = readers.read(Path(file))
     found = measured(recording, _STEMS, task.robot, "positions")
     checks.finite([*zip(found.names, found.values, strict=True)], recording.where)
@@ -41,7 +42,7 @@ def _plan(task: Task) -> Reference:
     at = np.minimum(task.times, t[-1])
     q, qd = motion(at), np.where(within, motion.derivative()(at), 0.0)
     if (np.abs(qd[:, 0]) > max(_REST * np.abs(qd).max(), _STANDS)).any():
-        raise ValueError(f"{file} does not begin at rest, expected speeds of zero at the start")
+        raise Unplanned(f"{file} does not begin at rest", "speeds of zero at the start")
     return Reference(q.T, qd.T)
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from identification.trajectory import Array, Reference, Setting, Task, Trajectory
+from identification.arrays import Array
+from identification.trajectory import Reference, Setting, Task, Trajectory
 
 #: Way and speed (m each) of a move over 0 to 1 at times [s], from the largest rate [1/s] and its growth [1/s2].
 Profile = Callable[[float, float], tuple[float, Callable[[Array], tuple[Array, Array]]]]

@@ -51,17 +51,17 @@ def _any(place: Place, what: str, value: sympy.Expr, unit: str) -> None:
 
 
 def _gain(place: Place, what: str, value: sympy.Expr, unit: str) -> None:
-    if not _LEAST_GAIN <= float(value) <= _LARGEST_GAIN:
+    if not _LEAST_GAIN <= value <= _LARGEST_GAIN:
         raise InputError(place, f"{what} is {float(value):g}", "a factor from 0.3 to 3")
 
 
 def _either_way(place: Place, what: str, value: sympy.Expr, unit: str) -> None:
-    if not -_LONGEST_DELAY <= float(value) <= _LONGEST_DELAY:
+    if not -_LONGEST_DELAY <= value <= _LONGEST_DELAY:
         raise InputError(place, f"{what} is {float(value):g} {unit}", "a time from -0.1 to 0.1 s")
 
 
 def _delay(place: Place, what: str, value: sympy.Expr, unit: str) -> None:
-    if not 0 <= float(value) <= _LONGEST_DELAY:
+    if not 0 <= value <= _LONGEST_DELAY:
         raise InputError(place, f"{what} is {float(value):g} {unit}", "a time from 0 to 0.1 s")
 
 

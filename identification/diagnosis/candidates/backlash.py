@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Joint, Robot
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
@@ -17,8 +17,6 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.residuals import rms
 from identification.side_by_side import side_by_side
-
-Array = NDArray[np.float64]
 
 #: Times [s] in which a link falls through the gap that are looked for.
 _QUICKEST, _SLOWEST = 0.01, 0.2

@@ -15,17 +15,15 @@ from typing import Any
 
 import numpy as np
 import sympy
-from numpy.typing import NDArray
 
 from generator.derivation import derive
 from generator.robot.description import Robot
 from generator.symbolic.model import Model
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BASE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import generated_module
 from identification.sidecar import Payload
-
-Array = NDArray[np.float64]
 
 #: Largest angle [rad].
 _LARGEST = 0.3

@@ -12,16 +12,14 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import binary_opening
 
+from identification.arrays import Array
 from identification.corrections import NEVER, drifting
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import constants, coupling, motor_torques
 from identification.residuals import rms
-
-Array = NDArray[np.float64]
 
 #: Parts of a run's samples that stay below the lowest and the highest limit that is tried.
 _LOWEST, _HIGHEST = 0.8, 0.999

@@ -11,15 +11,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import scaled, sensitivity
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
-
-Array = NDArray[np.float64]
 
 #: Largest relative error: beyond it the robot would miss its targets visibly.
 _LARGEST = 0.2

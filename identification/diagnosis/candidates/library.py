@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.effects.effect import BALANCER, Effect, Shape
 from generator.effects.library import library
 from generator.robot.description import Joint, Robot
+from identification.arrays import Array
 from identification.corrections import by_heat
 from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
@@ -18,8 +18,6 @@ from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
 from identification.diagnosis.runs.link_side import rotor_inertia, usual_rotor
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05

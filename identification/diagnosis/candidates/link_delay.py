@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Joint
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.link_encoders import RECIPE, astray, of_runs
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: Longest delay [s] that a robot's file may state.
 _LONGEST = 0.1

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
 from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:

@@ -6,14 +6,12 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import PRISMATIC, Joint
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import change_of, sensitivity
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Largest offset [rad, m] that nobody would have seen.
 _LARGEST = {False: 0.3, True: 0.1}

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Joint
+from identification.arrays import Array
 from identification.corrections import earlier
 from identification.diagnosis.columns.confirmed import confirmed
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
@@ -21,8 +22,6 @@ from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: Noise of the record's own in a column, in parts of what the delay makes of it, that it may have.
 _NOISY = 1.0

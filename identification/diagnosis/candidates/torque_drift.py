@@ -14,17 +14,15 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Joint
+from identification.arrays import Array
 from identification.corrections import by_heat
 from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.warming import following, warm_up_times
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.residuals import rms
-
-Array = NDArray[np.float64]
 
 _LARGEST = 0.6
 #: Of the warmth, in what part of a torque is recorded.

@@ -7,14 +7,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
-
-Array = NDArray[np.float64]
 
 #: Relative errors e of a torque: with them ``torque_gain`` stays within what a robot file may say; and the size up to
 #: which a free fit, whose parameters take up most of a gain, tells one from what a joint lacks otherwise.

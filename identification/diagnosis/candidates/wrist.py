@@ -8,15 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 import sympy
-from numpy.typing import NDArray
 
 from generator.effects.coupled_rotor import EFFECT
 from generator.effects.effect import Site
 from generator.robot.description import FIXED, Joint, Robot
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Joints, counted from the tool, that may share a rotor.
 _WRIST = 3

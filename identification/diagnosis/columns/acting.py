@@ -6,15 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.effects.library import library
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, VALUE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
-
-Array = NDArray[np.float64]
 
 #: Part of a value by which two searches may differ about it.
 _NEAR = 0.01

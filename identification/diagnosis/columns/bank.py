@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.diagnosis.columns import stated_load
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, Key
 from identification.diagnosis.columns.normal_equations import bounded, lowered
@@ -25,8 +26,6 @@ from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.side_by_side import side_by_side
-
-Array = NDArray[np.float64]
 
 #: What tells columns apart: effect, joint, shape.
 _Made: TypeAlias = tuple[object, ...]

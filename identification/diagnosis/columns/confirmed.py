@@ -10,10 +10,9 @@ weighed.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import csd, welch
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Seconds of the stretches over which spectra are averaged, and how many of them there are at least.
 _STRETCH, _LEAST = 2.0, 8

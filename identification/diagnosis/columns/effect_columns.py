@@ -8,15 +8,13 @@ from typing import Any
 import casadi
 import numpy as np
 import sympy
-from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
 from generator.effects.effect import Effect, Shape, Site
 from generator.robot.description import Joint, Robot
+from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
 from identification.effect_states import beginning
-
-Array = NDArray[np.float64]
 
 #: What columns may be made of here.
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})

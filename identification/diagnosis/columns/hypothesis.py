@@ -7,14 +7,13 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from generator.review.words import listed, ranges
+from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.diagnosis.columns.bank import base_rows
 from identification.diagnosis.columns.normal_equations import Places, inverse
@@ -23,8 +23,6 @@ from identification.diagnosis.runs.prepared import window, windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling, supplied
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: Longest delay [s] either way that a drive's sampling explains, and the part of the shortest run that it may be.
 LONGEST, _OF_RUN = 0.1, 0.05

@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.reversals import since_reversal
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Places along a joint's range, and along its speeds, between which a torque is even.
 _PLACES, _SPEEDS = 24, 8

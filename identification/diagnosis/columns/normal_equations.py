@@ -15,7 +15,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
+
 Places = NDArray[np.int64]
 
 #: Eigenvalues of W's scaled products below this part of the largest: directions that no row shows.

@@ -7,17 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 import sympy
-from numpy.typing import NDArray
 
 from generator.effects.library import motor_side
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved
+from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.named_set import named_set
-
-Array = NDArray[np.float64]
 
 #: Relative standard deviation of a value whose set tells none and of one that is known exactly; that of zero, and the
 #: least of any value, which may be zero but for rounding, in parts of the largest of its unit.

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 import sympy
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 def columns(scene: Scene) -> dict[str, Array]:

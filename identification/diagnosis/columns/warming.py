@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
 _SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0

@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 
+from identification.arrays import Array
 from identification.neighbours import in_a_row
-
-Array = NDArray[np.float64]
 
 #: Order of the autoregressive model.
 ORDER = 10

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.effects.library import names_of_effects
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior
 from identification.diagnosis.columns.payload_body import PARAMETERS
@@ -26,8 +26,6 @@ from identification.outcome import Value
 from identification.own_load import under_own_load
 from identification.robot_file import rounded
 from identification.sampling import Sampled
-
-Array = NDArray[np.float64]
 
 #: Name of the set in the robot file.
 SET = "diagnosed"

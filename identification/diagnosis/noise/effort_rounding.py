@@ -11,15 +11,13 @@ from functools import cache
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from generator.review.words import listed
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Harmonics of a staircase that are summed.
 _HARMONICS = 30

@@ -12,8 +12,8 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant, base_rows
 from identification.diagnosis.columns.torques import made
 from identification.diagnosis.noise import rounding
@@ -22,8 +22,6 @@ from identification.diagnosis.runs.perturbation import moved
 from identification.diagnosis.runs.position_noise import drawn, torque_of
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 class Redrawn:

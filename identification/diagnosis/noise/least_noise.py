@@ -5,11 +5,9 @@ from __future__ import annotations
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.prepared import Prepared
-
-Array = NDArray[np.float64]
 
 #: Its rms, in parts of the joint's torque.
 _PART = 1e-5

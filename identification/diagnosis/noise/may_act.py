@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.errors_in_variables import Redrawn
-
-Array = NDArray[np.float64]
 
 #: Rows that a column may use up: with more columns only the strongest directions are taken away. Rows for each column
 #: of the model from which they are taken away all the same.

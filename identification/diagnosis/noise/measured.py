@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
@@ -32,7 +33,6 @@ from identification.diagnosis.noise.may_act import (
 from identification.diagnosis.noise.outstanding import outstanding
 from identification.side_by_side import side_by_side
 
-Array = NDArray[np.float64]
 _Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.

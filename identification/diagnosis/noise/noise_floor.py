@@ -7,13 +7,11 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.words import listed
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.runs.prepared import joined
-
-Array = NDArray[np.float64]
 
 #: Points of the integral over the frequency.
 _POINTS = 400

@@ -10,15 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from identification.arrays import Array
 from identification.colour import inflation
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.normal_equations import Places
 from identification.diagnosis.noise.may_act import Rows, allowed
-
-Array = NDArray[np.float64]
 
 #: Least size of what stands out, in parts of the rms that is left beside it: a robot's own laws are unlike by a fifth.
 #: Its chance over everything tried.

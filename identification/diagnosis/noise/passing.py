@@ -13,16 +13,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.diagnosis.noise.measured import by_period
 from identification.diagnosis.runs.prepared import Prepared, windowed
 from identification.run_source import RunSource
 from identification.sampling import Sampled
-
-Array = NDArray[np.float64]
 
 #: Periods that have a row of a phase, from which what they have in common is known without any one of them; and those
 #: that tell how much differs.

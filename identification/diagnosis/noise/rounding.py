@@ -9,9 +9,9 @@ from __future__ import annotations
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.diagnosis.runs import position_noise
 from identification.diagnosis.runs.position_noise import drawn, torque_of
@@ -19,8 +19,6 @@ from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling
 from identification.resolution import steps
-
-Array = NDArray[np.float64]
 
 #: Part of what the motors' steps make of a joint below which its own steps are those of a sum.
 _FINER = 0.5

@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.whitening import ORDER, colour, stretches
 from identification.diagnosis.noise import rounding
 from identification.diagnosis.runs.position_noise import drawn, torque_of
 from identification.diagnosis.runs.prepared import RATE, windowed
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 #: Frequencies that are looked at, up to half the rate of the rows.
 _FREQUENCIES = 50

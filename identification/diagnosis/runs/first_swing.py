@@ -7,13 +7,11 @@ first; a swing that is damped little lasts for seconds.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.link_side import LinkSide, Train
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.swings import Rows
-
-Array = NDArray[np.float64]
 
 #: The least F, of its two values beside what is left, at which another start is told: noise that stays for a time
 #: makes some ten.

@@ -14,15 +14,14 @@ from typing import Any, TypeAlias
 
 import casadi
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Robot
 from generator.symbolic.model import Model
+from identification.arrays import Array
 from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
 
-Array = NDArray[np.float64]
 #: A number, or an array of as many as are played at once.
 Value: TypeAlias = Any
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: What a repetition may differ by, mean square over the motion's variance; and what must lie between two of them.
 _SAME, _OTHER = 1e-5, 0.05

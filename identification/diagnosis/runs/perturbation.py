@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
-
-Array = NDArray[np.float64]
 
 #: Largest change of a position [rad, m] by which sensitivities are found.
 _STEP = 1e-4

@@ -14,13 +14,12 @@ from generator.errors import InputError
 from generator.generation import Stage, generate, silent
 from generator.python_library import build_library, load_library
 from generator.symbolic.effect_torques import STATES, WARMTH
+from identification.arrays import Array
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
-
-Array = NDArray[np.float64]
 
 
 class Player:

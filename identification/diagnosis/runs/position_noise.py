@@ -5,15 +5,13 @@ from __future__ import annotations
 from math import comb, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.perturbation import sensitivity
 from identification.diagnosis.runs.scene import Scene
 from identification.filtering import flat_derivative, smoothed
 from identification.neighbours import ARITHMETIC
 from identification.observation import Motion
-
-Array = NDArray[np.float64]
 
 #: Order of the differences that leave nothing of a motion, and the median of a normal deviate's size.
 _ORDER, _MEDIAN = 8, 0.6745

@@ -13,6 +13,7 @@ from scipy import signal
 from scipy.ndimage import maximum_filter1d
 
 from generator.errors import InputError
+from identification.arrays import Array
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of
 from identification.diagnosis.runs.stated_elasticity import stated
@@ -21,8 +22,6 @@ from identification.observation import Jump, Regressors, followed
 from identification.recipe import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
-
-Array = NDArray[np.float64]
 
 #: Rows a second that are looked at; the motion's filter passes up to as many hertz.
 RATE = 50.0

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 def since_reversal(scene: Scene, k: int) -> Array:

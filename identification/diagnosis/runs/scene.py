@@ -8,18 +8,16 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.effects.effect import accelerates
 from generator.robot.description import Robot
 from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.corrections import heated, warming_up
 from identification.drive_train import motor_torques
 from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
-
-Array = NDArray[np.float64]
 
 #: Range [rad, m] that is the rounding of a joint which stands.
 _STILL = 1e-9

@@ -13,15 +13,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.diagnosis.runs.link_side import Train, link_side, rotor_inertia, told, without_drive_train
 from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
-
-Array = NDArray[np.float64]
 
 #: The column of all drive trains without a gap.
 TOGETHER = "elasticity"

@@ -11,13 +11,12 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, rotor_inertia, swings
 from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 
-Array = NDArray[np.float64]
 #: Drive trains as rotor's inertia, stiffness, damping ratio, gap.
 Alike: TypeAlias = list[tuple[float, ...]]
 

@@ -6,12 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
-import numpy as np
-from numpy.typing import NDArray
-
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant
-
-Array = NDArray[np.float64]
 
 #: Why an effect is not taken that would be, were rows not few.
 SMALL = "small beside what noise of few rows may hold"

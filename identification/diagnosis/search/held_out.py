@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.normal_equations import (
     Prior,
@@ -21,8 +21,6 @@ from identification.diagnosis.columns.normal_equations import (
     told_apart,
     without,
 )
-
-Array = NDArray[np.float64]
 
 
 class HeldOut:

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from generator.effects.library import effects_of
 from generator.robot.description import Robot
+from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Normal, Places, inverse
-
-Array = NDArray[np.float64]
 
 #: Part of a column's square beside which it is another one, or a sum of others.
 _SAME = 1e-6

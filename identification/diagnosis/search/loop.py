@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.columns.acting import Acting
 from identification.diagnosis.columns.bank import Bank, Lasting, Variant, columns_of
@@ -29,8 +29,6 @@ from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
-
-Array = NDArray[np.float64]
 
 #: Times that columns which depend on the model are made, all but the first with what was found; one more with a gain
 #: that is to be settled.

@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.weighing import Weighing
-
-Array = NDArray[np.float64]
 
 #: Steps, the parts of one that are tried, and what of the rank a step must gain.
 _STEPS, _PARTS, _GAIN = 6, (1.0, 0.3, 0.1), 0.5

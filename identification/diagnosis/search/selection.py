@@ -8,7 +8,6 @@ from itertools import combinations
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
@@ -22,8 +21,6 @@ from identification.diagnosis.search.swings_heard import heard
 from identification.diagnosis.search.valleys import Valleys
 from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import nearest, odds
-
-Array = NDArray[np.float64]
 
 #: What is unexplained, in parts of the noise, from which several effects must be missing.
 _GROSS = 20.0

@@ -11,13 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import csd
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import ELASTIC
-
-Array = NDArray[np.float64]
 
 #: Least part of a swing's power that is heard, and size of a swing, in parts of the noise's rms, from which it must be.
 _HEARD, _LOUD = 0.15, 2.0

@@ -13,9 +13,9 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.columns.normal_equations import (
@@ -37,7 +37,6 @@ from identification.diagnosis.search.imperfect_laws import lacking
 from identification.diagnosis.search.likely import common, likely
 from identification.diagnosis.search.tried import at_end, chance
 
-Array = NDArray[np.float64]
 #: Drop of the sum of squares, variant, coefficients.
 _Found = tuple[float, Variant, Array]
 

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.stats import chi2
 
+from identification.arrays import Array
 from identification.diagnosis.runs.prepared import Prepared
-
-Array = NDArray[np.float64]
 
 #: Rows of a burst that is looked for.
 _BURST = 10

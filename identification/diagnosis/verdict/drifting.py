@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import f
 
+from identification.arrays import Array
 from identification.diagnosis.noise.measured import by_period
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
-
-Array = NDArray[np.float64]
 
 #: Parts of a period whose means tell how slow noise is, and the least share of its rows in every period.
 _PARTS, _SHARE = 4, 0.25

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import f
 
-Array = NDArray[np.float64]
+from identification.arrays import Array
 
 #: Least singular value of rows, in parts of the largest, that counts.
 _RANK = 1e-6

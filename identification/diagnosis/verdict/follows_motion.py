@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import groups
 from identification.diagnosis.noise.may_act import maps_taken
 from identification.diagnosis.verdict.f_test import FTest, f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, Lack
-
-Array = NDArray[np.float64]
 
 
 def following(bank: Bank, residuals: Sequence[Array], maps: Sequence[Sequence[Array]], k: int, lack: Lack) -> Lack:

@@ -9,13 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.search.loop import Search
-
-Array = NDArray[np.float64]
 
 BETWEEN, ALONG = "differs between the runs", "changes from the beginning of a run to its end"
 #: Part of an effect by which its amplitude may wander, as laws do, and standard deviations that are chance.

@@ -11,13 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2, f
 
+from identification.arrays import Array
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.verdict.burst import Burst, burst
-
-Array = NDArray[np.float64]
 
 #: Chance below which more than noise is left.
 CHANCE = 1e-4

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.noise.may_act import maps_taken
@@ -21,8 +21,6 @@ from identification.diagnosis.verdict.gap_crossings import left_between
 from identification.diagnosis.verdict.shape_reach import reaching
 from identification.diagnosis.verdict.shape_uncertainty import apart, deviations
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: Size of a finding, in parts of the noise's rms, below which it is not firm where nothing repeats: the noise is then
 #: not known apart from the model. Where rows are too few to take what may act out of it as well.

@@ -9,16 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.trial import Trial
 from identification.residuals import rms
-
-Array = NDArray[np.float64]
 
 #: Part of a joint's torque's spread that is no noise, and how often the rms of noise testing runs must keep.
 _MOST, _FAR = 0.5, 2.0

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.words import listed
+from identification.arrays import Array
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.views import BINS, FEW_ROWS, variables
-
-Array = NDArray[np.float64]
 
 #: Of which variables a range is looked at, of a speed whichever its direction.
 _RANGES: Mapping[str, Callable[[Array], Array]] = {"q": np.asarray, "qd": np.abs, "load": np.asarray}

@@ -9,15 +9,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.maps import span_of
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.f_test import f_test
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
-
-Array = NDArray[np.float64]
 
 #: Part of the residual's squares that a ripple must be: a third of the noise's rms. One sine of many that are tried is
 #: believed less easily than one law.

@@ -11,11 +11,14 @@ from math import exp, log, sqrt
 
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import ELASTIC, ShapeRange
-from identification.diagnosis.search.loop import Choice, Search
+from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.refinement import refined
+from identification.diagnosis.search.selection import Choice
 
-#: Distance of the logarithm that is looked at first, each next one twice as far, and the steps of the other values there.
-_FIRST, _STEPS = 0.1, 1
+#: Distance of the logarithm that is looked at first; each next one is twice as far.
+_FIRST = 0.1
+#: Steps of the other values at each.
+_STEPS = 1
 
 
 def reaching(found: Search, choice: Choice, std: Mapping[str, float], left: Mapping[int, float]) -> dict[str, float]:
@@ -39,9 +42,7 @@ def reaching(found: Search, choice: Choice, std: Mapping[str, float], left: Mapp
     return deviation
 
 
-def _way(
-    found: Search, variant: Variant, others: list[Variant], shape: ShapeRange, sign: int, lost: float
-) -> float:
+def _way(found: Search, variant: Variant, others: list[Variant], shape: ShapeRange, sign: int, lost: float) -> float:
     """How far the logarithm of a value may go, up or down, until so much is ``lost`` or its range ends."""
     weighing, here = found.weighing, variant
     best, value = weighing.beside(variant, others)[1], variant.shape[shape.name]

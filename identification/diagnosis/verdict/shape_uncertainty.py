@@ -10,15 +10,13 @@ from dataclasses import dataclass, replace
 from math import hypot, log
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.refinement import neighbour
 from identification.outcome import Value
-
-Array = NDArray[np.float64]
 
 #: Part of what a swing tells, on a spring or in a gap, of which its model is not sure: it is linear in the deflection.
 _LINEAR = 0.01

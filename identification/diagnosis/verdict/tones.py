@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.noise.measured import between_periods
 from identification.diagnosis.search.loop import Search
-
-Array = NDArray[np.float64]
 
 #: Times that it comes at least in the rows of all periods but one, which the others tell: what is slower is a drift.
 _COMES = 1.0

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.acting import Acting
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
@@ -15,8 +15,6 @@ from identification.diagnosis.columns.whitening import Colour, at_rate
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.loop import Search
-
-Array = NDArray[np.float64]
 
 #: Times that one run is logged faster than another from which their noise is not compared.
 _UNLIKE = 1.5

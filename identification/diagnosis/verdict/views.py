@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL
 from identification.diagnosis.columns.whitening import Colour
 from identification.diagnosis.runs.prepared import Prepared, joined
@@ -15,8 +16,6 @@ from identification.diagnosis.runs.reversals import since_reversal
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling
 from identification.residuals import rms
-
-Array = NDArray[np.float64]
 
 #: Bins over the range of a variable.
 BINS = 24

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.diagnosis.columns.bank import columns_of
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, on_joints
 from identification.diagnosis.search.loop import Search
@@ -15,8 +15,6 @@ from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
 from identification.diagnosis.verdict.lack_of_fit import Lack, lack_of_fit
 from identification.diagnosis.verdict.views import View, strongest, views
-
-Array = NDArray[np.float64]
 
 #: Part of the residual's variance that a variable must order to be a signature.
 _ORDERED = 0.05

@@ -6,13 +6,11 @@ import time
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.covariance_adaptation import strategy
 from identification.output_error.methods import gauss_newton
 from identification.output_error.search import Minimum, Search
-
-Array = NDArray[np.float64]
 
 SUMMARY = "covariance matrix adaptation, then Gauss-Newton"
 

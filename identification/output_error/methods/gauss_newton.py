@@ -10,13 +10,11 @@ import time
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from identification.arrays import Array
 from identification.output_error.criterion import Criterion, Point
 from identification.output_error.positivity import constrained
 from identification.output_error.search import Minimum, Search
-
-Array = NDArray[np.float64]
 
 SUMMARY = "Gauss-Newton with sensitivities"
 

@@ -11,12 +11,10 @@ import time
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from identification.arrays import Array
 from identification.output_error.search import Minimum, Search
-
-Array = NDArray[np.float64]
 
 SUMMARY = "the report's simplex of Nelder and Mead"
 

@@ -8,16 +8,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.quantities import signals
+from identification.arrays import Array
 from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Identification
 from identification.observed import Observed
 from identification.reconstruction import Reconstruction
 from identification.report.series import some
-
-Array = NDArray[np.float64]
 
 #: The models' names on the page.
 ALL, ESSENTIAL, CONSISTENT = "all parameters", "essential parameters", "consistent parameters"

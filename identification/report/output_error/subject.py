@@ -6,14 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.quantities import signals
+from identification.arrays import Array
 from identification.output_error.experiment import Experiment
 from identification.output_error.multi_start import OutputError
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

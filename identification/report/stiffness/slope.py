@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup
+from identification.arrays import Array
 from identification.report.chart import COLOURS, INK, Trace, chart, line, points
 from identification.report.series import numbers, some
 
-Array = NDArray[np.float64]
 #: A run's name, and its numbers across and upward (N each).
 Pair = tuple[str, Array, Array]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
+from identification.arrays import Array
 from identification.diagnosis.noise.noise_floor import density
 from identification.report.chart import ESTIMATED, MEASURED, RESIDUAL, axis, chart, line, log_axis
 from identification.report.choice import choice
@@ -17,8 +17,6 @@ from identification.report.welch import Spectrum, spectrum
 
 TITLE = "Where: spectrum of the residual"
 ORDER = 40
-
-Array = NDArray[np.float64]
 
 
 def render(subject: Subject) -> Markup:

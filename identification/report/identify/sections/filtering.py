@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
+from identification.arrays import Array
 from identification.filtering import derivative
 from identification.report.chart import ESTIMATED, MEASURED, Trace, axis, chart, line
 from identification.report.choice import choice
@@ -15,8 +15,6 @@ from identification.report.series import line as thinned
 
 TITLE = "Before and after filtering"
 ORDER = 100
-
-Array = NDArray[np.float64]
 
 #: What is shown of the raw signals, in ranges of the filtered ones.
 _ROOM = 1.0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
+from identification.arrays import Array
 from identification.report.chart import COLOURS, INK, Trace, axis, band, chart, line, points
 from identification.report.choice import choice
 from identification.report.identify.subject import ALL, Subject
@@ -13,8 +13,6 @@ from identification.report.series import binned, numbers, some
 
 TITLE = "Residual over position and speed"
 ORDER = 40
-
-Array = NDArray[np.float64]
 
 _DOTS = 700
 _FORWARD, _BACKWARD = COLOURS[0], COLOURS[1]

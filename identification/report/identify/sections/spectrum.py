@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from generator.review.markup import Markup, element, join
+from identification.arrays import Array
 from identification.reconstruction import Reconstruction
 from identification.report.chart import HELD_OUT, MEASURED, RESIDUAL, axis, chart, line, log_axis
 from identification.report.choice import choice
@@ -17,8 +15,6 @@ from identification.report.welch import Spectrum, spectrum
 
 TITLE = "Spectrum of the residual"
 ORDER = 50
-
-Array = NDArray[np.float64]
 
 
 def render(subject: Subject) -> Markup:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from generator.review.markup import Markup, element, join
 from generator.robot.description import PRISMATIC
+from identification.arrays import Array
 from identification.link_encoders import LinkEncoders
 from identification.report.chart import axis
 from identification.report.choice import choice
@@ -15,8 +15,6 @@ from identification.report.stiffness.subject import Subject
 
 TITLE = "Twist over speed and torque"
 ORDER = 40
-
-Array = NDArray[np.float64]
 
 
 def render(subject: Subject) -> Markup | None:

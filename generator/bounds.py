@@ -7,14 +7,15 @@ from __future__ import annotations
 
 from math import inf
 
-from generator.cli.place import command_line
+from generator.command_line import command_line
 from generator.errors import InputError
 
 
-def above(value: float, argument: str, bound: float) -> float:
-    """A finite number; raises InputError where it is not above ``bound``."""
-    if not bound < value < inf:
-        raise InputError(command_line(argument), f"{value:g}", f"a number above {bound:g}")
+def above(value: float, argument: str, bound: float, most: float = inf) -> float:
+    """A finite number; raises InputError where it is not above ``bound``, or above ``most`` if there is one."""
+    if not bound < value < inf or value > most:
+        end = f", {most:g} at most" if most < inf else ""
+        raise InputError(command_line(argument), f"{value:g}", f"a number above {bound:g}{end}")
     return value
 
 

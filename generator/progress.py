@@ -10,14 +10,21 @@ from contextlib import contextmanager
 @contextmanager
 def stage(text: str) -> Iterator[None]:
     """Announces a stage of the work while the body runs."""
-    if not sys.stderr.isatty():
-        print(text, file=sys.stderr, flush=True)
+    with stages() as announced:
+        announced(text)
         yield
+
+
+@contextmanager
+def stages() -> Iterator[Callable[[str], None]]:
+    """Gives what announces one stage of the work after the other."""
+    if not sys.stderr.isatty():
+        yield lambda text: print(text, file=sys.stderr, flush=True)
         return
     from rich.console import Console
 
-    with Console(stderr=True).status(text):
-        yield
+    with Console(stderr=True).status("") as shown:
+        yield shown.update
 
 
 @contextmanager
