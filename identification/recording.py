@@ -20,7 +20,8 @@ _CHUNK = 1 << 20
 
 def left_out(file: str, words: Sequence[str]) -> tuple[str, ...]:
     """What is to be told of columns of a file that hold no number; nothing without any."""
-    return (f"{file}: {listed(words)} held no number and is left out",) if words else ()
+    are = "is" if len(words) == 1 else "are"
+    return (f"{file}: {listed(words)} held no number and {are} left out",) if words else ()
 
 
 def by_count(file: str, names: Sequence[str]) -> Where:

@@ -97,6 +97,7 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
         ),
         ("{}/results.json:consistent", "results.json:1:1: there are no parameters of the consistent model"),
         ("{}/bad.json", "bad.json:1:2: not JSON: Unterminated string"),
+        ("{}/long.json", "long.json:1:1: a number has too many digits, expected a results file"),
         ("{}/list.json", "list.json:1:1: there are no parameters of the full model, expected results.json of an"),
         ("{}/words.json", "words.json:1:1: ZZ1R has no value, expected a number, or null where it is not known"),
         ("{}/unit.json", "unit.json:1:1: ZZ1R is given in N m, expected kg m2, as in kr500:report_table_11"),
@@ -109,6 +110,7 @@ def test_sets_that_cannot_be_compared_are_refused(
     written(tmp_path, ZZ1R=1.0)
     texts = {
         "bad": '{"parameters',
+        "long": f'{{"parameters": {{"ZZ1R": {{"value": {"1" * 5000}}}}}}}',
         "list": "[1]",
         "words": '{"parameters": {"ZZ1R": {"value": "many"}}}',
         "unit": '{"parameters": {"ZZ1R": {"value": 1, "unit": "N m"}}}',

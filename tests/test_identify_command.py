@@ -97,6 +97,17 @@ def test_a_consistent_set_of_an_earlier_identification_is_told(
     assert note in json.loads((folder / "again" / "results.json").read_text())["notes"]
 
 
+def test_bodies_of_a_set_lack_what_it_leaves_out(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Points of mass, about whose own centres nothing is said."""
+    values = [f"{stem}{j}: 5 {unit}" for j in (1, 2) for stem, unit in (("M", "kg"), ("YY", "kg m2"), ("ZZ", "kg m2"))]
+    text = f"parameters:\n  points: {{values: {{{', '.join(values)}}}}}\n"
+    (folder / "points.yaml").write_text(TWO_LINKS + text)
+    words = ["--data", folder / "a.csv", "--prior", "points", "--out", folder / "points"]
+    done = command("identify", folder / "points.yaml", *words, capsys=capsys)
+    assert done.status == 0, done.err
+    assert json.loads((folder / "points" / "results.json").read_text())["consistent"] is not None
+
+
 def test_a_cutoff_above_the_highest_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     note = "a.csv: the cut-off is 90 Hz, the highest at 200 Hz, not 120 Hz"
     assert note in identified(folder, capsys, "--cutoff", "120").out
@@ -178,6 +189,9 @@ REFUSED = {
     ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
     ("--fix", "Fc1=1", "Fc1=2"): "error: --fix:1:1: Fc1 is given twice, expected it once",
     ("--payload", "M=1", "M=2"): "error: --payload:1:1: M is given twice, expected it once",
+    ("--fix", "Fv1=1", "Fv*=2"): "error: --fix:1:1: Fv1 is given twice, expected it once",
+    ("--payload", "M=1", "name=XL"): "error: --payload:1:1: payload name 'XL' begins with an axis, expected one that",
+    ("--prior-weight", "1e300"): "error: --prior-weight:1:1: 1e+300, expected a number above 0, 1e+12 at most",
     ("--fix", "Fv1=x"): "error: --fix:1:1: 'x' is not a number, expected numbers, pi and + - * / ^ ( )",
     ("--prior", "mine"): "error: --prior:1:1: two_links has no parameter set 'mine', expected one in ",
     ("--payload", "K=1"): "error: --payload:1:1: payload value 'K=1', expected NAME=VALUE with one of XX, XY",

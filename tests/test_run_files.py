@@ -105,6 +105,11 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     side.write_text("columns:\n  t: clock / 1000\n")
     with pytest.raises(InputError, match=r"a.yaml:2:6: .*a.csv has no column clock, expected one of time, q1, "):
         load(str(path), robot)
+    side.write_text("columns:\n  t: time / 1000\n  q1: q1 * 1e300 * 1e300\n")
+    with pytest.raises(InputError, match=r"a.csv:2:\d+: .*expected a finite number"):
+        load(str(path), robot)
+    side.write_text("columns:\n  t: time / 1000\n  q1: ((q1 + pi)^2 - (pi - q1)**2) / (4 * pi)\n")
+    assert np.allclose(load(str(path), robot).q[0], good.columns["q1"], atol=1e-12)
     side.write_text("payload: {M: -500 g}\n")
     with pytest.raises(InputError, match=r"a.yaml:1:14: M=-0.5, expected a number that is not negative"):
         load(str(path), robot)

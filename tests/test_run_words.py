@@ -66,11 +66,20 @@ def test_words_in_a_parquet_file_are_left_out_and_a_name_is_there_once(tmp_path:
     regressors = two_links(tmp_path)
     good = recorded(regressors, TRUTH, duration=8.0)
     columns = dict(good.columns)
-    words = ["AUT"] * len(columns["t"])
-    parquet.write_table(pyarrow.table({**columns, "mode": words}), tmp_path / "a.parquet")
+    count = len(columns["t"])
+    words = {"mode": ["AUT"] * count, "digits": ["12"] * count, "on": [True] * count}
+    parquet.write_table(pyarrow.table({**columns, **words}), tmp_path / "a.parquet")
     run = load(str(tmp_path / "a.parquet"), regressors.model.robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
-    assert run.notes == (f"{tmp_path / 'a.parquet'}: mode held no number and is left out",)
+    assert [note.partition(": ")[2] for note in run.notes] == ["mode, digits and on held no number and are left out"]
+    spans = pyarrow.array((1e9 * columns["t"]).astype("timedelta64[ns]"))
+    parquet.write_table(pyarrow.table({**columns, "t": spans}), tmp_path / "spans.parquet")
+    with pytest.raises(InputError, match="there is no column t"):
+        load(str(tmp_path / "spans.parquet"), regressors.model.robot)
+    exact = pyarrow.array(columns["q1"].round(6)).cast(pyarrow.decimal128(12, 6))
+    parquet.write_table(pyarrow.table({**columns, "q1": exact}), tmp_path / "exact.parquet")
+    run = load(str(tmp_path / "exact.parquet"), regressors.model.robot)
+    assert np.allclose(run.q, stacked(good, "q"), atol=1e-6)
     twice = pyarrow.table([*columns.values(), columns["q1"]], names=[*columns, "q1"])
     parquet.write_table(twice, tmp_path / "b.parquet")
     with pytest.raises(InputError, match=r"b.parquet:1:\d+: column q1 is there twice, expected each column once"):

@@ -87,6 +87,12 @@ def test_offset_gain_and_delay_are_taken_back(recorded: Recorded) -> None:
     np.testing.assert_allclose(run.tau, expected, atol=2e-6 * np.abs(expected).max())
 
 
+def test_the_ends_of_what_is_allowed_are_allowed(tmp_path: Path) -> None:
+    ends = "torque_delay: [0.1 s, -0.1 s, 0 s], torque_gain: [0.3, 3, 1], link_delay: 100 ms"
+    signals = robot(tmp_path, ends).signals
+    assert [float(one) for one in (*signals.torque_delay, *signals.torque_gain)] == [0.1, -0.1, 0, 0.3, 3, 1]
+
+
 def test_a_negative_delay_is_one_of_positions(recorded: Recorded) -> None:
     of = robot(recorded.folder, "torque_delay: [-3 ms, 0 s, 2 ms]")
     logged = np.stack([currents(T + 3e-3)[0], currents(T)[1], currents(T - 2e-3)[2]])

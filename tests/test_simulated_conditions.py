@@ -130,6 +130,7 @@ def test_motors_that_heat_until_they_have_no_torque_constant_are_refused(file: P
 
 REFUSED = {
     ("--payload", "M=-1"): "--payload:1:1: M=-1, expected a number that is not negative",
+    ("--payload", "M=1e-300", "MX=1e10"): "--payload:1:1: a mass of 1e-300 kg, expected one that its first moments do",
     ("--payload", "M=0"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
     ("--payload", "MX=1"): "--payload:1:1: a mass of 0 kg, expected M=MASS above 0 in kg",
     ("--payload", "weight=3"): "--payload:1:1: payload value 'weight=3', expected NAME=VALUE with one of ",
