@@ -95,6 +95,27 @@ def test_a_link_swings_as_it_does_in_time_at_few_samples_a_period(samples: int, 
     np.testing.assert_allclose(moved.qdd[0, first], faster @ waves, atol=5e-3 * size / inertia)
 
 
+@pytest.mark.parametrize(
+    ("gap", "x", "follows"), [(GAP, 3.8, True), (GAP, 4.2, False), (0.0, 7.0, True), (0.0, 8.0, False)]
+)
+def test_a_link_is_played_only_where_the_samples_follow_it(gap: float, x: float, follows: bool, loose: Scene) -> None:
+    """``x`` is k h^2 / M where the link's inertia M is least, for a tenth of the run a third of what it is."""
+    side = link_side(loose, 0, rotor_inertia(loose, 0))
+    inertia = side.by_acceleration.copy()
+    inertia[0, : side.load.size // 10] /= 3
+    side = replace(side, by_acceleration=inertia)
+    train = Train(x * side.inertia.min() / loose.period**2, 0.01, gap)
+    e = side.deflection(train).q[0]
+    most = np.abs(side.load).max() / train.stiffness + gap
+    assert np.abs(e).max() < 100 * most if follows else np.isnan(e).all()
+
+
+def test_a_link_without_inertia_is_not_played(loose: Scene) -> None:
+    side = link_side(loose, 0, rotor_inertia(loose, 0))
+    with_none = replace(side, by_acceleration=side.by_acceleration - side.inertia.min())
+    assert np.isnan(with_none.deflection(Train(100.0, 0.1)).q[0]).all()
+
+
 def test_the_rotors_share_moves_load_and_inertia(loose: Scene) -> None:
     first, anew = link_side(loose, 0, ROTOR), link_side(loose, 0, 0.8 * ROTOR)
     moved = LinkSides(first).along(loose, 0.8 * ROTOR)

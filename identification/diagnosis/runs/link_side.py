@@ -27,6 +27,8 @@ Value: TypeAlias = Any
 
 #: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
 _SMALL = 1e-4
+#: Stiffness times the period's square over the inertia up to which central differences swing and do not grow.
+_STABLE = 4.0
 #: Part of an inertia that is the rotor's where nothing tells how much of it is.
 _SHARE = 0.5
 
@@ -103,9 +105,20 @@ class LinkSide:
         return replace(self, load=np.zeros_like(self.load))._played(train, start)
 
     def _played(self, train: Train, start: tuple[Value, Value]) -> Motion:
+        """No numbers where the samples do not follow the swings all along: they would grow without end."""
+        if not self._follows(train):
+            return alone(self.scene.motion, self.k, np.full((3, self.scene.motion.samples), np.nan))
         given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
         _, played = _many_steps(self.scene.motion.samples)(list(start), self.along, given)
         return alone(self.scene.motion, self.k, np.asarray(played))
+
+    def _follows(self, train: Train) -> bool:
+        """Whether central differences are stable: k h^2 / M < 4 in parts of ``_second``."""
+        least = float(np.min(self.inertia))
+        if least <= 0:
+            return False
+        x = train.stiffness * self.scene.period**2 / least
+        return bool(x < _STABLE * _second(x if train.gap == 0 else 0.0))
 
     def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
         """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
@@ -184,11 +197,15 @@ def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tu
     beyond = e - (abs(e + half) - abs(e - half)) / 2
     c = (drag + taut * d) * (h / (2 * M))
     x = tight * k * (h * h / M)
-    # The second derivative of a swing in parts of its second difference is (y / sin y)^2 with y = sqrt(x) / 2.
-    second = 1 + x / 12 * (1 + x / 20)
+    second = _second(x)
     more = tight * (smooth - load)
     after = (v * (1 - c) - (load + more + k * beyond) * (h / M) / second) / (1 + c)
     return e + h * after, after, (e, (v + after) / 2, (after - v) / h * second + more / M)
+
+
+def _second(x: Value) -> Value:
+    """The second derivative of a swing in parts of its second difference, (y / sin y)^2 with y = sqrt(x) / 2."""
+    return 1 + x / 12 * (1 + x / 20)
 
 
 @cache
