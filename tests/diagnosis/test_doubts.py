@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.hypothesis import EFFECT, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.verdict.doubts import beside_warming
 from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
 from tests.matrices import Array
 
@@ -57,3 +59,32 @@ def test_orders_that_do_as_well_are_not_apart(way: float, apart: bool) -> None:
     assert found.apart == apart
     if apart:
         assert found.evidence.variant.shape["order"] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("effect", "variable", "drop", "joint", "firm"),
+    [
+        ("position_friction", "q by direction", 40.0, 2, False),
+        ("position_friction", "q by direction", 60.0, 2, True),
+        ("position_friction", "q by direction", 40.0, 1, True),
+        ("cable_spring", "q", 40.0, 2, True),
+        ("warm_friction", "time", 40.0, 1, True),
+    ],
+)
+def test_what_is_little_beside_friction_that_warms_is_tentative(
+    effect: str, variable: str, drop: float, joint: int, firm: bool
+) -> None:
+    warm, other = (
+        SimpleNamespace(
+            hypothesis=SimpleNamespace(effect=name, kind=EFFECT),
+            variable=over,
+            evidence=SimpleNamespace(drop=explained),
+            joints=(on,),
+            doubted=lambda why: why,
+        )
+        for name, over, explained, on in (("warm_friction", "time", 1000.0, 2), (effect, variable, drop, joint))
+    )
+    told: list[Any] = [warm, other]
+    first, second = beside_warming(told)
+    assert first is warm
+    assert (second is other) == firm

@@ -25,6 +25,9 @@ _LEFT, _PULLED = 1.0, 0.15
 _FAINT, _SHOWS, _LOOSE = 0.3, 0.4, 0.2
 #: What only refines a torque of the position, in parts of the rest, from which it bends as no known law does.
 _BENT = 1.0
+#: What a finding over a variable of friction explains, in parts of what friction that warms up on its joint does, in
+#: squares, from which the law by which that warms makes as much.
+_OF_FRICTION, _WARMED = ("q by direction", "qd", "load"), 0.05
 #: What is left of a swinging joint, in parts of the noise's rms and of what was explained, from which its law is not
 #: sure; and the standard deviation of a gap, in parts of it, from which there may be none.
 _SWUNG, _SWUNG_OF, _GAP = 1.0, 0.3, 0.25
@@ -101,6 +104,20 @@ def beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     why = "another law in the place of the torque of the position on its joint takes another offset"
     return [
         one.doubted(why) if one.hypothesis.effect == "offset" and not tentative.isdisjoint(one.joints) else one
+        for one in told
+    ]
+
+
+def beside_warming(told: Sequence[Finding]) -> list[Finding]:
+    """With what is little beside friction that warms up on its joint as sure as the law by which that warms."""
+    warming = {number: one for one in told if one.hypothesis.effect == "warm_friction" for number in one.joints}
+    why = "friction on its joint that warms up a little otherwise makes as much"
+    return [
+        one.doubted(why)
+        if one.hypothesis.kind == EFFECT
+        and one.variable in _OF_FRICTION
+        and any(one.evidence.drop < _WARMED * warming[j].evidence.drop for j in one.joints if j in warming)
+        else one
         for one in told
     ]
 
