@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from generator.robot.description import Robot
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.roles import Roles
@@ -105,6 +105,8 @@ def diagnose(
         before = led(before, named[0], last)
     elif rest.joint:
         before = replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
+    unseen = _invisible(found)
+    elastic = {number for one in named if one.hypothesis.kind == ELASTIC for number in one.joints}
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),
@@ -117,6 +119,7 @@ def diagnose(
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),
         *(odd_run.notes(found, lacking) if lacking else ()),
+        *remarks.of_rotors(found, unseen, lacking | elastic),
         *remarks.of_links(found, lacking),
         *trembling.notes(found, lacking),
     ]
@@ -125,7 +128,7 @@ def diagnose(
         mode=FREE if prior is None else KNOWN,
         verdict=verdict,
         findings=named,
-        invisible=_invisible(found),
+        invisible=unseen,
         before=before,
         after=rest,
         roles=roles,

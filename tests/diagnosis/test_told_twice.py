@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.verdict.finding import Finding
+from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.verdict.finding import Finding, Told
 from identification.diagnosis.verdict.shape_uncertainty import apart, variances
 from identification.outcome import Value
 
 #: What the model of a swing is not sure of.
 LINEAR = 0.01
+#: Deviation of a damping ratio of 0.1 that the noise alone would let be known to a tenth.
+DAMPING = pytest.approx(hypot(0.01, LINEAR * 0.1))
 
 
 def told(
@@ -30,20 +32,20 @@ def told(
 
 def _hypothesis(twice: Mapping[str, tuple[str, int]]) -> Hypothesis:
     compliance = Coefficient("compliance1", "rad/(N m)")
-    return Hypothesis("x", "x", 1, (compliance,), lambda *_: np.zeros((1, 1, 1)), twice=twice)
+    return Hypothesis("x", "x", 1, (compliance,), lambda *_: np.zeros((1, 1, 1)), twice=twice, kind=ELASTIC)
 
 
 def test_what_is_told_twice_is_as_uncertain_as_it_is_apart() -> None:
     values, shape = told(1.02e-3, {"compliance1": ("k", -1)})
     assert values["compliance1"].value == 1.02e-3
     assert values["compliance1"].std == pytest.approx(0.02 * 1.02e-3, rel=0.02)
-    assert shape == {"k": pytest.approx(20.0, rel=0.02), "damping": 0.01}
+    assert shape == {"k": pytest.approx(20.0, rel=0.02), "damping": DAMPING}
 
 
 def test_where_both_agree_the_noise_decides() -> None:
     values, shape = told(1.0001e-3, {"compliance1": ("k", -1)})
     assert values["compliance1"].std == pytest.approx(hypot(1.0001e-6, LINEAR * 1.0001e-3))
-    assert shape == {"k": pytest.approx(hypot(1.0, LINEAR * 1000.0)), "damping": 0.01}
+    assert shape == {"k": pytest.approx(hypot(1.0, LINEAR * 1000.0)), "damping": DAMPING}
 
 
 def test_what_is_known_well_stays_beside_what_is_not() -> None:
@@ -58,7 +60,7 @@ def test_what_is_told_once_or_at_its_bound_stays(value: float, twice: Mapping[st
     values, shape = told(value, twice)
     model = LINEAR if twice else 0.0
     assert values["compliance1"].std == pytest.approx(hypot(1e-3, model) * value)
-    assert shape == {"k": pytest.approx(hypot(1.0, model * 1000.0)), "damping": 0.01}
+    assert shape == {"k": pytest.approx(hypot(1.0, LINEAR * 1000.0)), "damping": DAMPING}
 
 
 @pytest.mark.parametrize(
@@ -100,3 +102,9 @@ def test_what_no_row_shows_has_no_variance() -> None:
     W = np.array([[1.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 2.0], [2.0, 0.0, 3.0, 0.0]])
     W = np.column_stack([W, W[:, 0] + W[:, 2]])
     assert np.isinf(variances(W.T @ W, {3: 1.0})).tolist() == [True, True, True, False, True]
+
+
+def test_a_shape_at_the_end_of_its_range_is_told_so() -> None:
+    range_of = ShapeRange("damping", "1", 0.01, 0.4, step=0.25)
+    assert [range_of.ends_at(x) for x in (0.01, 0.010005, 0.011, 0.39, 0.4)] == [True, True, False, False, True]
+    assert Told("damping", 0.01, 1e-3, "1", at_bound=True).text("") == "0.01 +- 0.001 (at its bound)"

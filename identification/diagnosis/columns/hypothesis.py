@@ -15,6 +15,8 @@ from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 from identification.outcome import Value
 
+#: Usual steps from an end of its range within which a shape value is at it.
+_AT_END = 0.01
 #: What a finding becomes in the robot file.
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
 #: What it becomes in the parameters alone: another value of one that the file has, which only what is known shows.
@@ -87,6 +89,10 @@ class ShapeRange:
     def spacing(self) -> float:
         """Usual step of the search, of the logarithm if ``log``."""
         return self.step or float(np.median(np.diff(np.sort(self._even(self.grid())))))
+
+    def ends_at(self, value: float) -> bool:
+        """Whether a value is at an end of the range."""
+        return any(abs(self.steps(end, value)) < _AT_END for end in (self.low, self.high))
 
     def moved(self, value: float, steps: float) -> float:
         """A value moved by steps: anywhere in the range where it has a ``step``, else to one step of the grid beyond

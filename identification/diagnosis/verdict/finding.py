@@ -35,8 +35,8 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Told:
-    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``,
-    infinite for what the runs do not show. Of a ``scale`` any value will do.
+    """A value of a finding [``unit``]; ``std`` is None for what was not searched and for a coefficient ``at_bound``
+    of its range, where a shape may be too, infinite for what the runs do not show. Of a ``scale`` any value will do.
     """
 
     name: str
@@ -151,8 +151,9 @@ class Finding:
             if one.std or not c.refines
         ]
         scales = {shape.name for shape in self.hypothesis.shapes if shape.scale}
+        ends = {one.name for one in self.hypothesis.shapes if one.step and one.ends_at(self.shape[one.name])}
         shape = [
-            Told(name, value, self.shape_std.get(name), units.get(name, "1"), scale=name in scales)
+            Told(name, value, self.shape_std.get(name), units.get(name, "1"), name in ends, name in scales)
             for name, value in self.shape.items()
         ]
         return (*coefficients, *shape)

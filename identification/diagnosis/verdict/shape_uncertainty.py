@@ -12,7 +12,7 @@ from math import hypot, log
 import numpy as np
 
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.refinement import neighbour
@@ -110,14 +110,15 @@ def variances(A: Array, preset: Mapping[int, float]) -> Array:
 def apart(
     hypothesis: Hypothesis, values: Mapping[str, Value], shape: Mapping[str, float], std: Mapping[str, float]
 ) -> tuple[dict[str, Value], dict[str, float]]:
-    """Coefficients, and standard deviations of the ``shape``: those that are told twice are never surer than the model
-    of a swing is, and at least as unsure as the two are apart where their deviations do not explain that.
+    """Coefficients, and standard deviations of the ``shape``: those of a swing are never surer than its model is, and
+    those that are told twice at least as unsure as the two are apart where their deviations do not explain that.
     """
     coefficients, deviation = dict(values), dict(std)
+    if hypothesis.kind == ELASTIC:
+        deviation = {name: hypot(one, _LINEAR * shape[name]) for name, one in std.items()}
     for name, (other, power) in hypothesis.twice.items():
         one = coefficients[name]
         if other in deviation:
-            deviation[other] = hypot(deviation[other], _LINEAR * shape[other])
             one = coefficients[name] = replace(one, std=hypot(one.std, _LINEAR * (one.value or 0.0)))
         if one.value and one.value > 0 and other in deviation:
             part = abs(log(one.value) - power * log(shape[other]))
