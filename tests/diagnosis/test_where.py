@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import BASE, EFFECT
+from identification.diagnosis.columns.hypothesis import BASE, EFFECT, ELASTIC
 from identification.diagnosis.verdict.burst import Burst
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks, of_links, of_rotors
