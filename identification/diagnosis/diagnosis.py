@@ -120,6 +120,7 @@ def diagnose(
         *remarks.of_lacks(last.lack, left, bool(named)),
         *(odd_run.notes(found, lacking) if lacking else ()),
         *remarks.of_rotors(found, unseen, lacking | elastic),
+        *remarks.of_swings(found, lacking),
         *remarks.of_links(found, lacking),
         *trembling.notes(found, lacking),
     ]

@@ -15,6 +15,7 @@ from identification import filtering
 from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, NOTHING
+from identification.diagnosis.noise import torque_band
 from identification.diagnosis.noise.torque_band import end, notes
 from identification.diagnosis.runs.scene import Scene
 from tests.diagnosis.diagnosed import CLEAN, Known, known
@@ -100,6 +101,16 @@ def test_of_one_joint_alone_what_is_less_than_a_rotor_is_no_drive_train(arm: Kno
     noisy = replace(noisy, sampled=replace(noisy.sampled, tau=noisy.tau + noise))
     assert band(noisy) == band(scene(arm, Effect("joint_flexibility", 2, 1.1e-5))) == np.inf
     assert CUTOFF / 2 < band(slow(noisy)) < 3 * CUTOFF
+
+
+@pytest.mark.parametrize(("lifted", "ends"), [(1.5, True), (8.0, False)])
+def test_a_filter_lifts_nothing(lifted: float, ends: bool, arm: Known, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A link on a spring asks for more below the frequency beyond which it hardly moves with its motor."""
+    one = scene(arm)
+    alone = replace(one, sampled=replace(one.sampled, tau=one.tau[:1]))
+    power = np.concatenate([np.ones(20), np.full(5, lifted), np.geomspace(1.0, 0.01, 25)])
+    monkeypatch.setattr(torque_band, "_power", lambda *_: power)
+    assert np.isfinite(end([alone])) == ends
 
 
 def test_what_one_joint_lacks_may_be_its_drive_train(arm: Known) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.hypothesis import BASE, EFFECT, ELASTIC
+from identification.diagnosis.verdict import remarks
 from identification.diagnosis.verdict.burst import Burst
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.remarks import of_lacks, of_links, of_rotors
@@ -93,6 +94,31 @@ def test_elasticity_that_is_not_looked_for_is_told_where_something_is_missing() 
     (note,) = of_links(found, {2, 3})
     assert note.startswith("elasticity is not looked for on joint 2: counterpoise stiffness --link-encoders")
     assert of_links(found, {3}) == []
+
+
+@pytest.mark.parametrize(
+    ("drop", "hears", "lacking", "told"),
+    [
+        (80.0, False, {2}, True),
+        (40.0, False, {2}, False),
+        (80.0, True, {2}, False),
+        (80.0, False, {1}, False),
+        (80.0, False, set(), False),
+    ],
+)
+def test_a_drive_train_that_is_not_heard_is_told(
+    drop: float, hears: bool, lacking: set[int], told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(remarks, "heard", lambda *_: hears)
+    hypothesis = SimpleNamespace(kind=ELASTIC, numbers=(2,), named="elasticity on joint 2")
+    variant = SimpleNamespace(hypothesis=hypothesis, key=("joint_elasticity", 2))
+    one = SimpleNamespace(variant=variant, passes=True, drop=drop, coefficients=np.ones(1))
+    weighing = SimpleNamespace(unexplained=lambda chosen: 100.0, evidence=lambda chosen: [one, one])
+    found: Any = SimpleNamespace(weighing=weighing, variants=[], bank=None, train=(0,))
+    notes = [*remarks.of_swings(found, lacking)]
+    assert [note.startswith("elasticity on joint 2 would explain 80 % of what is left") for note in notes] == [
+        True
+    ] * told
 
 
 def test_elasticity_that_is_looked_for_without_a_rotor_is_told() -> None:

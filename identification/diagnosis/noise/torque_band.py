@@ -30,14 +30,17 @@ _MOST = 0.75
 #: Least joints of which most are not one or two that swing; and of fewer, the power at the rows' highest frequencies
 #: that a rotor makes by itself.
 _SEVERAL, _ROTOR = 3, 0.05
+#: Power, in parts of that of the slowest, that no filter makes, but a link as it swings.
+_LIFTED = 2.0
 
 
 def end(scenes: Sequence[Scene]) -> float:
     """The frequency [Hz] at which most joints' torques are no longer those of the positions; infinite where there is
     none within the rows' band.
 
-    A drive train that swings lacks torque about a frequency of its own, and beyond it has its rotor's alone. That is of
-    one joint; a log's filter and its steps are of all, and leave less than a rotor of what is quick.
+    A drive train that swings lacks torque about a frequency of its own, below which it has more than a stiff one, and
+    beyond it has its rotor's alone. That is of one joint; a log's filter and its steps are of all, and leave less than
+    a rotor of what is quick.
     """
     rate = scenes[0].sampled.run.rate / _factor(scenes[0])
     # A colour tells no lower ones apart.
@@ -47,7 +50,8 @@ def end(scenes: Sequence[Scene]) -> float:
     power = np.quantile(each, _MOST, axis=0, method="inverted_cdf")
     short = power < _SHORT
     if len(scenes[0].tau) < _SEVERAL:
-        short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR)
+        lifted = power.max() > _LIFTED * power[0]
+        short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR) & ~lifted
     return float(frequency[np.argmax(short)]) if short.any() else np.inf
 
 

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence, Set
 
 from generator.review.words import listed
-from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis, on_joints
+from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis, Key, on_joints
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.runs.swings import watched
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
+from identification.diagnosis.search.swings_heard import heard
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.lack_of_fit import Lack
 from identification.diagnosis.verdict.stated_swings import stiffer
 from identification.diagnosis.verdict.trial import Trial, comparable
 from identification.diagnosis.verdict.unexplained import Unexplained
 
+#: Part of what is unexplained that a drive train must explain to be told without being named.
+_MOST = 0.5
 #: What a finding is told with, by its effect: what else makes the same torque.
 _LIKE = {
     "torque_delay": "a filter of the drive or of the log that lags as long looks like a delay between torque and "
@@ -71,6 +74,28 @@ def of_rotors(found: Search, unseen: Sequence[Hypothesis], joints: Collection[in
         f"elasticity is looked for on {on_joints(where)} as if no rotor turned there: rotor_inertia among the effects "
         "of the robot's file lets its part of the inertia be searched"
     ]
+
+
+def of_swings(found: Search, lacking: Set[int]) -> Iterator[str]:
+    """Of drive trains that would explain most of what joints are ``lacking``, by number, and are not named because the
+    recorded torques hardly hold their swings.
+    """
+    weighing = found.weighing
+    missing = weighing.unexplained(found.variants)
+    told: set[Key] = set()
+    for one in weighing.evidence(found.variants) if lacking else ():
+        variant = one.variant
+        if variant.hypothesis.kind != ELASTIC or not one.passes or variant.key in told:
+            continue
+        most = one.drop > _MOST * missing and not lacking.isdisjoint(variant.hypothesis.numbers)
+        if most and not heard(found.bank, found.train, variant, one.coefficients):
+            told.add(variant.key)
+            share = 100 * min(one.drop / missing, 1.0)
+            yield (
+                f"{variant.hypothesis.named} would explain {share:.0f} % of what is left; the recorded torque hardly "
+                "holds such a swing, as where noise of the positions pretends it: a motion that repeats tells the two "
+                "apart"
+            )
 
 
 def of_links(found: Search, lacking: Collection[int]) -> list[str]:
