@@ -14,7 +14,7 @@ from generator.errors import InputError, Place
 from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.dataset import Run
-from identification.diagnosis.runs.periods import period_of
+from identification.diagnosis.runs.periods import period_of, repeating
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
 from identification.observation import Regressors
@@ -43,6 +43,24 @@ def test_a_drive_may_catch_up_at_first() -> None:
     q = series(3000, 750)
     q += 0.05 * np.exp(-np.arange(3000) / 50)
     assert period_of(q, 0.002) == 750
+
+
+@pytest.mark.parametrize(("before", "after", "periods"), [(700, 0, 2), (0, 600, 2.5), (500, 500, 4), (760, 0, 3)])
+def test_ways_to_and_from_a_motion_that_repeats_are_no_part_of_it(before: int, after: int, periods: float) -> None:
+    """At rest, then by a smooth way to where the motion begins; and back."""
+    q = series(int(750 * periods) + 1, 750)
+    parts = [0.5 - 0.5 * np.cos(np.linspace(0, np.pi, max(count, 1))) for count in (before, after)]
+    to, back = q[:, :1] * parts[0][:before], q[:, -1:] * parts[1][:after][::-1]
+    period, stretch = repeating(np.concatenate([to, q, back], axis=1), 0.002)
+    assert period == 750
+    assert stretch.start == pytest.approx(before, abs=30)
+    assert stretch.stop == pytest.approx(before + q.shape[1], abs=30)
+
+
+def test_all_of_a_motion_that_repeats_counts() -> None:
+    assert repeating(series(3000, 750), 0.002) == (750, slice(0, 3000))
+    t = np.arange(3000) / 750
+    assert repeating(np.sin(2 * np.pi * np.array([[1.0], [np.sqrt(2)]]) * t), 0.002) == (0, slice(0, 3000))
 
 
 def test_noise_of_encoders_does_no_harm() -> None:

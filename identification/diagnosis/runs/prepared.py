@@ -15,7 +15,7 @@ from scipy.ndimage import maximum_filter1d
 from generator.errors import InputError
 from identification.arrays import Array
 from identification.dataset import Run
-from identification.diagnosis.runs.periods import period_of
+from identification.diagnosis.runs.periods import repeating
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.filtering import flat_derivative
 from identification.observation import Jump, Regressors, followed
@@ -172,7 +172,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         raise InputError(
             run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
         )
-    period = period_of(run.q, run.period)
+    period, repeats = repeating(run.q, run.period)
     wanted = run.rate / RATE
     factor = possible_factor(wanted) if wanted > 1 else 1
     if period:
@@ -193,6 +193,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     # Whole samples: the period of written times is a little short of what it is.
     if round(_FORGOTTEN * run.samples) >= round(_MEMORY * run.rate):
         left_out[:, one.times < run.start + _MEMORY] = True
+    inner = np.arange(run.samples)[one.filters.inner(run.samples)]
+    left_out[:, (inner < repeats.start) | (inner >= repeats.stop)] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
         left_out[[one.k for one in swinging], : round(fading)] = True
