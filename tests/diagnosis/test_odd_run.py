@@ -74,28 +74,44 @@ def test_the_speed_that_one_run_alone_reaches_is_told_of_both_directions(tmp_pat
 
 
 @pytest.mark.parametrize(
-    ("left", "told"),
+    ("left", "alone", "where", "told"),
     [
-        ((0.02, 0.16, 0.5), "without 0.csv"),
-        ((0.15, 0.16, 0.5), None),
-        ((0.1, 0.25, 0.5), None),
-        ((0.02, 0.1, 0.5), None),
-        ((0.9, 1.0, 1.1), None),
+        ((0.02, 0.16, 0.5), 0.1, "", "without 0.csv the other runs agree: look for another load"),
+        (
+            (0.02, 0.16, 0.5),
+            0.1,
+            "at q 1 to 2 rad",
+            "without 0.csv the other runs agree; most of what it keeps is where",
+        ),
+        (
+            (0.02, 0.16, 0.5),
+            3.0,
+            "at q 1 to 2 rad",
+            "without 0.csv the other runs agree; most of what it keeps is where",
+        ),
+        ((0.02, 0.16, 0.5), 3.0, "", "most of what is missing shows in 0.csv alone"),
+        ((0.15, 0.16, 0.5), 0.1, "", None),
+        ((0.1, 0.25, 0.5), 0.1, "", None),
+        ((0.02, 0.1, 0.5), 0.1, "", None),
+        ((0.9, 1.0, 1.1), 0.1, "", None),
     ],
 )
 def test_only_a_run_that_stands_out_is_the_odd_one(
-    left: tuple[float, ...], told: str | None, monkeypatch: pytest.MonkeyPatch
+    left: tuple[float, ...], alone: float, where: str, told: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By what stays without each of three runs, in parts of all."""
+    """By what stays without each of three runs, in parts of all; and what stays of it where it is fitted ``alone``."""
     runs = [SimpleNamespace(sampled=SimpleNamespace(run=SimpleNamespace(file=f"{r}.csv"))) for r in range(3)]
     found: Any = SimpleNamespace(train=(0, 1), validate=(2,), bank=SimpleNamespace(runs=runs))
 
     def unexplained(found: Any, kept: Sequence[int], joints: Collection[int]) -> float:
+        if len(kept) == 1:
+            return alone
         (out,) = {0, 1, 2} - set(kept) or {None}
         return 1.0 if out is None else left[out]
 
     monkeypatch.setattr(odd_run, "_unexplained", unexplained)
-    monkeypatch.setattr(odd_run, "own_range", lambda *_: "")
+    monkeypatch.setattr(odd_run, "own_range", lambda *_: where)
     notes = odd_run.notes(found, {1})
     assert len(notes) == (told is not None)
     assert all(note.startswith(told or "") for note in notes)
+    assert ["another load" in note for note in notes] == [alone < 1.0] * len(notes)

@@ -29,11 +29,13 @@ def notes(found: Search, lacking: Collection[int]) -> list[str]:
     if len(runs) == len(gone) == 2:
         return [f"{listed(names)} do not agree, each alone is explained: look for {_OTHER} in one of them"]
     if len(runs) > 2 and odd in gone and all(left[r] > max(_STAYS, _MORE * left[odd]) for r in left if r != odd):
-        name, alone = found.bank.runs[odd].sampled.run.file, own_range(found, odd, runs, lacking)
+        name, where = found.bank.runs[odd].sampled.run.file, own_range(found, odd, runs, lacking)
         told = f"without {name} the other runs agree"
-        if not alone:
-            return [f"{told}: look for {_OTHER} there"]
-        return [f"{told}; most of what it keeps is where they do not go, {alone}: look there, or for {_OTHER} in it"]
+        kept = f"; most of what it keeps is where they do not go, {where}" if where else ""
+        # What has another load, zero, unit or sign is explained by itself.
+        if whole and _unexplained(found, [odd], lacking) < _GONE * whole:
+            return [f"{told}{kept}: look {'there, or ' if where else ''}for {_OTHER} in it"]
+        return [f"{told}{kept}: look there" if where else f"most of what is missing shows in {name} alone"]
     return []
 
 
