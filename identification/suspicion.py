@@ -7,6 +7,7 @@ explains the torques far better, the columns are refused and named.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -43,14 +44,22 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
     ordered(runs, regressors, residuals)
     each, total = residuals.per_joint, residuals.total.relative_to_mean
     bad = _doubtful(residuals)
+    robot = regressors.model.robot
+    upright = _mounted(runs[0], regressors) if bad and total > _DOUBTFUL else ""
+    mounted = f"gravity as the robot is mounted: with {upright} m/s2 far less is left"
     if bad and total > _REFUSED:
-        problem = f"the model of {regressors.model.robot.name} leaves {total:.0f} % of the torques unexplained"
+        problem = f"the model of {robot.name} leaves {total:.0f} % of the torques unexplained"
+        if upright:
+            raise InputError(robot.place, problem, mounted)
         raise InputError(runs[0].run.place, problem, "a run of this robot, in rad and N m")
-    numbers = regressors.model.robot.numbers
     return [
-        f"joint {numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained{_asked(each[k])}"
-        for k in bad
-        if each[k].relative_to_mean > _REFUSED
+        *([f"does the file have {mounted}"] if upright else []),
+        *(
+            f"joint {robot.numbers[k]}: {each[k].relative_to_mean:.0f} % of its torque's spread is unexplained"
+            f"{_asked(each[k])}"
+            for k in bad
+            if each[k].relative_to_mean > _REFUSED
+        ),
     ]
 
 
@@ -109,13 +118,39 @@ def _doubtful(residuals: Residuals) -> list[int]:
     return [k for k, one in residuals.per_joint.items() if one.rows and one.relative_to_mean > _DOUBTFUL]
 
 
-def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
+def _mounted(one: Sampled, regressors: Regressors) -> str:
+    """Gravity [m/s2] along an axis of the world with which a run is explained far better, as a robot's file has it;
+    empty where there is none. On a wall or under a ceiling other parameters are base parameters, too.
+    """
+    robot = regressors.model.robot
+    own, size = robot.gravity, max(map(abs, robot.gravity))
+    axes = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+    others = [(sign * x * size, sign * y * size, sign * z * size) for x, y, z in axes for sign in (-1, 1)]
+    motion, tau, used, independent = _thinned(one)
+    straight = list(range(len(tau)))
+    misfits = {
+        gravity: _Thinned(Regressors(replace(robot, gravity=gravity)), motion, tau, used, independent).misfit(straight)
+        for gravity in [own, *(each for each in others if size and each != own)]
+    }
+    best = min(misfits, key=lambda gravity: misfits[gravity])
+    if misfits[best] > misfits[own] - np.log(_BETTER):
+        return ""
+    return f"[{', '.join(f'{float(x):g}' for x in best)}]"
+
+
+def _thinned(one: Sampled) -> tuple[Motion, Array, NDArray[np.bool_], float]:
+    """Motion, torques and rows that count (n x M each) in some samples of a run, and the part of them that the filter
+    leaves independent.
+    """
     tau = smoothed(one.tau, one.filters.order, one.filters.cutoff, one.filters.rate)
     thin = np.unique(np.linspace(0, one.motion.samples - 1, _THINNED).astype(int))
-    motion = one.motion.at(thin)
-    tau, used = tau[:, thin], ~one.left_out[:, thin]
-    straight = list(range(len(tau)))
     independent = min(2 * one.filters.cutoff / one.filters.rate * one.motion.samples / len(thin), 1.0)
+    return one.motion.at(thin), tau[:, thin], ~one.left_out[:, thin], independent
+
+
+def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
+    motion, tau, used, independent = _thinned(one)
+    straight = list(range(len(tau)))
     given = _Thinned(regressors, motion, tau, used, independent)
     best, what = given.misfit(straight) - np.log(_BETTER), ""
     numbers = regressors.model.robot.numbers
