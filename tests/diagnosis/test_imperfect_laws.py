@@ -57,3 +57,12 @@ def test_delays_that_rows_of_their_own_tell_lack_nothing_of_each_other() -> None
     told = {"torque_delay": Value(0.01, 1e-4, "s")}
     one, other = (variant("torque_delay", (k,), "frequency", told) for k in (0, 1))
     assert lacking(one, [other], [1e6]) == 0.0
+
+
+@pytest.mark.parametrize(("motors", "joint", "part"), [((0, 1), 0, 1e-5), ((0,), 1, 0.01)])
+def test_a_delay_that_several_motors_tell_alike_is_no_lack_of_one_joints_law(
+    motors: tuple[int, ...], joint: int, part: float
+) -> None:
+    one = variant("torque_delay", motors, "frequency", {"torque_delay": Value(0.01, 1e-4, "s")}, joint=joint)
+    one.hypothesis.joints = tuple(k + 1 for k in motors)
+    assert lacking(one, [variant("cable_spring", (0,), "q")], [1e6]) == pytest.approx(1e6 * part)

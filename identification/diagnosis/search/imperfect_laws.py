@@ -19,7 +19,8 @@ _ONE_OF = ("joint_elasticity", "backlash")
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
 _SHIFTED = 0.002
-#: The same part of what they explain anywhere: base parameters bring it to every joint.
+#: The same part of what they explain anywhere: base parameters bring it to every joint; and for a delay that the rows of
+#: several motors tell alike.
 _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
@@ -64,6 +65,9 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
     # Each is told by rows of its own, not by what the other leaves.
     if one.preset and other.preset:
         return 0.0
+    # The rows of several motors tell it alike: no law of one joint lacks that.
+    if one.preset and len(one.joints) > 1 and other.joint != 0:
+        return _ANYWHERE
     # What a delay of the whole robot explains is not of one joint.
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
     if behind or {one.variable, other.variable} <= set(OF_SPEED):
