@@ -19,12 +19,17 @@ Array = NDArray[np.float64]
 WHITE = Colour((np.ones(1),), (1.0,))
 
 
+#: Rows a second.
+RATE = 50.0
+
+
 def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int = 0) -> Any:
     """A run of one joint: base columns W (p x N), torque tau (N), rows that are ``kept`` (N, all if None)."""
     rows = np.ones(len(tau), dtype=bool) if kept is None else kept
     return SimpleNamespace(
         sampled=SimpleNamespace(motion=W[:, None, :]),
-        t=np.arange(len(tau), dtype=float) / 50,
+        t=np.arange(len(tau), dtype=float) / RATE,
+        rate=RATE,
         tau=tau[None],
         kept=rows[None],
         period=period,

@@ -66,7 +66,7 @@ def test_untouched_runs_at_the_noise_are_told_beside_fitted_ones_that_keep_more(
     (lack,) = named.found.after.lack
     left = replace(named.found.after, lack=(replace(lack, p=1e-9, size=0.5, repeats=True),))
     words = " ".join(change(Subject(replace(named.found, after=left), after)))
-    assert f"{at_noise}, though these keep 0.5 times as much beside it." in words
+    assert f"{at_noise}, though these keep 0.5 times that rms beside it." in words
 
 
 def test_the_steps_are_of_the_runs_that_test(named: Case) -> None:

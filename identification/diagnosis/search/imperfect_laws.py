@@ -19,8 +19,8 @@ _ONE_OF = ("joint_elasticity", "backlash")
 _ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
 _SHIFTED = 0.002
-#: The same part of what they explain anywhere: base parameters bring it to every joint; and for a delay that the rows of
-#: several motors tell alike.
+#: The same part of what they explain anywhere: base parameters bring it to every joint; and for a delay that the rows
+#: of several motors tell alike.
 _ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
