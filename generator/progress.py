@@ -22,9 +22,10 @@ def stages() -> Iterator[Callable[[str], None]]:
         yield lambda text: print(text, file=sys.stderr, flush=True)
         return
     from rich.console import Console
+    from rich.markup import escape
 
     with Console(stderr=True).status("") as shown:
-        yield shown.update
+        yield lambda text: shown.update(escape(text))
 
 
 @contextmanager

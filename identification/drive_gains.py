@@ -247,7 +247,7 @@ def _observable(
         relative = _relative(fit)
         live = [m for m in range(n) if m not in refused]
         worst = max(live, key=lambda m: relative[m])
-        if fit.unsettled and not LIMIT < relative[worst] < np.inf:
+        if fit.unsettled and relative[worst] <= LIMIT:
             problem = f"no drive gain of {robot.name} can be told: the currents contradict what is known of the payload"
             raise InputError(first.place, problem, "currents of all motors and the payload of one and the same run")
         if relative[worst] <= LIMIT:

@@ -46,7 +46,7 @@ _LONGEST, _ROUNDS = 0.2, 8
 _SETTLED, _SETTLED_STEP = 0.05, 1e-3
 _UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
 _STANDS = Value(None, np.inf, "s", refused="the joint stands still")
-_TOO_LATE = f"no latency up to {_LONGEST:g} s goes with the torque and the motion of then"
+_TOO_LATE = f"no latency up to {_LONGEST:g} s settles with the torque and the motion of then"
 _NO_ROW = "no row is above the joint's standstill speed"
 
 
@@ -133,9 +133,8 @@ def of_runs(
         viscous = _viscous(joint, friction or {})
         at_once = _rows(mine, k, joint, standstill, 0.0)
         kept[k], (stiffness[name], late, residuals[k]) = _of_then(at_once, mine, k, joint, standstill, viscous)
-        still = all(np.ptp(run.q[k]) < _STILL for run, _ in mine)
         seen = late.refused or np.isfinite(late.std)
-        latency[f"latency{joint.number}"] = _STANDS if still else late if seen else _UNSEEN
+        latency[f"latency{joint.number}"] = _STANDS if _stands(mine, k) else late if seen else _UNSEEN
         mistaken[name] = _inverse(*_last(at_once.twist, at_once.constants, at_once.torque), stiffness[name].unit)
         if stiffness[name].value is not None and viscous is None:
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
@@ -174,21 +173,25 @@ def _of_then(
     latency that is not too long is told by rows of its own.
     """
     rows, told = at_once, _told(at_once, joint, viscous)
+    if _stands(runs, k):
+        return rows, told
     ago, least = 0.0, _SETTLED_STEP * runs[0][0].period
-    for _ in range(_ROUNDS):
+    for rounds in range(_ROUNDS + 1):
         late = told[1]
         if late.value is None or abs(late.value - ago) <= max(_SETTLED * late.std, least):
             return rows, told
-        if abs(late.value) > _LONGEST:
+        if abs(late.value) > _LONGEST or rounds == _ROUNDS:
             break
         ago = late.value
         rows = _rows(runs, k, joint, standstill, ago)
         told = _told(rows, joint, viscous)
-    return rows, (
-        Value(None, np.inf, joint.stiffness_unit, refused=_TOO_LATE),
-        Value(None, np.inf, "s", refused=_TOO_LATE),
-        told[2],
-    )
+    stiffness, late = (Value(None, np.inf, unit, refused=_TOO_LATE) for unit in (joint.stiffness_unit, "s"))
+    return rows, (stiffness, late, told[2])
+
+
+def _stands(runs: Sequence[tuple[Run, Filters]], k: int) -> bool:
+    """Whether a joint stands in all runs: its speed is noise, and tells no latency."""
+    return all(float(np.ptp(run.q[k])) < _STILL for run, _ in runs)
 
 
 def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> Rows:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
+import sympy
 from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
@@ -123,7 +124,7 @@ def _mounted(one: Sampled, regressors: Regressors) -> str:
     empty where there is none. On a wall or under a ceiling other parameters are base parameters, too.
     """
     robot = regressors.model.robot
-    own, size = robot.gravity, max(map(abs, robot.gravity))
+    own, size = robot.gravity, sympy.sqrt(sum(x**2 for x in robot.gravity))
     axes = (1, 0, 0), (0, 1, 0), (0, 0, 1)
     others = [(sign * x * size, sign * y * size, sign * z * size) for x, y, z in axes for sign in (-1, 1)]
     motion, tau, used, independent = _thinned(one)

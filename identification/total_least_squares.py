@@ -81,17 +81,18 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
     sigma[live] = [one.noise() for one in reduced]
     k, chi, scale, separation = np.ones(gains), np.zeros(p), 0.0, 0.0
     hidden = np.zeros(p, dtype=bool)
-    unsettled = lost = False
+    unsettled = False
     for step in range(_ITERATIONS):
         previous = k
         k, chi, hidden, scale, separation = _once(reduced, live, np.maximum(np.abs(k), _TINY)[live], sigma[live], gains)
         change = _change(k[live], previous[live])
         unsettled = scale > 0.0 and bool(np.any(change > _SETTLED))
-        lost = scale == 0.0 or (step > 0 and bool(np.any(change > _RUNAWAY)))
-        if lost or not unsettled:
+        if step and np.any(change > _RUNAWAY):
+            scale = 0.0
+        if scale == 0.0 or not unsettled:
             break
     fit = Fit(k, chi, np.zeros((0, 0)), hidden, scale, sigma, separation, unsettled=unsettled)
-    if lost:
+    if not scale:
         return replace(fit, covariance=np.full((gains + p, gains + p), np.inf))
     covariance, condition = _covariance(fit, parts, live)
     return replace(fit, covariance=covariance, condition=condition)

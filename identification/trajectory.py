@@ -133,7 +133,7 @@ class Reference:
 class Trajectory:
     """A kind of trajectory by its ``name``; ``flexible`` ones need elastic drive trains.
 
-    ``plan`` makes the reference; it raises ValueError where the robot or a setting does not allow it.
+    ``plan`` makes the reference; it raises Unplanned where the robot or a setting does not allow it.
     """
 
     name: str

@@ -8,12 +8,14 @@ import pty
 import subprocess
 import sys
 import tomllib
+from io import StringIO
 from pathlib import Path
 
 import pytest
 
 from generator.cli import main as cli
 from generator.discovery import modules
+from generator.progress import stages
 from generator.resources import robots
 from generator.version import VERSION
 from tests.commands import PENDULUM, ROOT, Done, command, process, tree
@@ -136,6 +138,22 @@ def test_a_reader_that_stops_early_is_no_error() -> None:
 
 
 # -- list, check, review --------------------------------------------------------------------------------------------
+
+
+def test_stages_are_told_on_a_terminal_and_elsewhere(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with stages() as announced:
+        announced("reading [a/b]")
+        announced("writing [/c]")
+    assert capsys.readouterr().err == "reading [a/b]\nwriting [/c]\n"
+    terminal = StringIO()
+    monkeypatch.setattr(terminal, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with stages() as announced:
+        announced("reading [a/b]")
+        announced("writing [/c]")
+    assert "writing" in terminal.getvalue() or terminal.getvalue() == ""
 
 
 def test_list_shows_every_robot_with_its_sets(capsys: pytest.CaptureFixture[str]) -> None:

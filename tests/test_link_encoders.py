@@ -103,7 +103,7 @@ def test_an_encoder_that_is_too_late_is_refused(machine: Machine, tmp_path: Path
     steps = round(0.4 / run.period)
     late = {**run.others, "qs1": np.roll(run.others["qs1"], steps)}
     found = of_runs(machine.robot, [replace(run, others=late)], MOTORS)
-    told = "no latency up to 0.2 s goes with the torque and the motion of then"
+    told = "no latency up to 0.2 s settles with the torque and the motion of then"
     assert found.latency["latency1"].refused == found.stiffness["k1"].refused == told
     assert found.latency["latency2"].value is not None
 
@@ -163,6 +163,19 @@ def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) ->
     assert found.latency["latency1"].value is not None
     assert found.latency["latency2"].value is None
     assert found.latency["latency2"].refused == "the joint stands still"
+
+
+def test_a_loaded_joint_that_stands_shows_its_stiffness(tmp_path: Path) -> None:
+    """Its latency is that of the noise of its speed, and moves no torque."""
+    (tmp_path / "two_links.yaml").write_text(robot_text())
+    robot, t, draw = read(tmp_path / "two_links.yaml"), 2e-3 * np.arange(20000), np.random.default_rng(3)
+    q = np.stack([0.3 + 1e-5 * draw.normal(size=len(t)), 0.5 * np.sin(2.1 * t) + 0.2 * np.sin(5.3 * t)])
+    tau = np.stack([200 * np.cos(q[1]) + 60 * np.sin(3 * t), 80 * np.cos(q[1])])
+    linked = q[0] - tau[0] / 2e5 + 1e-6 * draw.normal(size=len(t))
+    columns = {"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1], "qs1": linked}
+    found = link_encoders(robot, [str(Recorded(columns).save(tmp_path / "a.csv"))])
+    assert found.latency["latency1"].refused == "the joint stands still"
+    assert found.stiffness["k1"].value == pytest.approx(2e5, rel=0.05)
 
 
 @pytest.mark.filterwarnings("error")

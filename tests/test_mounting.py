@@ -10,28 +10,51 @@ import pytest
 import sympy
 
 from generator.errors import InputError
+from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.inverse_model import identify
 from identification.observation import Regressors
 from tests.recorded import TWO_LINKS, recorded
 
+TOLD = "gravity as the robot is mounted: with [9.81, 0, 0] m/s2 far less is left"
+
 
 @pytest.mark.parametrize(("friction", "refused"), [(3.0, True), (60.0, False)])
 def test_gravity_that_is_another_is_told(friction: float, refused: bool, tmp_path: Path) -> None:
     """Of a robot on a wall whose file has it on the floor, where its first axis feels no weight."""
-    text = TWO_LINKS.replace("alpha: pi/2", "alpha: 0").replace(
-        "j: 2, sigma: 0, alpha: 0", "j: 2, sigma: 0, alpha: pi/2"
-    )
-    (tmp_path / "pan.yaml").write_text(text.replace("two_links", "pan"))
-    robot = read(tmp_path / "pan.yaml")
-    there = Regressors(replace(robot, gravity=(sympy.Rational(981, 100), sympy.S.Zero, sympy.S.Zero)))
-    sizes = {"MX": 6.0, "M": 2.0, "Fv": friction, "Fc": friction}
-    values = {name: sizes.get(name.rstrip("12R"), 1.0) for name in there.names}
-    path = recorded(there, values, seed=4, noise=0.02).save(tmp_path / "a.csv")
-    told = "gravity as the robot is mounted: with [9.81, 0, 0] m/s2 far less is left"
+    robot = pan(tmp_path)
+    there, path = on_the_wall(robot, friction, tmp_path)
     if refused:
-        with pytest.raises(InputError, match=rf"pan.yaml:1:1: .* unexplained, expected {re.escape(told)}"):
+        with pytest.raises(InputError, match=rf"pan.yaml:1:1: .* unexplained, expected {re.escape(TOLD)}"):
             identify(robot, [path])
     else:
-        assert f"does the file have {told}" in identify(robot, [path]).notes
-    assert not any("mounted" in note for note in identify(there.model.robot, [path]).notes)
+        assert f"does the file have {TOLD}" in identify(robot, [path]).notes
+    assert not any("mounted" in note for note in identify(there, [path]).notes)
+
+
+def test_its_size_is_that_of_the_file(tmp_path: Path) -> None:
+    """Which has the robot on a slope."""
+    robot = pan(tmp_path)
+    _, path = on_the_wall(robot, 3.0, tmp_path)
+    slope = replace(robot, gravity=(sympy.S.Zero, sympy.Rational(5886, 1000), -sympy.Rational(7848, 1000)))
+    try:
+        told = " ".join(identify(slope, [path]).notes)
+    except InputError as error:
+        told = str(error)
+    assert TOLD in told
+
+
+def pan(folder: Path) -> Robot:
+    """A vertical axis, and a horizontal one on it."""
+    text = TWO_LINKS.replace("alpha: pi/2", "alpha: 0").replace("two_links", "pan")
+    (folder / "pan.yaml").write_text(text.replace("j: 2, sigma: 0, alpha: 0", "j: 2, sigma: 0, alpha: pi/2"))
+    return read(folder / "pan.yaml")
+
+
+def on_the_wall(robot: Robot, friction: float, folder: Path) -> tuple[Robot, Path]:
+    """The robot there, and its run."""
+    there = replace(robot, gravity=(sympy.Rational(981, 100), sympy.S.Zero, sympy.S.Zero))
+    regressors = Regressors(there)
+    sizes = {"MX": 6.0, "M": 2.0, "Fv": friction, "Fc": friction}
+    values = {name: sizes.get(name.rstrip("12R"), 1.0) for name in regressors.names}
+    return there, recorded(regressors, values, seed=4, noise=0.02).save(folder / "a.csv")

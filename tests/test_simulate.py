@@ -22,7 +22,7 @@ from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import Simulated, simulate
 from identification.trajectories import trajectories
-from identification.trajectory import Reference, Task
+from identification.trajectory import Reference, Task, Unplanned
 from tests.commands import command
 from tests.elastic_links import KT, MOTORS, N
 from tests.recorded import TRUTH, Recorded
@@ -197,6 +197,14 @@ def test_a_reference_may_hold_still(file: Path, tmp_path: Path) -> None:
     task, _ = plan(file, "fourier")
     reference = trajectories()["played"].plan(replace(task, settings={"file": str(held)}))
     assert reference.q == pytest.approx(np.tile([0.1, -0.2], (len(reference.q), 1)))
+
+
+def test_a_file_of_few_rows_is_not_played(file: Path, tmp_path: Path) -> None:
+    rows = {"t": np.arange(3) / 10, "q1": np.full(3, 0.1), "q2": np.full(3, -0.2)}
+    short = Recorded(rows).save(tmp_path / "short.csv")
+    task, _ = plan(file, "fourier")
+    with pytest.raises(Unplanned, match=r"short.csv has 3 rows, expected 4 at least"):
+        trajectories()["played"].plan(replace(task, settings={"file": str(short)}))
 
 
 def test_a_fourier_series_repeats(file: Path) -> None:

@@ -15,7 +15,7 @@ EXTENSIONS = (".parquet",)
 
 
 def read(path: Path) -> Recording:
-    """The columns of numbers; a missing value is NaN. A column of anything else is left out, and told.
+    """The columns of numbers, durations in s; a missing value is NaN. A column of anything else is left out, and told.
 
     Raises InputError for a damaged file and for a column that is there twice.
     """
@@ -37,5 +37,8 @@ def read(path: Path) -> Recording:
         column = table.column(name)
         if any(one(column.type) for one in (types.is_integer, types.is_floating, types.is_decimal)):
             columns[name] = np.asarray(column.to_numpy(), dtype=float)
+        elif types.is_duration(column.type):
+            spans = column.to_numpy()
+            columns[name] = np.where(np.isnat(spans), np.nan, spans / np.timedelta64(1, "s"))
     notes = left_out(file, [name for name in names if name not in columns])
     return Recording(file, columns, digest(path), by_count(file, names), notes)

@@ -21,6 +21,8 @@ _STEMS = ("qr", "q")
 _REST = 0.01
 #: Speed [rad/s, m/s] that is rounding.
 _STANDS = 1e-9
+#: Degree of the spline through the positions.
+_CUBIC = 3
 
 
 def _plan(task: Task) -> Reference:
@@ -34,6 +36,8 @@ def _plan(task: Task) -> Reference:
     recording = readers.read(Path(file))
     found = measured(recording, _STEMS, task.robot, "positions")
     checks.finite([*zip(found.names, found.values, strict=True)], recording.where)
+    if found.values.shape[1] <= _CUBIC:
+        raise Unplanned(f"{file} has {found.values.shape[1]} rows", f"{_CUBIC + 1} at least")
     ticks = clock(recording)
     _inside(task, recording, found.names, found.values)
     t = recording.columns["t"] - ticks.start

@@ -96,7 +96,8 @@ def test_a_link_swings_as_it_does_in_time_at_few_samples_a_period(samples: int, 
 
 
 @pytest.mark.parametrize(
-    ("gap", "x", "follows"), [(GAP, 3.8, True), (GAP, 4.2, False), (0.0, 7.0, True), (0.0, 8.0, False)]
+    ("gap", "x", "follows"),
+    [(GAP, 3.8, True), (GAP, 4.2, False), (0.0, 7.0, True), (0.0, 8.0, False), (0.0, 40.0, False)],
 )
 def test_a_link_is_played_only_where_the_samples_follow_it(gap: float, x: float, follows: bool, loose: Scene) -> None:
     """``x`` is k h^2 / M where the link's inertia M is least, for a tenth of the run a third of what it is."""

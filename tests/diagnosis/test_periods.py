@@ -17,6 +17,7 @@ from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of, repeating
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
+from identification.diagnosis.verdict.remarks import of_motion
 from identification.observation import Regressors
 from identification.recipe import Recipe
 
@@ -99,6 +100,22 @@ def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str)
     one = prepared(Run("A", Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
     assert (one.period, one.repeats) == (rows, period)
     assert one.unlike == note
+
+
+def test_ways_to_and_from_a_motion_that_repeats_are_left_out() -> None:
+    """A second and a half before three periods of four seconds, and two seconds after them."""
+    regressors = Regressors(read(find_robot("emps")))
+    q = 0.1 * series(6001, 2000)[:1]
+    ramps = [0.5 - 0.5 * np.cos(np.linspace(0, np.pi, count)) for count in (750, 1000)]
+    way = np.concatenate([q[:, :1] * ramps[0], q, q[:, -1:] * ramps[1][::-1]], axis=1)
+    one = prepared(Run("A", Place("A.csv"), 0.0, 0.002, way, np.zeros_like(way)), Recipe(), regressors)
+    assert (one.period, one.repeats) == (200, 2000)
+    assert one.times == pytest.approx(3.0, abs=0.05)
+    assert not one.kept[0, one.t < 1.4].any()
+    assert not one.kept[0, one.t > 13.6].any()
+    assert one.kept[0, (one.t > 1.6) & (one.t < 13.4)].mean() > 0.5
+    (note,) = of_motion([one], False)
+    assert note.startswith("the motion of A repeats for 12.1 s: the other 3.")
 
 
 @pytest.mark.parametrize(("swing", "kept"), [(1e-4, False), (0.05, True)])

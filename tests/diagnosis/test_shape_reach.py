@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import log
 from types import SimpleNamespace
 from typing import Any
@@ -54,6 +55,19 @@ def test_a_value_goes_as_far_as_what_is_left_allows(monkeypatch: pytest.MonkeyPa
 
 def test_a_value_that_nothing_bounds_goes_to_the_end_of_its_range(monkeypatch: pytest.MonkeyPatch) -> None:
     assert Valley(1e-3, ELASTIC).std(0.5, monkeypatch)["k"] == pytest.approx(1e5 - K)
+
+
+def test_what_is_lost_at_an_end_counts_and_a_value_falls_to_nothing_at_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Up to 2000 and down to 10; up to 1050 alone; and a way of 3.5 on which the last step ends at 4.6."""
+    for low, high, fall, std in (
+        (1e1, 2e3, 1e-3, K),
+        (1e-1, K * 1.05, 1e9, 5.0),
+        (K / 1.05, 1e5, 100 / 3.5**2, K * (np.exp(3.5) - 1)),
+    ):
+        ends = (replace(SHAPES[0], low=low, high=high), SHAPES[1])
+        valley = Valley(fall, ELASTIC)
+        valley.hypothesis.shapes = ends
+        assert valley.std(0.5, monkeypatch)["k"] == pytest.approx(std, rel=0.011)
 
 
 def test_where_nothing_is_left_and_of_other_effects_the_curvature_counts(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,8 +27,8 @@ Value: TypeAlias = Any
 
 #: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
 _SMALL = 1e-4
-#: Stiffness times the period's square over the inertia up to which central differences swing and do not grow.
-_STABLE = 4.0
+#: k h^2 / M up to which central differences swing and do not grow: where it is 4 times ``_second``, and 4 with a gap.
+_STABLE, _STABLE_IN_GAPS = 20 - np.sqrt(160), 4.0
 #: Part of an inertia that is the rotor's where nothing tells how much of it is.
 _SHARE = 0.5
 
@@ -113,12 +113,11 @@ class LinkSide:
         return alone(self.scene.motion, self.k, np.asarray(played))
 
     def _follows(self, train: Train) -> bool:
-        """Whether central differences are stable: k h^2 / M < 4 in parts of ``_second``."""
+        """Whether the differences are stable all along, of the lightest link too."""
         least = float(np.min(self.inertia))
         if least <= 0:
             return False
-        x = train.stiffness * self.scene.period**2 / least
-        return bool(x < _STABLE * _second(x if train.gap == 0 else 0.0))
+        return bool(train.stiffness * self.scene.period**2 / least < (_STABLE if train.gap == 0 else _STABLE_IN_GAPS))
 
     def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
         """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""

@@ -55,8 +55,9 @@ class Prepared:
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
     ``period`` is that of the motion in rows, 0 where it is no whole number of them or the rows hold no two of it;
-    ``repeats`` is that in samples, 0 where it does not repeat. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the
-    rows that are left out, of ``sampled`` too; all rows of a joint that is held are.
+    ``repeats`` is that in samples, 0 where it does not repeat, and ``repeating`` how many rows hold what does. Joint
+    j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of ``sampled`` too; all rows of a joint
+    that is held are.
     """
 
     sampled: Sampled
@@ -67,11 +68,12 @@ class Prepared:
     period: int
     slow: Array
     repeats: int
+    repeating: int
 
     @property
     def times(self) -> float:
         """How often the run has a row of each phase of the motion, in the mean; 0 where periods are not compared."""
-        return len(self.t) / self.period if self.period else 0.0
+        return self.repeating / self.period if self.period else 0.0
 
     @property
     def rate(self) -> float:
@@ -206,5 +208,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     t = one.times[factor : factor * (tau.shape[-1] + 1) : factor]
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
-    rows = period // factor if period % factor == 0 and tau.shape[-1] >= _TWICE * (period // factor) else 0
-    return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period)
+    at = inner[factor : factor * (tau.shape[-1] + 1) : factor]
+    within = int(((at >= repeats.start) & (at < repeats.stop)).sum())
+    rows = period // factor if period % factor == 0 and within >= _TWICE * (period // factor) else 0
+    return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period, within)

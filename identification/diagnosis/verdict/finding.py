@@ -63,7 +63,8 @@ class Told:
     def _remark(self) -> str:
         if self.scale:
             return " (chosen: the runs tell the other lengths and the force only relative to it)"
-        return " (at its bound)" if self.at_bound else " (not shown by these runs)" if self.std == math.inf else ""
+        unseen = " (not shown by these runs)" if self.std == math.inf else ""
+        return (" (at its bound)" if self.at_bound else "") + unseen
 
 
 def _written(x: float, digits: int) -> str:

@@ -33,7 +33,7 @@ def notes(found: Search, lacking: Collection[int]) -> list[str]:
         told = f"without {name} the other runs agree"
         kept = f"; most of what it keeps is where they do not go, {where}" if where else ""
         # What has another load, zero, unit or sign is explained by itself.
-        if whole and _unexplained(found, [odd], lacking) < _GONE * whole:
+        if _unexplained(found, [odd], lacking) < _GONE * whole:
             return [f"{told}{kept}: look {'there, or ' if where else ''}for {_OTHER} in it"]
         return [f"{told}{kept}: look there" if where else f"most of what is missing shows in {name} alone"]
     return []

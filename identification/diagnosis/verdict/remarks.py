@@ -18,6 +18,8 @@ from identification.diagnosis.verdict.stated_swings import stiffer
 from identification.diagnosis.verdict.trial import Trial, comparable
 from identification.diagnosis.verdict.unexplained import Unexplained
 
+#: Part of a run's rows that hold a motion that repeats, below which that is told.
+_WHOLE = 0.98
 #: Part of what is unexplained that a drive train must explain to be told without being named.
 _MOST = 0.5
 #: What a finding is told with, by its effect: what else makes the same torque.
@@ -111,16 +113,24 @@ def of_links(found: Search, lacking: Collection[int]) -> list[str]:
 
 
 def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
-    """Of runs whose periods are not compared; ``small`` tells that a finding may be too small to be firm by it."""
+    """Of runs whose periods are not compared, and of those that hold more than a motion that repeats; ``small`` tells
+    that a finding may be too small to be firm without periods.
+    """
     unlike: dict[str, list[str]] = {}
     for run in runs:
         if run.unlike:
             unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
     more = ", and what is small beside it is not firm" if small else ""
+    parts = [
+        f"the motion of {run.sampled.run.file} repeats for {run.repeating / run.rate:.3g} s: the other "
+        f"{(len(run.t) - run.repeating) / run.rate:.3g} s are left out"
+        for run in runs
+        if run.repeating < _WHOLE * len(run.t)
+    ]
     return [
         f"the motion of {listed(dict.fromkeys(names))} {why}: noise is told from the model's faults less well{more}"
         for why, names in unlike.items()
-    ]
+    ] + parts
 
 
 def of_warmth(found: Search) -> Iterator[str]:

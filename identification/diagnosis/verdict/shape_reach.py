@@ -37,8 +37,9 @@ def reaching(found: Search, choice: Choice, std: Mapping[str, float], left: Mapp
     elsewhere = {name for name, _ in hypothesis.twice.values()}
     for shape in hypothesis.shapes:
         if shape.log and shape.name in deviation and shape.name not in elsewhere:
-            way = max(_way(found, variant, others, shape, sign, lost) for sign in (1, -1))
-            deviation[shape.name] = max(deviation[shape.name], variant.shape[shape.name] * (exp(way) - 1))
+            up, down = (_way(found, variant, others, shape, sign, lost) for sign in (1, -1))
+            farther = variant.shape[shape.name] * max(exp(up) - 1, 1 - exp(-down))
+            deviation[shape.name] = max(deviation[shape.name], farther)
     return deviation
 
 
@@ -47,8 +48,8 @@ def _way(found: Search, variant: Variant, others: list[Variant], shape: ShapeRan
     weighing, here = found.weighing, variant
     best, value = weighing.beside(variant, others)[1], variant.shape[shape.name]
     end = abs(log((shape.high if sign > 0 else shape.low) / value))
-    reached, distance = 0.0, _FIRST
-    while distance < end:
+    reached, distance = 0.0, min(_FIRST, end)
+    while reached < end:
         added = weighing.bank.add(variant.hypothesis, {**here.shape, shape.name: value * exp(sign * distance)})
         if added is None:
             return reached
@@ -57,8 +58,8 @@ def _way(found: Search, variant: Variant, others: list[Variant], shape: ShapeRan
         less = best - weighing.beside(here, others)[1]
         if less > lost:
             return max(reached, distance * sqrt(lost / less))
-        reached, distance = distance, 2 * distance
-    return end
+        reached, distance = distance, min(2 * distance, end)
+    return reached
 
 
 def _rows(found: Search, number: int) -> int:
