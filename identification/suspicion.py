@@ -129,8 +129,10 @@ def _mounted(one: Sampled, regressors: Regressors) -> str:
     others = [(sign * x * size, sign * y * size, sign * z * size) for x, y, z in axes for sign in (-1, 1)]
     motion, tau, used, independent = _thinned(one)
     straight = list(range(len(tau)))
+    # Its parameter sets have the base parameters of the gravity that the file says.
+    bare = replace(robot, parameter_sets={})
     misfits = {
-        gravity: _Thinned(Regressors(replace(robot, gravity=gravity)), motion, tau, used, independent).misfit(straight)
+        gravity: _Thinned(Regressors(replace(bare, gravity=gravity)), motion, tau, used, independent).misfit(straight)
         for gravity in [own, *(each for each in others if size and each != own)]
     }
     best = min(misfits, key=lambda gravity: misfits[gravity])

@@ -14,7 +14,7 @@ from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.inverse_model import identify
 from identification.observation import Regressors
-from tests.recorded import TWO_LINKS, recorded
+from tests.recorded import TRUTH, TWO_LINKS, parameters_text, recorded
 
 TOLD = "gravity as the robot is mounted: with [9.81, 0, 0] m/s2 far less is left"
 
@@ -42,6 +42,16 @@ def test_its_size_is_that_of_the_file(tmp_path: Path) -> None:
     except InputError as error:
         told = str(error)
     assert TOLD in told
+
+
+def test_sets_of_the_robots_own_base_parameters_are_no_matter(tmp_path: Path) -> None:
+    """Its weight along an axis has no first moments on the first joint."""
+    (tmp_path / "two_links.yaml").write_text(TWO_LINKS + parameters_text({"known": TRUTH}))
+    regressors = Regressors(read(tmp_path / "two_links.yaml"))
+    path = recorded(regressors, TRUTH, seed=4, noise=3.0).save(tmp_path / "a.csv")
+    found = identify(regressors.model.robot, [path], regressors=regressors)
+    assert found.full.train.total.relative_to_mean > 10
+    assert not any("mounted" in note for note in found.notes)
 
 
 def pan(folder: Path) -> Robot:

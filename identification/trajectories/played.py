@@ -36,9 +36,9 @@ def _plan(task: Task) -> Reference:
     recording = readers.read(Path(file))
     found = measured(recording, _STEMS, task.robot, "positions")
     checks.finite([*zip(found.names, found.values, strict=True)], recording.where)
+    ticks = clock(recording)
     if found.values.shape[1] <= _CUBIC:
         raise Unplanned(f"{file} has {found.values.shape[1]} rows", f"{_CUBIC + 1} at least")
-    ticks = clock(recording)
     _inside(task, recording, found.names, found.values)
     t = recording.columns["t"] - ticks.start
     motion = make_interp_spline(t, found.values, axis=1)
