@@ -131,9 +131,10 @@ def _mounted(one: Sampled, regressors: Regressors) -> str:
     straight = list(range(len(tau)))
     # Its parameter sets have the base parameters of the gravity that the file says.
     bare = replace(robot, parameter_sets={})
+    tried = {each: Regressors(replace(bare, gravity=each)) for each in others if size and each != own}
     misfits = {
-        gravity: _Thinned(Regressors(replace(bare, gravity=gravity)), motion, tau, used, independent).misfit(straight)
-        for gravity in [own, *(each for each in others if size and each != own)]
+        gravity: _Thinned(each, motion, tau, used, independent).misfit(straight)
+        for gravity, each in {own: regressors, **tried}.items()
     }
     best = min(misfits, key=lambda gravity: misfits[gravity])
     if misfits[best] > misfits[own] - np.log(_BETTER):

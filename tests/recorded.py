@@ -38,6 +38,18 @@ effects:
   - {effect: offset, joints: all}
 """
 
+#: A linear axis.
+SLIDE = """\
+name: slide
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
+effects:
+  - {effect: viscous_friction, joints: all}
+  - {effect: coulomb_friction, joints: all}
+  - {effect: offset, joints: all}
+"""
+
 #: Base parameters of the two links.
 TRUTH = {
     "ZZ1R": 9.0,

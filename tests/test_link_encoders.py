@@ -25,23 +25,12 @@ from identification.simulation.simulate import simulate
 from identification.stiffness_results import of_link_encoders
 from tests.commands import command
 from tests.elastic_links import MOTORS, N, robot_text
-from tests.recorded import Recorded
+from tests.recorded import SLIDE, Recorded
 from tests.test_real_runs import DATA as RECORDINGS
 
 DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
-
-#: A linear axis on a belt.
-SLIDE = """\
-name: slide
-gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
-joints:
-  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
-effects:
-  - {effect: viscous_friction, joints: all}
-  - {effect: coulomb_friction, joints: all}
-"""
 
 
 def recorded(machine: Machine, settings: Settings, path: Path) -> str:

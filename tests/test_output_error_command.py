@@ -29,20 +29,13 @@ from identification.output_error.search import Settings
 from identification.recipe import Recipe
 from identification.study import key_of, study
 from tests.commands import command
+from tests.recorded import SLIDE
 from tests.study_tasks import dies, first_dies, refuses, squared
 
 STARTS = 3
 
-#: One axis, so that workers compile it quickly.
-SLIDE = """\
-name: slide
-gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
-joints:
-  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
-effects:
-  - {effect: viscous_friction, joints: all}
-  - {effect: coulomb_friction, joints: all}
-  - {effect: offset, joints: all}
+#: What is simulated, of one axis, which workers compile quickly.
+TWIN = """\
 parameters:
   twin:
     values: {M1: 95 kg, Fv1: 200 N s/m, Fc1: 20 N, Off1: -3 N}
@@ -53,7 +46,7 @@ parameters:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A robot file, and a run of it with noise."""
     place = tmp_path_factory.mktemp("command")
-    (place / "slide.yaml").write_text(SLIDE)
+    (place / "slide.yaml").write_text(SLIDE + TWIN)
     words = ["--duration", "6", "--noise", "0.3", "--parameters", "twin", "--out"]
     from generator.cli.main import main
 

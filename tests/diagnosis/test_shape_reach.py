@@ -25,7 +25,7 @@ class Valley:
         self.hypothesis = SimpleNamespace(kind=kind, shapes=SHAPES, twice={"gap1": ("gap", 1)}, numbers=(2,))
         self.bank: Any = SimpleNamespace(
             add=lambda hypothesis, shape: self.variant(shape),
-            runs=[SimpleNamespace(kept=np.ones((2, ROWS), dtype=bool))],
+            rows=lambda run: np.array([ROWS, ROWS]),
             robot=SimpleNamespace(numbers=(1, 2)),
         )
         self.weighing: Any = SimpleNamespace(

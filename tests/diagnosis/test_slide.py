@@ -16,18 +16,8 @@ from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.verdict.finding import FIRM
 from identification.observation import Motion
-from tests.recorded import Array, Recorded
+from tests.recorded import SLIDE, Array, Recorded
 
-SLIDE = """\
-name: slide
-gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
-joints:
-  - {j: 1, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q1}
-effects:
-  - {effect: viscous_friction, joint: 1}
-  - {effect: coulomb_friction, joint: 1}
-  - {effect: offset, joint: 1}
-"""
 MASS, VISCOUS, DRY, OFFSET = 95.0, 200.0, 20.0, -3.0
 #: Samples a second, and seconds of a run.
 RATE, SECONDS = 1000.0, 25.0

@@ -11,9 +11,12 @@ from identification.arrays import Array
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.views import BINS, FEW_ROWS, variables
 
-#: Of which variables a range is looked at, of a speed whichever its direction.
-_RANGES: Mapping[str, Callable[[Array], Array]] = {"q": np.asarray, "qd": np.abs, "load": np.asarray}
-_NAMES = {"qd": "|qd|"}
+#: Of which variables a range is looked at, and what it is told of: a speed whichever its direction.
+_RANGES: Mapping[str, tuple[str, Callable[[Array], Array]]] = {
+    "q": ("q", np.asarray),
+    "qd": ("|qd|", np.abs),
+    "load": ("load", np.asarray),
+}
 #: The part of what is not predicted, in squares, that all of it holds at least, and each piece of it that is told.
 _MOST, _PART = 0.8, 0.1
 
@@ -28,7 +31,7 @@ def own_range(found: Search, odd: int, runs: Sequence[int], joints: Collection[i
     excess = {k: bank.residual(odd, k, weights) ** 2 - 1 for k in asked}
     k = max(asked, key=lambda one: float(excess[one].sum()))
     every = {r: variables(bank.runs[r], bank.scenes[r], k) for r in runs}
-    for name, of in _RANGES.items():
+    for name, (told, of) in _RANGES.items():
         unit, values = every[odd][name][0], {r: of(every[r][name][1][bank.runs[r].kept[k]]) for r in runs}
         edges = np.histogram_bin_edges(np.concatenate(list(values.values())), BINS)
         others = np.sum([np.histogram(values[r], edges)[0] for r in runs if r != odd], axis=0)
@@ -41,5 +44,5 @@ def own_range(found: Search, odd: int, runs: Sequence[int], joints: Collection[i
                 if alone[bins[0]] and there[bins].sum() > _PART * there.sum()
             ]
             if spans:
-                return f"at {_NAMES.get(name, name)} {listed(spans)} {unit} of joint {bank.robot.numbers[k]}"
+                return f"at {told} {listed(spans)} {unit} of joint {bank.robot.numbers[k]}"
     return ""

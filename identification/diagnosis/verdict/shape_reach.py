@@ -65,4 +65,4 @@ def _way(found: Search, variant: Variant, others: list[Variant], shape: ShapeRan
 def _rows(found: Search, number: int) -> int:
     """Fitted rows of a joint."""
     k = found.bank.robot.numbers.index(number)
-    return sum(int(found.bank.runs[r].kept[k].sum()) for r in found.train)
+    return sum(int(found.bank.rows(r)[k]) for r in found.train)
