@@ -32,6 +32,9 @@ Jump = tuple[int, tuple[tuple[int, float], ...]]
 #: The generated functions that identification calls.
 FUNCTIONS = ("regressor_packed", "payload_regressor", "inverse_dynamics", "inertia_matrix", "effect_rates")
 
+#: Motions in which everything moves every way, and the rounding of what they ask for [1].
+_ALL_WAYS, _EXACT = 100, 1e-9
+
 #: Samples that stay in the processor's cache while a block is computed.
 _BLOCK = 4096
 
@@ -115,6 +118,26 @@ class Regressors:
     def names(self) -> tuple[str, ...]:
         """The base parameters, in order."""
         return tuple(parameter.name for parameter in self.model.base_parameters)
+
+    @cached_property
+    def rotors(self) -> tuple[Mapping[str, float], ...]:
+        """Per joint, the base parameters by name that make the torque ``qdd`` of an inertia which turns with the motor
+        of this joint alone, one of each as many times as said [1]; none where they do not hold it.
+        """
+        draw = np.random.default_rng(0)
+        q, qd, qdd = draw.uniform(-1.0, 1.0, (3, self.model.dof, _ALL_WAYS))
+        columns = np.zeros((len(self.names), self.model.dof, _ALL_WAYS))
+        for row, (names, torques) in enumerate(zip(self.structure, self.base(Motion(q, qd, qdd)), strict=True)):
+            columns[[self.names.index(name) for name in names], row] = torques
+        own = np.zeros((self.model.dof, *qdd.shape))
+        own[range(self.model.dof), range(self.model.dof)] = qdd
+        flat, wanted = columns.reshape(len(columns), -1).T, own.reshape(len(own), -1).T
+        solution, *_ = np.linalg.lstsq(flat, wanted, rcond=None)
+        exact = np.abs(flat @ solution - wanted).max(axis=0) < _EXACT
+        return tuple(
+            {name: float(x) for name, x in zip(self.names, each, strict=True) if abs(x) > _EXACT} if held else {}
+            for each, held in zip(solution.T, exact, strict=True)
+        )
 
     @cached_property
     def structure(self) -> tuple[tuple[str, ...], ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from generator.robot.description import Robot
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis
+from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.roles import Roles
@@ -105,8 +105,6 @@ def diagnose(
         before = led(before, named[0], last)
     elif rest.joint:
         before = replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
-    unseen = _invisible(found)
-    elastic = {number for one in named if one.hypothesis.kind == ELASTIC for number in one.joints}
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),
@@ -119,7 +117,6 @@ def diagnose(
         *left.notes,
         *remarks.of_lacks(last.lack, left, bool(named)),
         *(odd_run.notes(found, lacking) if lacking else ()),
-        *remarks.of_rotors(found, unseen, lacking | elastic),
         *remarks.of_swings(found, lacking),
         *remarks.of_links(found, lacking),
         *trembling.notes(found, lacking),
@@ -129,7 +126,7 @@ def diagnose(
         mode=FREE if prior is None else KNOWN,
         verdict=verdict,
         findings=named,
-        invisible=unseen,
+        invisible=_invisible(found),
         before=before,
         after=rest,
         roles=roles,

@@ -15,8 +15,9 @@ from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.whitening import Colour
-from identification.diagnosis.runs.link_side import LinkSides, Train, link_side, rotor_inertia, rotor_is_told
+from identification.diagnosis.runs.link_side import LinkSides, Train, link_side
 from identification.diagnosis.runs.prepared import prepared
+from identification.diagnosis.runs.rotor import rotor_inertia, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.tried import at_end

@@ -13,7 +13,7 @@ from identification.diagnosis.columns.hypothesis import BASE, EFFECT, ELASTIC
 from identification.diagnosis.verdict import remarks
 from identification.diagnosis.verdict.burst import Burst
 from identification.diagnosis.verdict.lack_of_fit import Lack
-from identification.diagnosis.verdict.remarks import of_lacks, of_links, of_rotors
+from identification.diagnosis.verdict.remarks import of_lacks, of_links
 from identification.diagnosis.verdict.unexplained import Unexplained
 from identification.diagnosis.verdict.views import View
 from identification.diagnosis.verdict.where import Where, late, led, located
@@ -119,18 +119,6 @@ def test_a_drive_train_that_is_not_heard_is_told(
     assert [note.startswith("elasticity on joint 2 would explain 80 % of what is left") for note in notes] == [
         True
     ] * told
-
-
-def test_elasticity_that_is_looked_for_without_a_rotor_is_told() -> None:
-    """Of joints 1 and 2, whose rotors no rigid model tells; a swing is looked for on 2 and 3."""
-    offered = [SimpleNamespace(hypothesis=SimpleNamespace(kind=ELASTIC, numbers=(number,))) for number in (2, 3)]
-    found: Any = SimpleNamespace(bank=SimpleNamespace(variants=offered))
-    unseen: Any = [
-        SimpleNamespace(effect=name, numbers=on) for name, on in (("rotor_inertia", (1, 2)), ("payload", (3,)))
-    ]
-    (note,) = of_rotors(found, unseen, {1, 2, 3})
-    assert note.startswith("elasticity is looked for on joint 2 as if no rotor turned there: rotor_inertia among")
-    assert of_rotors(found, unseen, {1, 3}) == []
 
 
 def finding(variable: str, joints: tuple[int, ...] = (2,)) -> Any:

@@ -12,9 +12,10 @@ from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
-from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train, rotor_is_told
+from identification.diagnosis.runs.link_side import LinkSide, LinkSides, Train
+from identification.diagnosis.runs.rotor import rotor_is_told
 from identification.diagnosis.runs.scene import Scene
-from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.runs.swings import DAMPING, USUAL_DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.residuals import rms
 from identification.side_by_side import side_by_side
 
@@ -61,7 +62,7 @@ def _swinging(joint: Joint, sides: LinkSides, scenes: Sequence[Scene]) -> tuple[
         _tried(sides, rotor),
         [
             np.geomspace(*stiffnesses(side), _STEPS),
-            np.geomspace(*DAMPING, _DAMPINGS),
+            np.geomspace(*USUAL_DAMPING, _DAMPINGS),
             np.geomspace(*_gaps(side), _GAPS),
         ],
     )

@@ -13,10 +13,11 @@ from identification.diagnosis.columns.hypothesis import ELASTIC, Coefficient, Hy
 from identification.diagnosis.columns.rotor_share import rotor_range
 from identification.diagnosis.noise.torque_band import end
 from identification.diagnosis.runs.first_swing import FirstSwings
-from identification.diagnosis.runs.link_side import LinkSides, Train, rotor_is_told
+from identification.diagnosis.runs.link_side import LinkSides, Train
+from identification.diagnosis.runs.rotor import rotor_is_told
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.runs.stated_elasticity import stated
-from identification.diagnosis.runs.swings import DAMPING, Alike, alike, liveliest, stiffnesses, watched
+from identification.diagnosis.runs.swings import DAMPING, USUAL_DAMPING, Alike, alike, liveliest, stiffnesses, watched
 from identification.side_by_side import side_by_side
 
 #: Stiffnesses and damping ratios that are looked at.
@@ -53,7 +54,7 @@ def _swinging(joint: Joint, sides: LinkSides, scenes: Sequence[Scene]) -> tuple[
     """The inertia of the drive train where it is sought, and the trains that swing as the log has it."""
     side = sides.first
     rotor = None if rotor_is_told(side.scene, side.k) else rotor_range(sides, scenes, joint.inertia_unit)
-    grids = [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*DAMPING, _DAMPINGS), np.zeros(1)]
+    grids = [np.geomspace(*stiffnesses(side), _STEPS), np.geomspace(*USUAL_DAMPING, _DAMPINGS), np.zeros(1)]
     return rotor, alike([side], grids)
 
 

@@ -16,7 +16,7 @@ from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
 from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
-from identification.diagnosis.runs.link_side import rotor_inertia, usual_rotor
+from identification.diagnosis.runs.rotor import rotor_inertia, usual_rotor
 from identification.diagnosis.runs.scene import Scene
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.

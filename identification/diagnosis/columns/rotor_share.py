@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from identification.diagnosis.columns.hypothesis import ShapeRange
-from identification.diagnosis.runs.link_side import LinkSides, rotor_is_apart
+from identification.diagnosis.runs.link_side import LinkSides
+from identification.diagnosis.runs.rotor import rotor_is_apart
 from identification.diagnosis.runs.scene import Scene
 
 #: Least part of an inertia that a rotor or a link has.

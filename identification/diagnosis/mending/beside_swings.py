@@ -4,11 +4,12 @@ makes other ones, and how far each of them swings.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Sequence, Set
 from dataclasses import replace
 
 import numpy as np
 
+from generator.effects.rotor_inertia import EFFECT as ROTOR
 from generator.robot.description import ParameterSet
 from generator.symbolic.model import Model
 from identification.diagnosis.columns.bank import Variant
@@ -38,13 +39,26 @@ def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigi
     solution, covariance = found.weighing.fitted(_variants(found, findings), True)
     values, bank = found.bank.values(solution), found.bank
     std = dict(zip(bank.base, np.sqrt(np.maximum(covariance.diagonal(), 0.0)).tolist(), strict=False))
-    searched, own = bank.scenes[0].regressors.model.grouping.numeric(), model.grouping.numeric()
+    rotors = {name for one in model.effects if one.effect == ROTOR for name in one.names}
+    searched, own = (_grouped(each, rotors) for each in (bank.scenes[0].regressors.model, model))
+    same = {own[terms]: name for terms, name in searched.items() if terms in own}
     told = {
-        name: replace(one, value=values[name], relative_std=100 * std[name] / abs(values[name]))
+        name: replace(one, value=values[same[name]], relative_std=100 * std[same[name]] / abs(values[same[name]]))
         for name, one in rigid.values.items()
-        if searched.get(name) == own.get(name) and values.get(name)
+        if values.get(same.get(name, ""))
     }
     return replace(rigid, values={**rigid.values, **told})
+
+
+def _grouped(model: Model, rotors: Set[str]) -> dict[frozenset[tuple[str, float]], str]:
+    """The base parameters by what they are made of but ``rotors`` that are grouped with bodies: an elastic drive train
+    may bring one, as a part of the inertia that the link had.
+    """
+    result = {}
+    for name, terms in model.grouping.numeric().items():
+        bodies = {part: factor for part, factor in terms.items() if part not in rotors}
+        result[frozenset((bodies or terms).items())] = name
+    return result
 
 
 def without_findings(found: Search) -> dict[str, float]:

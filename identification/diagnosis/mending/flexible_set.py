@@ -8,7 +8,7 @@ from dataclasses import replace
 from generator.effects.library import motor_side
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.model import Model
-from identification.diagnosis.runs.link_side import told
+from identification.diagnosis.runs.rotor import told
 
 #: Name of the set in the robot file.
 SET = "diagnosed_flexible"

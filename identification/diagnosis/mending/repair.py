@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from generator.effects.effect import Effect
 from generator.effects.library import library
+from generator.effects.rotor_inertia import EFFECT as ROTOR
 from generator.errors import InputError
 from generator.review.words import listed
 from generator.robot.description import Joint, Robot
@@ -79,7 +80,8 @@ def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
     result = []
-    for _, group in groupby(sorted(additions, key=lambda one: first[key(one)]), key):
+    # An elastic drive train brings a rotor only where none was found by itself.
+    for _, group in groupby(sorted(additions, key=lambda one: (one.kind == ELASTIC, first[key(one)])), key):
         each = list(group)
         joints = tuple(sorted({joint for one in each for joint in one.joints}))
         amplitude = {joint: rms for one in each for joint, rms in one.amplitude.items()}
@@ -113,7 +115,7 @@ def as_written(one: Addition, robot: Robot, k: int) -> bool:
 
 def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     effect = library()[one.effect]
-    there = [j for j in one.joints if any(u.effect == one.effect and j in u.joints for u in robot.effects)]
+    there = [j for j in one.joints if _has(robot, one.effect, j)]
     new = [j for j in one.joints if j not in there]
     notes = [f"joint {j} has the effect {one.effect} already; the file's stays" for j in there]
     if not new:
@@ -125,6 +127,10 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
     return with_item(text, "effects", entry, _comment(robot, one)), notes
+
+
+def _has(robot: Robot, effect: str, number: int) -> bool:
+    return any(use.effect == effect and number in use.joints for use in robot.effects)
 
 
 def _comment(robot: Robot, one: Addition) -> str:
@@ -221,6 +227,12 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
         f"the drive train of {on_joints(one.joints)} is elastic in the flexible model; on the untouched runs its swing "
         "is integrated with what was found, beside the generated inverse dynamics of rigid joints"
     ]
+    for number in one.joints:
+        if one.parameters.get(f"Iam{number}") and not _has(robot, ROTOR.id, number):
+            rotor = Addition(EFFECT, ROTOR.id, (number,), evidence=f"{ROTOR.title}, by how the link swings")
+            text, _ = _add_effect(text, robot, rotor)
+            robot = robot_of(text, robot.place.file)
+            notes.append(f"{ROTOR.id} of joint {number} comes with it: its part of the inertia is told by the swing")
     if one.values.get("gap"):
         text, more = _add_gap(text, robot, replace(one, kind=EFFECT, effect="joint_elasticity", parameters={}))
         notes += more

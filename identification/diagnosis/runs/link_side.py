@@ -15,10 +15,10 @@ from typing import Any, TypeAlias
 import casadi
 import numpy as np
 
-from generator.robot.description import Robot
 from generator.symbolic.model import Model
 from identification.arrays import Array
 from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
+from identification.diagnosis.runs.rotor import rotor_is_apart
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
 
@@ -29,8 +29,6 @@ Value: TypeAlias = Any
 _SMALL = 1e-4
 #: k h^2 / M up to which central differences swing and do not grow: where it is 4 times ``_second``, and 4 with a gap.
 _STABLE, _STABLE_IN_GAPS = 20 - np.sqrt(160), 4.0
-#: Part of an inertia that is the rotor's where nothing tells how much of it is.
-_SHARE = 0.5
 
 
 @dataclass(frozen=True)
@@ -221,64 +219,13 @@ def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     grouped.
     """
     model = scene.regressors.model
-    own = _of_motor(model, model.robot.moving[k].number)
-    inertia = f"Ia{model.robot.moving[k].number}"
+    own, grouped = _of_motor(model, model.robot.moving[k].number), model.grouping.numeric()
     result = dict(scene.values)
-    for name, terms in model.grouping.numeric().items():
-        if set(terms) <= own:
-            result[name] = 0.0
-        elif inertia in own & set(terms):
-            result[name] = result.get(name, 0.0) - terms[inertia] * rotor
+    result |= {name: 0.0 for name, terms in grouped.items() if set(terms) <= own}
+    for name, per_inertia in scene.regressors.rotors[k].items():
+        if not set(grouped[name]) <= own:
+            result[name] = result.get(name, 0.0) - per_inertia * rotor
     return result
-
-
-def rotor_is_apart(scene: Scene, k: int) -> bool:
-    """Whether the inertia of the joint's drive train is a base parameter by itself, which the runs tell, or was found
-    as an effect of its own.
-    """
-    name = f"Ia{scene.robot.moving[k].number}"
-    return name in scene.values or bool(scene.found(name))
-
-
-def rotor_is_told(scene: Scene, k: int) -> bool:
-    """Whether the fit or a parameter set of the robot's file has the inertia of the joint's drive train."""
-    return _told_rotor(scene, k) is not None
-
-
-def rotor_inertia(scene: Scene, k: int) -> float:
-    """Inertia of the joint's drive train [kg m2, kg]: as the fit or a parameter set of the robot's file has it, else
-    half of the least inertia about the joint along the run, 0 where the model has none.
-
-    The base parameter that holds it tells no more: what else is grouped there may be more, or less than nothing.
-    """
-    if (known := _told_rotor(scene, k)) is not None:
-        return known
-    name = f"Ia{scene.robot.moving[k].number}"
-    if not any(name in terms for terms in scene.regressors.model.grouping.numeric().values()):
-        return 0.0
-    return usual_rotor(scene, k)
-
-
-def usual_rotor(scene: Scene, k: int) -> float:
-    """Half of the least inertia about joint ``k`` along the run, of links and what is told of the drive train
-    [kg m2, kg]; not less than 0.
-    """
-    still, quick = (scene.torque_of(scene.values, one) for one in (scene.motion, quicker(scene.motion, k)))
-    return max(_SHARE * float(np.min((quick - still)[k])), 0.0)
-
-
-def _told_rotor(scene: Scene, k: int) -> float | None:
-    robot = scene.robot
-    number = robot.moving[k].number
-    if rotor_is_apart(scene, k):
-        return scene.values.get(f"Ia{number}", scene.found(f"Ia{number}"))
-    return told(robot, f"Ia{number}", f"Iam{number}")
-
-
-def told(robot: Robot, *names: str) -> float | None:
-    """What the first parameter set of the robot's file says that has one of the ``names``; None where none has."""
-    values = (one.values[name].value for one in robot.parameter_sets.values() for name in names if name in one.values)
-    return next(values, None)
 
 
 def _of_motor(model: Model, number: int) -> frozenset[str]:

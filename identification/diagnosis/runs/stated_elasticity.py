@@ -16,8 +16,9 @@ import numpy as np
 
 from generator.robot.description import Robot
 from identification.arrays import Array
-from identification.diagnosis.runs.link_side import Train, link_side, rotor_inertia, told, without_drive_train
+from identification.diagnosis.runs.link_side import Train, link_side, without_drive_train
 from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
+from identification.diagnosis.runs.rotor import rotor_inertia, told
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
 

@@ -13,8 +13,9 @@ from typing import TypeAlias
 import numpy as np
 
 from identification.arrays import Array
-from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, rotor_inertia, swings
+from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, swings
 from identification.diagnosis.runs.prepared import windowed
+from identification.diagnosis.runs.rotor import rotor_inertia
 from identification.diagnosis.runs.scene import Scene
 
 #: Drive trains as rotor's inertia, stiffness, damping ratio, gap.
@@ -25,8 +26,8 @@ _PLAYED, _SAMPLES = 12.0, 12000
 #: Frequencies [Hz] of a link on its drive train, the motor held, and their largest part of the samples' rate, which the
 #: integration can follow.
 _LOWEST, _HIGHEST, _PART = 3.0, 100.0, 0.125
-#: Damping ratios.
-DAMPING = (0.01, 0.4)
+#: Damping ratios, and those that are looked at first: how long a swing rings hides its stiffness less than these do.
+DAMPING, USUAL_DAMPING = (0.002, 0.7), (0.01, 0.4)
 #: Values about the best of a grid among which it is refined.
 _FINER = 7
 #: Rows over which the windows reach through which swings are compared.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence, Set
 
 from generator.review.words import listed
-from identification.diagnosis.columns.hypothesis import ELASTIC, Hypothesis, Key, on_joints
+from identification.diagnosis.columns.hypothesis import ELASTIC, Key, on_joints
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.diagnosis.runs.swings import watched
@@ -60,22 +60,6 @@ def of_elasticity(found: Search) -> list[str]:
     if (shown := stiffer(found)) is not None:
         notes.append(f"the runs show {100 * shown:.0f} % of that torque: these drive trains are stiffer than stated")
     return notes
-
-
-def of_rotors(found: Search, unseen: Sequence[Hypothesis], joints: Collection[int]) -> list[str]:
-    """Of ``joints``, by number, whose drive trains are looked at without a rotor: one that the file lacks and the runs
-    leave ``unseen``, as a rigid model takes it for the link's.
-    """
-    offered = [one.hypothesis for one in found.bank.variants if one.hypothesis.kind == ELASTIC]
-    swung = {number for one in offered for number in one.numbers}
-    without = {number for one in unseen if one.effect == "rotor_inertia" for number in one.numbers}
-    where = sorted(without & swung & set(joints))
-    if not where:
-        return []
-    return [
-        f"elasticity is looked for on {on_joints(where)} as if no rotor turned there: rotor_inertia among the effects "
-        "of the robot's file lets its part of the inertia be searched"
-    ]
 
 
 def of_swings(found: Search, lacking: Set[int]) -> Iterator[str]:
