@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -14,6 +13,7 @@ from generator.discovery import modules
 from generator.effects.effect import Column, Effect, Shape, Site, State
 from generator.errors import InputError, Place
 from generator.robot.description import FIXED, EffectUse, Joint, Robot
+from generator.robot.fields import nearest
 from generator.robot.parameters import Parameter
 
 #: Points at which a range is looked at.
@@ -201,7 +201,7 @@ def _motor_values(robot: Robot, effect: Effect, joint: Joint) -> dict[str, sympy
 def _effect(use: EffectUse) -> Effect:
     effect = library().get(use.effect)
     if effect is None:
-        raise InputError(use.place, f"unknown effect {use.effect!r}", _one_of(use.effect, list(library())))
+        raise InputError(use.place, f"unknown effect {use.effect!r}", nearest(use.effect, library()))
     return effect
 
 
@@ -220,7 +220,7 @@ def _values(use: EffectUse, effect: Effect, joint: Joint) -> dict[str, sympy.Exp
     shapes = {shape.name: shape for shape in effect.shapes}
     for name, quantity in use.values.items():
         if name not in shapes:
-            known = _one_of(name, list(shapes)) if shapes else "none"
+            known = nearest(name, shapes)
             raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
     return {name: _value(use, effect, shape, shape.unit_on(joint)) for name, shape in shapes.items()}
 
@@ -255,8 +255,3 @@ def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> N
         raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
     if shape.upper is not None and not float(value) < shape.upper:
         raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {unit}")
-
-
-def _one_of(name: str, known: list[str]) -> str:
-    near = difflib.get_close_matches(name, known, n=1)
-    return f"{near[0]!r} perhaps; known are {', '.join(known)}" if near else f"one of {', '.join(known)}"
