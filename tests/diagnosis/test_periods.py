@@ -290,3 +290,12 @@ def test_parts_that_only_touch_are_apart() -> None:
 def test_no_run_is_spent_where_nothing_is_tested() -> None:
     found = roles([recorded(name) for name in "ABC"], [], [], tested=False)
     assert (found.train, found.test, found.searched) == (("A", "B", "C"), (), ("A", "B", "C"))
+
+
+def test_a_period_of_no_whole_rows_is_compared_with_the_next_but_one() -> None:
+    """5 s at 125 Hz are 625 samples: two of them are 625 rows of every other sample."""
+    regressors = Regressors(read(find_robot("emps")))
+    q = 0.1 * series(2500, 625)[:1]
+    one = prepared(Run("A", Place("A"), 0.0, 0.008, q, np.zeros_like(q)), Recipe(), regressors)
+    assert (one.sampled.filters.factor, one.period, one.repeats, one.unlike) == (2, 625, 625, "")
+    assert one.times == pytest.approx(2.0, abs=0.02)

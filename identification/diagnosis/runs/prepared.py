@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import ceil, floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,10 +55,10 @@ class Prepared:
     """A run of n joints and N decimated rows: times ``t`` [s], torques ``tau`` (n x N), ``kept`` rows (n x N).
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
-    ``period`` is that of the motion in rows, 0 where it is no whole number of them or the rows hold no two of it;
-    ``repeats`` is that in samples, 0 where it does not repeat, and ``repeating`` how many rows hold what does. Joint
-    j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of ``sampled`` too; all rows of a joint
-    that is held are.
+    ``period`` is that of the motion in rows, or of the fewest periods that are a whole number of rows, 0 where the rows
+    hold no two of these; ``repeats`` is that in samples, 0 where it does not repeat, and ``repeating`` how many rows
+    hold what does. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of ``sampled`` too;
+    all rows of a joint that is held are.
     """
 
     sampled: Sampled
@@ -145,6 +146,20 @@ def _unsettled(standing: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
     return np.stack([maximum_filter1d(row, 2 * round(_SETTLING * rate) + 1) for row in standing])
 
 
+def _decimation(wanted: float, period: int, count: int) -> tuple[int, int]:
+    """The factor of decimation nearest to the ``wanted`` one that divides the ``period`` in samples, else the fewest
+    periods that ``count`` samples hold twice; and what it divides, 0 where there is nothing.
+    """
+    usual = possible_factor(wanted) if wanted > 1 else 1
+    near = range(ceil(wanted * (1 - _NEAR)), floor(wanted * (1 + _NEAR)) + 1)
+    possible = sorted({usual, *(r for r in near if r > 0 and possible_factor(r) == r)}, key=lambda r: abs(r - wanted))
+    for compared in range(period, floor(count / _TWICE) + 1, period) if period else ():
+        for factor in possible:
+            if compared % factor == 0:
+                return factor, compared
+    return usual, 0
+
+
 def windowed(x: Array, factor: int) -> Array:
     """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
     count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
@@ -175,12 +190,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
             run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
         )
     period, repeats = repeating(run.q, run.period)
-    wanted = run.rate / RATE
-    factor = possible_factor(wanted) if wanted > 1 else 1
-    if period:
-        divisors = [r for r in range(1, period + 1) if period % r == 0 and abs(r / wanted - 1) <= _NEAR]
-        possible = [r for r in divisors if possible_factor(r) == r]
-        factor = min(possible, key=lambda r: abs(r - wanted), default=factor)
+    factor, compared = _decimation(run.rate / RATE, period, repeats.stop - repeats.start)
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
     filtering = replace(changed, dropped_first=None, dropped_last=None)
     filters_of(run, filtering)
@@ -210,5 +220,5 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     unsettled = crawling | (t < run.start + _MEMORY)
     at = inner[factor : factor * (tau.shape[-1] + 1) : factor]
     within = int(((at >= repeats.start) & (at < repeats.stop)).sum())
-    rows = period // factor if period % factor == 0 and within >= _TWICE * (period // factor) else 0
+    rows = compared // factor if within >= _TWICE * (compared // factor) else 0
     return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period, within)
