@@ -75,6 +75,16 @@ def test_what_another_model_groups_otherwise_stays() -> None:
     assert 0 < len(changed) < len(NAMES)
 
 
+def test_a_rotor_that_an_elastic_drive_train_brings_was_in_the_base_parameters_before() -> None:
+    """Unless it was found by itself: then what is grouped lacked it."""
+    bare = searched(TWO_LINKS.replace("  - {effect: rotor_inertia, joints: all}\n", ""))
+    rotor = SimpleNamespace(hypothesis=SimpleNamespace(kind=EFFECT, effect="rotor_inertia", key=()), joints=(1,))
+    (holds,) = [name for name in NAMES if "Ia1" in MODEL.grouping.numeric()[name]]
+    elastic = soft("joint_elasticity", 1)
+    assert beside_swings(bare, [elastic], MODEL, RIGID).values[holds].value == 8.0
+    assert beside_swings(bare, [elastic, rotor], MODEL, RIGID).values[holds] == RIGID.values[holds]
+
+
 def test_base_parameters_are_those_beside_what_the_model_holds() -> None:
     """Of two choices one is in no robot file: the fit of the search is beside the other alone."""
     held = soft("joint_elasticity", 1)

@@ -22,6 +22,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.tried import at_end
 from identification.diagnosis.search.weighing import Weighing
+from identification.observation import Regressors
 from identification.recipe import Recipe
 from tests.diagnosis.diagnosed import CLEAN, Found, Known, known, with_robot
 from tests.plant.effect import Effect
@@ -149,6 +150,22 @@ def test_a_rotor_of_which_nothing_is_known_is_half_of_the_least_inertia(name: st
     rotor = rotor_inertia(scene, 0)
     assert rotor == pytest.approx(0.5 * float(link_side(scene, 0, 0.0).inertia.min()))
     assert float(link_side(scene, 0, rotor).inertia.min()) == pytest.approx(rotor)
+
+
+def test_a_rotor_that_the_file_lacks_is_in_the_base_parameters_all_the_same(loose: Scene) -> None:
+    """Where they hold it: with its link as with the file's, and taken from the same ones."""
+    effects = tuple(use for use in loose.robot.effects if use.effect != "rotor_inertia")
+    bare = Regressors(replace(loose.robot, effects=effects, parameter_sets={}))
+    with_rotors = untold(loose).regressors
+    assert bare.rotors[0] == pytest.approx({"ZZ1R": 1.0})
+    assert [bool(one) for one in bare.rotors] == [
+        any(f"Ia{number}" in terms and len(terms) > 1 for terms in with_rotors.model.grouping.numeric().values())
+        for number in loose.robot.numbers
+    ]
+    lacking = replace(loose, regressors=bare, values={name: loose.values.get(name, 0.0) for name in bare.names})
+    side, told = link_side(lacking, 0, ROTOR), link_side(untold(loose), 0, ROTOR)
+    np.testing.assert_allclose(side.inertia, told.inertia, rtol=1e-9)
+    assert rotor_inertia(lacking, 0) == pytest.approx(rotor_inertia(untold(loose), 0))
 
 
 def test_a_rotor_that_was_found_as_an_effect_is_no_share_of_the_link(loose: Scene) -> None:

@@ -1,8 +1,8 @@
 """Findings written into robot files: read back, derived, and nothing else of the text touched."""
 
-from __future__ import annotations
-
 import difflib
+import re
+import re
 from pathlib import Path
 
 import numpy as np
@@ -227,6 +227,19 @@ def test_elastic_joints_and_backlash() -> None:
     names = {p.name for p in derive(more.robot, names=("flexible_regressor",), check=False).parameters}
     assert {"k1", "k2", "Iam1"} <= names
     assert repair("kr500", Addition(ELASTIC, "joint_elasticity", (2,), {}, {"k2": 1e6})).text == text_of("kr500")
+
+
+def test_an_elastic_drive_train_brings_its_rotor_where_none_is() -> None:
+    """One that was found by itself is written first, whatever the order."""
+    train = Addition(ELASTIC, "joint_elasticity", (2,), {}, {"Iam2": 3.0, "k2": 1e6})
+    text = re.sub(r"\{effect: rotor_inertia, .*\}", "{effect: rotor_inertia, joint: 1}", text_of("scara"))
+    found = repaired(text, "x", [train])
+    assert uses(found.robot) == uses(robot_of(text, "x")) | {("rotor_inertia", 2)}
+    assert "rotor_inertia of joint 2 comes with it: its part of the inertia is told by the swing" in found.notes
+    by_itself = repaired(text, "x", [train, Addition(EFFECT, "rotor_inertia", (2,))])
+    assert uses(by_itself.robot) == uses(found.robot)
+    assert not any("rotor_inertia" in note for note in by_itself.notes)
+    assert not any("rotor_inertia" in note for note in repair("scara", train).notes)
 
 
 ELASTIC_ENTRIES = {

@@ -39,8 +39,7 @@ def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigi
     solution, covariance = found.weighing.fitted(_variants(found, findings), True)
     values, bank = found.bank.values(solution), found.bank
     std = dict(zip(bank.base, np.sqrt(np.maximum(covariance.diagonal(), 0.0)).tolist(), strict=False))
-    rotors = {name for one in model.effects if one.effect == ROTOR for name in one.names}
-    searched, own = (_grouped(each, rotors) for each in (bank.scenes[0].regressors.model, model))
+    searched, own = (_grouped(each, _brought(findings)) for each in (bank.scenes[0].regressors.model, model))
     same = {own[terms]: name for terms, name in searched.items() if terms in own}
     told = {
         name: replace(one, value=values[same[name]], relative_std=100 * std[same[name]] / abs(values[same[name]]))
@@ -50,10 +49,15 @@ def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigi
     return replace(rigid, values={**rigid.values, **told})
 
 
+def _brought(findings: Sequence[Finding]) -> set[str]:
+    """Rotors' inertias by name that elastic drive trains bring as a part of what links had, and none by itself."""
+    elastic = {number for one in findings if one.hypothesis.kind == ELASTIC for number in one.joints}
+    by_itself = {one.joints for one in findings if one.hypothesis.effect == ROTOR.id}
+    return {f"Ia{number}" for number in elastic if (number,) not in by_itself}
+
+
 def _grouped(model: Model, rotors: Set[str]) -> dict[frozenset[tuple[str, float]], str]:
-    """The base parameters by what they are made of but ``rotors`` that are grouped with bodies: an elastic drive train
-    may bring one, as a part of the inertia that the link had.
-    """
+    """The base parameters by what they are made of but ``rotors`` that are grouped with bodies."""
     result = {}
     for name, terms in model.grouping.numeric().items():
         bodies = {part: factor for part, factor in terms.items() if part not in rotors}
