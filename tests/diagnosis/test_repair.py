@@ -2,7 +2,6 @@
 
 import difflib
 import re
-import re
 from pathlib import Path
 
 import numpy as np
