@@ -66,6 +66,18 @@ class Motion:
         k = list(order)
         return replace(self, q=self.q[k], qd=self.qd[k], qdd=self.qdd[k])
 
+    def turned(self, k: int) -> Motion:
+        """The motion with joint k moving the other way; the states stay what they were."""
+        way = np.ones((len(self.q), 1))
+        way[k] = -1.0
+        return replace(self, q=way * self.q, qd=way * self.qd, qdd=way * self.qdd)
+
+    def shifted(self, k: int, by: float) -> Motion:
+        """The motion with joint k further ``by`` [rad, m]; the states stay what they were."""
+        q = self.q.copy()
+        q[k] += by
+        return replace(self, q=q)
+
     @property
     def samples(self) -> int:
         """N."""

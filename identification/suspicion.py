@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
 from generator.review.words import listed
+from generator.robot.description import REVOLUTE
 from generator.symbolic.model import Model
 from identification.arrays import Array
 from identification.factors import Factor, triangular
@@ -34,6 +35,9 @@ _FURTHER = 3.0
 _SURE, _LIKELY, _SEVERAL = 4.0, 2.5, 2
 #: By how much the product of the joints' residuals must fall.
 _BETTER = 20.0
+#: The same where much stays unexplained, for a joint that is read wrong; the logarithm by which two may differ that do
+#: as well; and angles [deg] by which a zero is another one.
+_BETTER_MISREAD, _ALIKE, _ZEROS = 2.0, 0.2, (-90, 90, 180)
 #: Samples that the fits are repeated on.
 _THINNED = 1500
 #: Rows for each parameter that a joint must have for that, those alone counted that the filter leaves independent.
@@ -113,6 +117,34 @@ def directed(
             whose = "" if joints == moving else f" of joint {min(joints)}"
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
             raise InputError(place, problem, "torques of the drives on the joints; a sidecar can change their sign")
+
+
+def misread(one: Sampled, regressors: Regressors) -> list[str]:
+    """Joints that move the other way than the robot's file has it, or from another zero, if that explains a run better:
+    several where one is the mirror image of another.
+    """
+    motion, tau, used, independent = _thinned(one)
+    joints = regressors.model.robot.moving
+
+    def misfit(moved: Motion, torques: Array) -> float:
+        return _Thinned(regressors, moved, torques, used, independent).misfit(range(len(tau)))
+
+    ways: dict[str, tuple[Motion, Array]] = {}
+    for k, joint in enumerate(joints):
+        way = np.where(np.arange(len(tau)) == k, -1.0, 1.0)[:, None]
+        ways[f"positions and torques of joint {joint.number} the other way"] = (motion.turned(k), way * tau)
+        for degrees in _ZEROS if joint.sigma == REVOLUTE else ():
+            away = f"positions of joint {joint.number} {degrees:+d} deg away"
+            ways[away] = (motion.shifted(k, np.radians(degrees)), tau)
+    misfits = {what: misfit(*of) for what, of in ways.items()}
+    best = min(misfits.values())
+    if best > misfit(motion, tau) - np.log(_BETTER_MISREAD):
+        return []
+    alike = [what for what, x in misfits.items() if x < best + _ALIKE]
+    return [
+        f"with {', or '.join(alike)} less is left of {one.run.file}: are zeros and signs of the columns, axes and gear "
+        "ratios right?"
+    ]
 
 
 def _doubtful(residuals: Residuals) -> list[int]:

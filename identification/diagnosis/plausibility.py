@@ -6,14 +6,17 @@ import numpy as np
 
 from generator.errors import InputError
 from identification.arrays import Array
+from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import Prior
-from identification.diagnosis.diagnosis import Diagnosis
+from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.residuals import Residual, Residuals
-from identification.suspicion import directed, ordered, suspect
+from identification.suspicion import directed, misread, ordered, suspect
 
 #: Correlation of a run's torques with what the model makes of them from which their signs are others.
 _REVERSED = -0.5
+#: Least singular value that a run tells parameters from, and a product that is none.
+_RANK, _NOTHING = 1e-9, 1e-300
 
 
 def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
@@ -29,11 +32,15 @@ def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
     if dry:
         ordered(runs, regressors, left)
         return []
-    for run, scene, e in zip(bank.runs, bank.scenes, found.residuals_after, strict=True):
-        _alike(run, run.tau - e, "those of the other runs")
-        if prior is not None:
-            mean = dict(zip(bank.base, prior.mean.tolist(), strict=False))
-            _alike(run, run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion)), "the known parameters")
+    for r in _reversed(bank):
+        raise _another_sign(bank.runs[r], "those of the other runs")
+    if prior is not None:
+        mean = dict(zip(bank.base, prior.mean.tolist(), strict=False))
+        for run, scene in zip(bank.runs, bank.scenes, strict=True):
+            expected = run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion))
+            tau, like = run.tau[run.kept], expected[run.kept]
+            if tau @ like < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(like):
+                raise _another_sign(run, "the known parameters")
     base, values = bank.base, found.search.values
     std = np.sqrt(np.diag(found.search.covariance))[: len(base)]
     # Beside another law of its joint the model's own friction may come out as what that one has too much.
@@ -44,7 +51,7 @@ def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
         if len(one.joints) == 1 and one.evidence.size > rest.get(one.joints[0], 0.0)
     }
     directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), explained)
-    return suspect(runs, regressors, left)
+    return [*suspect(runs, regressors, left), *(misread(runs[0], regressors) if found.verdict == UNEXPLAINED else ())]
 
 
 def _left(found: Diagnosis) -> Residuals:
@@ -59,9 +66,38 @@ def _left(found: Diagnosis) -> Residuals:
     )
 
 
-def _alike(run: Prepared, model: Array, whose: str) -> None:
-    """Raises InputError where a run's torques are far from those (n x rows) of a model, the other way."""
-    tau, expected = run.tau[run.kept], model[run.kept]
-    if tau @ expected < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(expected):
-        problem = f"the torques have another sign than {whose}"
-        raise InputError(run.sampled.run.place, problem, "one sign in all runs; a sidecar can change it")
+def _another_sign(run: Prepared, whose: str) -> InputError:
+    problem = f"the torques have another sign than {whose}"
+    return InputError(run.sampled.run.place, problem, "one sign in all runs; a sidecar can change it")
+
+
+def _reversed(bank: Bank) -> list[int]:
+    """Runs whose torques are the other way than those of most: base parameters of each of two such runs alone make
+    torques that are far from the other's.
+    """
+    products = [_products(bank, r) for r in range(len(bank.runs))]
+    alone = [np.linalg.lstsq(A, b, rcond=_RANK)[0] for A, b, _ in products]
+    made = [[x @ b / np.sqrt(max(float(x @ A @ x) * square, _NOTHING)) for A, b, square in products] for x in alone]
+    away = np.array(made) < _REVERSED
+    opposite = away & away.T
+    usual = int(np.argmin(opposite.sum(axis=1)))
+    return np.flatnonzero(opposite[usual]).tolist()
+
+
+def _products(bank: Bank, run: int) -> tuple[Array, Array, float]:
+    """Of the base columns with each other (p x p) and with the torque (p), and its square: of the rows of a run, each
+    joint's in parts of its torque's size.
+    """
+    p = len(bank.base)
+    A, b, square = np.zeros((p, p)), np.zeros(p), 0.0
+    for k in range(bank.dof):
+        numbers, rows, tau, kept = bank.raw(run, k)
+        at = [i for i, number in enumerate(numbers) if number < p]
+        size = np.linalg.norm(tau[kept])
+        if size > 0:
+            where = np.array(numbers)[at]
+            columns, torque = rows[at][:, kept] / size, tau[kept] / size
+            A[np.ix_(where, where)] += columns @ columns.T
+            b[where] += columns @ torque
+            square += 1.0
+    return A, b, square

@@ -9,8 +9,12 @@ import pytest
 
 from generator.errors import InputError
 from generator.robot.readers import read
+from identification.dataset import load
 from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.runs.prepared import prepared
 from identification.inverse_model import identify
+from identification.recipe import Recipe
+from identification.suspicion import misread
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, recorded, torque
 from tests.recorded import TRUTH as LINKS
 from tests.recorded import Recorded, as_recorded, fourier, two_links
@@ -70,3 +74,33 @@ def test_torques_of_one_joint_that_have_the_other_sign_are_refused(tmp_path: Pat
         diagnosed(tmp_path / "two_links.yaml", robot, Request(sources), tmp_path / "out", lambda *about: {})
     with pytest.raises(InputError, match=message):
         identify(robot, [Path(one) for one in sources])
+
+
+@pytest.mark.parametrize(
+    ("way", "away", "hint"),
+    [
+        ((1.0, 1.0), (0.0, 0.0), None),
+        (
+            (1.0, -1.0),
+            (0.0, 0.0),
+            "with positions and torques of joint 2 the other way less is left of",
+        ),
+        (
+            (1.0, 1.0),
+            (np.pi / 2, 0.0),
+            "with positions of joint 1 -90 deg away less is left of x.csv: are zeros and signs",
+        ),
+    ],
+)
+def test_a_joint_that_is_read_wrong_is_told(
+    way: tuple[float, float], away: tuple[float, float], hint: str | None, tmp_path: Path
+) -> None:
+    """A zero of the last joint is none of the model's."""
+    regressors = two_links(tmp_path)
+    t, motion = fourier(regressors.model.robot, 10.0, 250.0, 1)
+    tau = regressors.torques(LINKS, motion) + 0.05 * np.random.default_rng(3).normal(size=motion.q.shape)
+    turn, zero = np.array(way)[:, None], np.array(away)[:, None]
+    path = as_recorded(regressors, t, turn * motion.q + zero, turn * tau).save(tmp_path / "x.csv")
+    run = prepared(load(str(path), regressors.model.robot, resting=True), Recipe(), regressors)
+    notes = misread(run.sampled, regressors)
+    assert [note[: len(hint)] for note in notes] == [hint] if hint else notes == []
