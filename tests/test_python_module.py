@@ -260,6 +260,9 @@ def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> N
         ("^tau has shape", lambda: Plant(robot, "rigid", one).run(1e-3, np.zeros((4, n + 1)))),
         ("^time is nan", lambda: Plant(robot, "rigid", one).advance(np.nan, one)),
         ("^time is -1", lambda: Plant(robot, "rigid", one).advance(-1, one)),
+        ("^period is -1", lambda: Plant(robot, "rigid", one).run(-1, one[None])),
+        ("^period is nan", lambda: Plant(robot, "rigid", one).run(np.nan, one[None])),
+        ("^period is -1", lambda: made.module.Controller(robot, -1, 1, 1, 1)),
         ("^out shares memory with qd", lambda: Plant(robot, "rigid", one).run(1e-3, held, out=(same, same))),
     ):
         with pytest.raises(ValueError, match=message):

@@ -196,9 +196,10 @@ def test_the_integral_waits_while_the_torque_is_cut(make: Make) -> None:
     assert (back < 5.0).all()  # cut above, and the error lets the integral come down
 
 
-def test_a_run_that_diverges_ends(make: Make) -> None:
+@pytest.mark.parametrize("flag", ["-O2", "-ffast-math"])
+def test_a_run_that_diverges_ends(flag: str, make: Make) -> None:
     of = arm("scara")
-    simulated = make(of, "flexible")
+    simulated = make(of, "flexible", flag)
     reference = {"q": np.ones((400, 4))}
     wild = replace(gains_of(of), kv=1e9, limit=1e300)
     still = np.zeros(simulated.size)
@@ -247,6 +248,59 @@ def test_runs_under_sanitizers(tmp_path: Path) -> None:
     run(["gcc", *flags, *folders, *sources, "-o", tmp_path / "main", "-lm"])
     assert run([tmp_path / "main"]) == "60 60\n"
 
+
+@pytest.mark.parametrize("precision", ["", "-DSCARA_USE_FLOAT"])
+def test_events_are_found_in_few_trials(precision: str, tmp_path: Path) -> None:
+    """A step takes 6 evaluations without an event; halving would take 34 trials of as many each, and 20 in float."""
+    emit(arm("scara").model, tmp_path)
+    write(tmp_path, {"main.c": _COUNTING})
+    folders = [f"-I{tmp_path / 'c'}", f"-I{tmp_path / 'simulation'}"]
+    flags = ["-std=c99", "-O1", *([precision] if precision else [])]
+    run(["gcc", *flags, *folders, tmp_path / "c" / "scara.c", tmp_path / "main.c", "-o", tmp_path / "main", "-lm"])
+    sliding, stopping = map(int, run([tmp_path / "main"]).split())
+    assert sliding < stopping < 10 * sliding
+
+
+_COUNTING = """
+#include <stdio.h>
+#include "scara.h"
+
+static int evaluations;
+
+static void counted(
+    const scara_prepared *prepared, const scara_real q[4], const scara_real qd[4], const scara_real tau[4],
+    const scara_real direction[4], scara_real qdd[4])
+{
+    ++evaluations;
+    scara_direct_dynamics_sliding(prepared, q, qd, tau, direction, qdd);
+}
+
+#define scara_direct_dynamics_sliding counted
+#include "scara_simulation.c"
+
+static int of_a_step(scara_real speed)
+{
+    const scara_real q[4] = { R(0.1), R(0.2), R(0.3), R(0.4) };
+    const scara_real qd[4] = { speed, R(0.3), R(0.2), R(0.2) };
+    const scara_real tau[4] = { R(0.0) };
+    const scara_integration how = { SCARA_METHOD_RK4, 1, NULL };
+    scara_params params;
+    scara_prepared prepared;
+    scara_rigid_state state;
+    scara_params_example(&params);
+    scara_prepare(&params, &prepared);
+    scara_rigid_start(&prepared, q, qd, &state);
+    evaluations = 0;
+    scara_rigid_advance(&prepared, &how, R(2e-3), tau, NULL, &state);
+    return evaluations;
+}
+
+int main(void)
+{
+    printf("%d %d\\n", of_a_step(R(3.0)), of_a_step(R(1e-4)));
+    return 0;
+}
+"""
 
 _MAIN = """
 #include <stdio.h>

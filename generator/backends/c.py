@@ -141,9 +141,10 @@ def _values(model: Model, constants: Sequence[Constant]) -> list[Values]:
     result = []
     for name, values in resolved_sets(model).items():
         given = model.robot.parameter_sets.get(name)
-        text = f"{given.description}; source: {given.source}" if given else ""
+        said = (given.description, f"source: {given.source}" if given.source else "") if given else ()
+        text = "; ".join(filter(None, said))
         if not any(values[parameter.name] for parameter in model.base_parameters):
-            text = f"{text}. {_NO_MODEL}"
+            text = ". ".join(filter(None, (text, _NO_MODEL)))
         numbers = [values.get(parameter.name, 0.0) for parameter in model.parameters]
         entries = tuple(
             (f"{'-' if number < 0 else ''}{language.number(abs(Fraction(number)))}", constant.name)

@@ -285,7 +285,7 @@ INLINE lanes lanes_sign(lanes x)
 {
     lanes y = x;
     for (size_t l = 0; l < LANES; ++l) {
-        LANE(y, l) = (LANE(x, l) > R(0.0)) ? R(1.0) : ((LANE(x, l) < R(0.0)) ? -R(1.0) : R(0.0));
+        LANE(y, l) = (LANE(x, l) > R(0.0)) ? R(1.0) : ((LANE(x, l) < R(0.0)) ? -R(1.0) : LANE(x, l));
     }
     return y;
 }
@@ -295,7 +295,7 @@ INLINE lanes lanes_directed(real size, lanes x)
 {
     lanes y = x;
     for (size_t l = 0; l < LANES; ++l) {
-        LANE(y, l) = (LANE(x, l) > R(0.0)) ? size : ((LANE(x, l) < R(0.0)) ? -size : R(0.0));
+        LANE(y, l) = (LANE(x, l) > R(0.0)) ? size : ((LANE(x, l) < R(0.0)) ? -size : LANE(x, l));
     }
     return y;
 }

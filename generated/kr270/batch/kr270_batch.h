@@ -42,7 +42,7 @@ extern "C" {
  *
  * A NULL pointer where a filter is asked for keeps every sample as it is.
  */
-typedef struct {
+typedef struct kr270_filter {
     const kr270_real *taps; /**< weights of a window's samples, in order of time */
     size_t count; /**< number of taps, at least 1 */
     size_t decimation; /**< distance of the samples that are kept, at least 1 */
@@ -58,7 +58,9 @@ size_t kr270_observation_stride(size_t size);
  * Joint torques of n samples, all effects included.
  * @param[in]  prepared  from kr270_prepare()
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] tau       (n x 6) motor torques, on the joint side
  */
 void kr270_batch_inverse_dynamics(
@@ -80,7 +82,9 @@ void kr270_batch_filter(const kr270_filter *filter, size_t n, const kr270_real *
  * @param[in]  prepared  from kr270_prepare()
  * @param[in]  filter    see kr270_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] W         kr270_filtered_count()*KR270_NQ rows
  * @param[in]  ld        distance of the rows, at least KR270_NBASE
  */
@@ -97,7 +101,9 @@ void kr270_observation_matrix_rows(
  * @param[in]  prepared  from kr270_prepare()
  * @param[in]  filter    see kr270_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] W         KR270_NBASE columns of kr270_filtered_count()*KR270_NQ numbers
  * @param[in]  stride    distance of the columns, at least kr270_filtered_count()*KR270_NQ
  */
@@ -112,7 +118,10 @@ void kr270_observation_matrix_columns(
  * @param[in]  prepared  from kr270_prepare()
  * @param[in]  filter    see kr270_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd, tau  (n x 6) joint positions, speeds, accelerations, and torques
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
+ * @param[in]  tau       (n x 6) joint torques
  * @param[out] G         (6 x 61 x 61) symmetric, structural zeros included
  * @param      work      KR270_OBSERVATION_WORK numbers, overwritten
  */
@@ -128,7 +137,10 @@ void kr270_observation_gram(
  * @param[in]  prepared  from kr270_prepare()
  * @param[in]  filter    see kr270_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd, tau  (n x 6) joint positions, speeds, accelerations, and torques
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
+ * @param[in]  tau       (n x 6) joint torques
  * @param[out] factor    (6 x 61 x 61) upper triangular
  * @param      work      KR270_OBSERVATION_WORK numbers, overwritten
  */

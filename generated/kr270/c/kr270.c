@@ -210,13 +210,14 @@ static void kr270_sines_cosines(
 
 static inline kr270_real kr270_sign(kr270_real x)
 {
-    return (x > R(0.0)) ? R(1.0) : ((x < R(0.0)) ? -R(1.0) : R(0.0));
+    /* x itself is 0, or no number */
+    return (x > R(0.0)) ? R(1.0) : ((x < R(0.0)) ? -R(1.0) : x);
 }
 
 /* size sign(x), without a product. */
 static inline kr270_real kr270_directed(kr270_real size, kr270_real x)
 {
-    return (x > R(0.0)) ? size : ((x < R(0.0)) ? -size : R(0.0));
+    return (x > R(0.0)) ? size : ((x < R(0.0)) ? -size : x);
 }
 
 void kr270_prepare(const kr270_params *params, kr270_prepared *prepared)

@@ -40,20 +40,20 @@ extern "C" {
 #define KR270_FLEXIBLE_SIZE 12
 
 /** Integration of a step. */
-typedef enum {
+typedef enum kr270_method {
     KR270_METHOD_RK4 = 0, /**< Kutta's method of order 4, 4 evaluations a step */
     KR270_METHOD_DP8 = 1 /**< Dormand and Prince's method of order 8, 12 evaluations a step */
 } kr270_method;
 
 /** What a surface with friction does. */
-typedef enum {
+typedef enum kr270_contact {
     KR270_CONTACT_FREE = 0, /**< it has no dry friction */
     KR270_CONTACT_SLIDING = 1,
     KR270_CONTACT_STUCK = 2
 } kr270_contact;
 
 /** How a sample is integrated. */
-typedef struct {
+typedef struct kr270_integration {
     kr270_method method;
     size_t steps; /**< equal steps a sample, at least 1 */
     const kr270_real *width; /**< [rad/s, m/s] width of the smooth friction, one a surface, all more than 0; NULL
@@ -64,7 +64,7 @@ typedef struct {
  * State of the rigid robot. Surfaces are the joints.
  * contact and direction belong to sign friction; kr270_rigid_start() sets them.
  */
-typedef struct {
+typedef struct kr270_rigid_state {
     kr270_real q[6]; /**< [rad, m] joint positions */
     kr270_real qd[6]; /**< [rad/s, m/s] their speeds */
     kr270_real direction[6]; /**< of each surface: -1 or 1 where it slides; between them, what part of its dry
@@ -76,7 +76,7 @@ typedef struct {
  * State of the flexible robot. Surfaces are the motors, then the links of the elastic joints.
  * contact and direction belong to sign friction; kr270_flexible_start() sets them.
  */
-typedef struct {
+typedef struct kr270_flexible_state {
     kr270_real q[12]; /**< [rad, m] [q_m; q_e]: motors in joint units, then elongations */
     kr270_real qd[12]; /**< [rad/s, m/s] their speeds */
     kr270_real direction[12]; /**< of each surface: -1 or 1 where it slides; between them, what part of its dry
@@ -93,7 +93,7 @@ typedef struct {
  *   rotor torque   tau_r = kv (e + z) + feedforward, cut at +-limit
  *   integral       z grows by ki period e, unless the torque is cut and e would drive it further (anti-windup)
  */
-typedef struct {
+typedef struct kr270_controller {
     kr270_real period; /**< [s] of a sample */
     kr270_real kp[KR270_NQ]; /**< [1/s] */
     kr270_real kv[KR270_NQ]; /**< [N m s/rad, N s/m] of the rotor */
@@ -102,12 +102,12 @@ typedef struct {
 } kr270_controller;
 
 /** What the controller remembers from sample to sample; all zero at first. */
-typedef struct {
+typedef struct kr270_controller_state {
     kr270_real z[KR270_NQ]; /**< [rad/s, m/s] of the rotor */
 } kr270_controller_state;
 
 /** What the closed loop is to do, sample by sample, at the joints. What may be NULL is then zero throughout. */
-typedef struct {
+typedef struct kr270_reference {
     size_t samples;
     const kr270_real *q; /**< (samples x KR270_NQ) [rad, m] positions */
     const kr270_real *qd; /**< (samples x KR270_NQ) [rad/s, m/s] speeds; NULL leaves out their feedforward */
@@ -116,7 +116,7 @@ typedef struct {
 } kr270_reference;
 
 /** Where a run is written, row k at the instant of sample k, with what acts from then on; any may be NULL. */
-typedef struct {
+typedef struct kr270_log {
     kr270_real *q; /**< (samples x size of the plant) [rad, m] */
     kr270_real *qd; /**< (samples x size of the plant) [rad/s, m/s] */
     kr270_real *tau; /**< (samples x KR270_NQ) [N m, N] motor torques, on the joint side, after the cut */

@@ -42,7 +42,7 @@ extern "C" {
  *
  * A NULL pointer where a filter is asked for keeps every sample as it is.
  */
-typedef struct {
+typedef struct kr500_filter {
     const kr500_real *taps; /**< weights of a window's samples, in order of time */
     size_t count; /**< number of taps, at least 1 */
     size_t decimation; /**< distance of the samples that are kept, at least 1 */
@@ -58,7 +58,9 @@ size_t kr500_observation_stride(size_t size);
  * Joint torques of n samples, all effects included.
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] tau       (n x 6) motor torques, on the joint side
  */
 void kr500_batch_inverse_dynamics(
@@ -80,7 +82,9 @@ void kr500_batch_filter(const kr500_filter *filter, size_t n, const kr500_real *
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  filter    see kr500_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] W         kr500_filtered_count()*KR500_NQ rows
  * @param[in]  ld        distance of the rows, at least KR500_NBASE
  */
@@ -97,7 +101,9 @@ void kr500_observation_matrix_rows(
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  filter    see kr500_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd  (n x 6) joint positions, speeds and accelerations
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
  * @param[out] W         KR500_NBASE columns of kr500_filtered_count()*KR500_NQ numbers
  * @param[in]  stride    distance of the columns, at least kr500_filtered_count()*KR500_NQ
  */
@@ -112,7 +118,10 @@ void kr500_observation_matrix_columns(
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  filter    see kr500_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd, tau  (n x 6) joint positions, speeds, accelerations, and torques
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
+ * @param[in]  tau       (n x 6) joint torques
  * @param[out] G         (6 x 60 x 60) symmetric, structural zeros included
  * @param      work      KR500_OBSERVATION_WORK numbers, overwritten
  */
@@ -128,7 +137,10 @@ void kr500_observation_gram(
  * @param[in]  prepared  from kr500_prepare()
  * @param[in]  filter    see kr500_filter
  * @param[in]  n         number of samples
- * @param[in]  q, qd, qdd, tau  (n x 6) joint positions, speeds, accelerations, and torques
+ * @param[in]  q         (n x 6) joint positions
+ * @param[in]  qd        (n x 6) joint speeds
+ * @param[in]  qdd       (n x 6) joint accelerations
+ * @param[in]  tau       (n x 6) joint torques
  * @param[out] factor    (6 x 60 x 60) upper triangular
  * @param      work      KR500_OBSERVATION_WORK numbers, overwritten
  */

@@ -217,13 +217,14 @@ static void kr500_sines_cosines(
 
 static inline kr500_real kr500_sign(kr500_real x)
 {
-    return (x > R(0.0)) ? R(1.0) : ((x < R(0.0)) ? -R(1.0) : R(0.0));
+    /* x itself is 0, or no number */
+    return (x > R(0.0)) ? R(1.0) : ((x < R(0.0)) ? -R(1.0) : x);
 }
 
 /* size sign(x), without a product. */
 static inline kr500_real kr500_directed(kr500_real size, kr500_real x)
 {
-    return (x > R(0.0)) ? size : ((x < R(0.0)) ? -size : R(0.0));
+    return (x > R(0.0)) ? size : ((x < R(0.0)) ? -size : x);
 }
 
 void kr500_prepare(const kr500_params *params, kr500_prepared *prepared)

@@ -11,7 +11,7 @@
  *             inertia tensor (XY is minus the integral of x y dm), MX MY MZ the first moments, M the mass.
  *   Arrays    every signal is an array of fixed size, a matrix flat and row-major: entry (i, j) of an array of shape
  *             (r, c) is [c*i + j]; a number is an array of one. The arrays of one call must not overlap.
- *   Signs     torques are those that the motors supply; gravity acts. sign(0) = 0.
+ *   Signs     torques are those that the motors supply; gravity acts. sign(0) = 0, sign(NaN) = NaN.
  *   Report    COROUSSO deliverable 4.2 (HAL hal-01091400), whose equations are cited below.
  *   Precision double, or float with KR500_USE_FLOAT defined for the library and all of its users.
  *   Angles    sine and cosine are computed here, four angles side by side: wrong by at most 2 units in the last place
@@ -311,7 +311,7 @@ enum {
 };
 
 /** Values of the parameters, in the order of the enumeration. */
-typedef struct {
+typedef struct kr500_params {
     kr500_real value[KR500_NPARAMETERS];
 } kr500_params;
 
@@ -322,7 +322,7 @@ typedef struct {
  * bodies (S, MS, then the frame, a suffix being another origin or unit) and their sums and products (p). They differ
  * between generations; only the functions read them.
  */
-typedef struct {
+typedef struct kr500_prepared {
     kr500_real ZZ1R; /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
     kr500_real Fv1; /**< [N m s/rad] viscous friction coefficient */
     kr500_real Fc1; /**< [N m] Coulomb friction coefficient */

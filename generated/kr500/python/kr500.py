@@ -1396,8 +1396,7 @@ class Plant:
             tau: (6) motor torques, on the joint side [N m, N]
             tau_ext: (6) torques of the surroundings on the links, positive with q [N m, N], or None
         """
-        if not 0 <= time < np.inf:
-            raise ValueError(f"time is {time}, expected a finite one that is not negative")
+        time = _time(time, "time")
         others = _ffi.NULL if tau_ext is None else _signal(tau_ext, (NQ,), "tau_ext")
         self._advance(self.robot._prepared, self._integration, time, _signal(tau, (NQ,), "tau"), others, self._state)
 
@@ -1412,6 +1411,7 @@ class Plant:
         Outputs: coordinates and their speeds (n x size each) at the instants at which the periods begin; NaN from the
         period on in which a number is no longer finite
         """
+        period = _time(period, "period")
         n = _samples(tau=tau)
         size = self._q.size
         q, qd = _several(out, ((n, size), (n, size)))
@@ -1440,7 +1440,7 @@ class Controller:
     def __init__(self, robot, period, kp, kv, ki, limit=np.inf):
         gains = [np.broadcast_to(np.asarray(gain, float), (NQ,)).tolist() for gain in (kp, kv, ki, limit)]
         self.robot = robot
-        self._gains = _ffi.new("controller *", (float(period), *gains))
+        self._gains = _ffi.new("controller *", (_time(period, "period"), *gains))
         self._memory = _ffi.new("controller_state *")
         self._z = np.frombuffer(_ffi.buffer(self._memory), count=NQ)
 
@@ -1473,6 +1473,13 @@ class Controller:
             _buffer(tau),
         )
         return tau
+
+
+def _time(value, name):
+    """A time [s]."""
+    if not 0 <= value < np.inf:
+        raise ValueError(f"{name} is {value}, expected a finite one that is not negative")
+    return float(value)
 
 
 def filtered(y, taps, decimation=1, out=None):

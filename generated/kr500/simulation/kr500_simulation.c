@@ -5,18 +5,23 @@
  */
 #include "kr500_simulation.h"
 
-/* A constant in the precision of kr500_real. */
+#include <stdint.h>
+#include <string.h>
+
+/* A constant in the precision of kr500_real; and a search for an event stops when it is bracketed to
+   this part of the step. */
 #ifdef KR500_USE_FLOAT
 #define R(literal) literal##F
+#define TOLERANCE R(1e-6)
 #else
 #define R(literal) literal
+#define TOLERANCE R(1e-10)
 #endif
 
 /* Events located in one step; what is left of the step after them is taken without location. */
 #define EVENTS 64
-/* A search for an event stops after so many trials, or when it is bracketed to this part of the step. */
+/* A search for an event stops after so many trials at the latest. */
 #define SEARCHES 60
-#define TOLERANCE R(1e-10)
 
 void kr500_control(
     const kr500_prepared *prepared, const kr500_controller *controller,
@@ -62,6 +67,20 @@ void kr500_control(
 static kr500_real kr500_size(kr500_real x)
 {
     return (x < R(0.0)) ? -x : x;
+}
+
+/* Whether x is finite, by its bits: under -ffast-math every number is. */
+static int kr500_finite(kr500_real x)
+{
+#ifdef KR500_USE_FLOAT
+    const uint32_t exponent = UINT32_C(0x7F800000);
+    uint32_t bits = 0;
+#else
+    const uint64_t exponent = UINT64_C(0x7FF0000000000000);
+    uint64_t bits = 0;
+#endif
+    (void)memcpy(&bits, &x, sizeof bits);
+    return ((bits & exponent) != exponent) ? 1 : 0;
 }
 
 /* ---- the rigid robot ----------------------------------------------------------------------- */
@@ -454,8 +473,8 @@ static kr500_real kr500_rigid_trial(
 }
 
 /* The step up to the first event, which lies within a time h that ends with the margin beyond; returns
-   its time, just after the event. Regula falsi on the margin; the bound that stays has its value
-   halved (Illinois). */
+   its time, just after the event. Regula falsi on the margin; the bound that stays a second time has
+   its value halved (Illinois), and no trial is so near to a bound that the other one would stay. */
 static kr500_real kr500_rigid_search(
     const kr500_rigid_load *load, kr500_method method, kr500_real h, kr500_real beyond, const kr500_rigid_state *start,
     kr500_rigid_state *state, kr500_rigid_surfaces *surfaces)
@@ -464,25 +483,33 @@ static kr500_real kr500_rigid_search(
     kr500_real high = h;
     kr500_real above = kr500_rigid_margin(load, surfaces, start->q, start->qd);
     kr500_real below = beyond;
+    const kr500_real near = TOLERANCE * h * R(0.5);
+    int before = 0; /* which bound the last trial moved: -1 the lower one, 1 the upper one */
 
     for (int search = 0; search < SEARCHES; ++search) {
         const kr500_real part = (above > R(0.0)) ? (above / (above - below)) : R(0.5);
-        const kr500_real middle = low + ((high - low) * part);
+        const kr500_real wanted = low + ((high - low) * part);
+        const kr500_real within = (wanted < (high - near)) ? wanted : (high - near);
+        const kr500_real middle = (within > (low + near)) ? within : (low + near);
         const kr500_real there = kr500_rigid_trial(load, method, middle, start, state, surfaces);
         if (there < R(0.0)) {
             high = middle;
             below = there;
-            above *= R(0.5);
+            above *= (before > 0) ? R(0.5) : R(1.0);
+            before = 1;
         } else {
             low = middle;
             above = there;
-            below *= R(0.5);
+            below *= (before < 0) ? R(0.5) : R(1.0);
+            before = -1;
         }
         if ((high - low) <= (TOLERANCE * h)) {
             break;
         }
     }
-    (void)kr500_rigid_trial(load, method, high, start, state, surfaces);
+    if (before < 0) {
+        (void)kr500_rigid_trial(load, method, high, start, state, surfaces);
+    }
     return high;
 }
 
@@ -649,8 +676,7 @@ size_t kr500_rigid_simulate(
         }
         kr500_rigid_advance(prepared, integration, controller->period, tau, tau_ext, state);
         for (int i = 0; i < 6; ++i) {
-            /* x - x is 0 for finite numbers alone */
-            finite = (((state->q[i] - state->q[i]) + (state->qd[i] - state->qd[i])) < R(1.0)) ? finite : 0;
+            finite = ((kr500_finite(state->q[i]) != 0) && (kr500_finite(state->qd[i]) != 0)) ? finite : 0;
         }
         sample += (finite != 0) ? 1u : 0u;
     }
@@ -1072,8 +1098,8 @@ static kr500_real kr500_flexible_trial(
 }
 
 /* The step up to the first event, which lies within a time h that ends with the margin beyond; returns
-   its time, just after the event. Regula falsi on the margin; the bound that stays has its value
-   halved (Illinois). */
+   its time, just after the event. Regula falsi on the margin; the bound that stays a second time has
+   its value halved (Illinois), and no trial is so near to a bound that the other one would stay. */
 static kr500_real kr500_flexible_search(
     const kr500_flexible_load *load, kr500_method method, kr500_real h, kr500_real beyond, const kr500_flexible_state *start,
     kr500_flexible_state *state, kr500_flexible_surfaces *surfaces)
@@ -1082,25 +1108,33 @@ static kr500_real kr500_flexible_search(
     kr500_real high = h;
     kr500_real above = kr500_flexible_margin(load, surfaces, start->q, start->qd);
     kr500_real below = beyond;
+    const kr500_real near = TOLERANCE * h * R(0.5);
+    int before = 0; /* which bound the last trial moved: -1 the lower one, 1 the upper one */
 
     for (int search = 0; search < SEARCHES; ++search) {
         const kr500_real part = (above > R(0.0)) ? (above / (above - below)) : R(0.5);
-        const kr500_real middle = low + ((high - low) * part);
+        const kr500_real wanted = low + ((high - low) * part);
+        const kr500_real within = (wanted < (high - near)) ? wanted : (high - near);
+        const kr500_real middle = (within > (low + near)) ? within : (low + near);
         const kr500_real there = kr500_flexible_trial(load, method, middle, start, state, surfaces);
         if (there < R(0.0)) {
             high = middle;
             below = there;
-            above *= R(0.5);
+            above *= (before > 0) ? R(0.5) : R(1.0);
+            before = 1;
         } else {
             low = middle;
             above = there;
-            below *= R(0.5);
+            below *= (before < 0) ? R(0.5) : R(1.0);
+            before = -1;
         }
         if ((high - low) <= (TOLERANCE * h)) {
             break;
         }
     }
-    (void)kr500_flexible_trial(load, method, high, start, state, surfaces);
+    if (before < 0) {
+        (void)kr500_flexible_trial(load, method, high, start, state, surfaces);
+    }
     return high;
 }
 
@@ -1269,8 +1303,7 @@ size_t kr500_flexible_simulate(
         }
         kr500_flexible_advance(prepared, integration, controller->period, tau, tau_ext, state);
         for (int i = 0; i < 12; ++i) {
-            /* x - x is 0 for finite numbers alone */
-            finite = (((state->q[i] - state->q[i]) + (state->qd[i] - state->qd[i])) < R(1.0)) ? finite : 0;
+            finite = ((kr500_finite(state->q[i]) != 0) && (kr500_finite(state->qd[i]) != 0)) ? finite : 0;
         }
         sample += (finite != 0) ? 1u : 0u;
     }

@@ -40,20 +40,20 @@ extern "C" {
 #define KR500_FLEXIBLE_SIZE 12
 
 /** Integration of a step. */
-typedef enum {
+typedef enum kr500_method {
     KR500_METHOD_RK4 = 0, /**< Kutta's method of order 4, 4 evaluations a step */
     KR500_METHOD_DP8 = 1 /**< Dormand and Prince's method of order 8, 12 evaluations a step */
 } kr500_method;
 
 /** What a surface with friction does. */
-typedef enum {
+typedef enum kr500_contact {
     KR500_CONTACT_FREE = 0, /**< it has no dry friction */
     KR500_CONTACT_SLIDING = 1,
     KR500_CONTACT_STUCK = 2
 } kr500_contact;
 
 /** How a sample is integrated. */
-typedef struct {
+typedef struct kr500_integration {
     kr500_method method;
     size_t steps; /**< equal steps a sample, at least 1 */
     const kr500_real *width; /**< [rad/s, m/s] width of the smooth friction, one a surface, all more than 0; NULL
@@ -64,7 +64,7 @@ typedef struct {
  * State of the rigid robot. Surfaces are the joints.
  * contact and direction belong to sign friction; kr500_rigid_start() sets them.
  */
-typedef struct {
+typedef struct kr500_rigid_state {
     kr500_real q[6]; /**< [rad, m] joint positions */
     kr500_real qd[6]; /**< [rad/s, m/s] their speeds */
     kr500_real direction[6]; /**< of each surface: -1 or 1 where it slides; between them, what part of its dry
@@ -76,7 +76,7 @@ typedef struct {
  * State of the flexible robot. Surfaces are the motors, then the links of the elastic joints.
  * contact and direction belong to sign friction; kr500_flexible_start() sets them.
  */
-typedef struct {
+typedef struct kr500_flexible_state {
     kr500_real q[12]; /**< [rad, m] [q_m; q_e]: motors in joint units, then elongations */
     kr500_real qd[12]; /**< [rad/s, m/s] their speeds */
     kr500_real direction[12]; /**< of each surface: -1 or 1 where it slides; between them, what part of its dry
@@ -93,7 +93,7 @@ typedef struct {
  *   rotor torque   tau_r = kv (e + z) + feedforward, cut at +-limit
  *   integral       z grows by ki period e, unless the torque is cut and e would drive it further (anti-windup)
  */
-typedef struct {
+typedef struct kr500_controller {
     kr500_real period; /**< [s] of a sample */
     kr500_real kp[KR500_NQ]; /**< [1/s] */
     kr500_real kv[KR500_NQ]; /**< [N m s/rad, N s/m] of the rotor */
@@ -102,12 +102,12 @@ typedef struct {
 } kr500_controller;
 
 /** What the controller remembers from sample to sample; all zero at first. */
-typedef struct {
+typedef struct kr500_controller_state {
     kr500_real z[KR500_NQ]; /**< [rad/s, m/s] of the rotor */
 } kr500_controller_state;
 
 /** What the closed loop is to do, sample by sample, at the joints. What may be NULL is then zero throughout. */
-typedef struct {
+typedef struct kr500_reference {
     size_t samples;
     const kr500_real *q; /**< (samples x KR500_NQ) [rad, m] positions */
     const kr500_real *qd; /**< (samples x KR500_NQ) [rad/s, m/s] speeds; NULL leaves out their feedforward */
@@ -116,7 +116,7 @@ typedef struct {
 } kr500_reference;
 
 /** Where a run is written, row k at the instant of sample k, with what acts from then on; any may be NULL. */
-typedef struct {
+typedef struct kr500_log {
     kr500_real *q; /**< (samples x size of the plant) [rad, m] */
     kr500_real *qd; /**< (samples x size of the plant) [rad/s, m/s] */
     kr500_real *tau; /**< (samples x KR500_NQ) [N m, N] motor torques, on the joint side, after the cut */

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-#: Columns of a line of generated code; a longer expression is cut into temporaries.
+#: Columns that a printed expression, list or paragraph takes at most: a longer expression is cut into temporaries.
 LINE = 100
 #: Columns of a statement that its indentation and the name of its variable take.
 _MARGIN = 12

@@ -37,8 +37,8 @@ def described(signal: Signal) -> str:
 
 
 def safe(text: str) -> str:
-    """``text`` on one line, with nothing that would end a comment of C or a docstring of Python."""
-    return " ".join(text.replace("*/", "* /").replace("\\", "/").replace('"', "'").split())
+    """``text`` on one line, with nothing that would begin or end a comment of C, or a docstring of Python."""
+    return " ".join(text.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace('"', "'").split())
 
 
 def paragraph(text: str, width: int, hanging: int = 0) -> list[str]:
