@@ -87,7 +87,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
         for number, name in zip(numbers, wanted, strict=True):
             if number not in present:
                 near = difflib.get_close_matches(name, set(recording.columns) - set(wanted), n=1, cutoff=0.6)
-                expected = f"{wanted[0]} to {wanted[-1]}" + (f"; perhaps {near[0]} is meant" if near else "")
+                expected = _from_to(wanted) + (f"; perhaps {near[0]} is meant" if near else "")
                 raise InputError(recording.where(None, wanted[0]), f"there is no column {name}", expected)
         for number in sorted(present):
             if number not in numbers:
@@ -95,11 +95,15 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
                 problem = f"column {name}, but {robot.name} has {len(numbers)} moving joints"
                 raise InputError(recording.where(None, name), problem, f"{what} of this robot alone")
         return Measured(stem, tuple(wanted), np.stack([recording.columns[name] for name in wanted]))
-    choices = " or ".join(f"{stem}{numbers[0]} to {stem}{numbers[-1]}" for stem in stems)
+    choices = " or ".join(_from_to([f"{stem}{number}" for number in numbers]) for stem in stems)
     first = {f"{stem}{numbers[0]}" for stem in stems}
     close = next((column for column in recording.columns if column.replace("_", "").lower() in first), "")
     hint = f"; perhaps {close} is meant, which a sidecar's columns can say" if close else ""
     raise NoColumns(recording.where(None, close), f"there are no columns of {what}", choices + hint)
+
+
+def _from_to(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
 
 
 def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Array:

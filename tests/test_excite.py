@@ -97,7 +97,9 @@ def test_the_run_is_the_series(folder: Path) -> None:
     found = json.loads((folder / "excitation.json").read_text())
     columns = csv.read(folder / "trajectory.csv").columns
     motion = motion_of(found, columns["t"])
-    assert len(columns["t"]) == 10_000
+    assert len(columns["t"]) == 10_001
+    for rest in (0, -1):
+        assert [columns[f"qd{k}"][rest] for k in (1, 2)] == pytest.approx([0, 0], abs=1e-10)
     for k in range(2):
         assert columns[f"qr{k + 1}"] == pytest.approx(motion.q[k], abs=1e-10)
         assert columns[f"qd{k + 1}"] == pytest.approx(motion.qd[k], abs=1e-10)
@@ -160,8 +162,18 @@ def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.C
     assert expected["Fc1"]["identifiable"]
 
 
+def test_a_period_is_a_whole_number_of_samples(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("--frequency", "0.3", "--rate", "101", "--evaluations", "256", "--periods", "6")
+    done = command("excite", file, "--out", tmp_path / "out", *words, capsys=capsys)
+    assert "note: 0.299703 Hz for 0.3: a period is a whole number of samples" in done.out.splitlines()
+    columns = csv.read(tmp_path / "out" / "trajectory.csv").columns
+    assert len(columns["t"]) == 6 * 337 + 1
+    assert columns["qr2"][337:] == pytest.approx(columns["qr2"][:-337], abs=1e-10)
+
+
 REFUSED = {
     ("--frequency", "0"): "error: --frequency:1:1: 0, expected a number above 0",
+    ("--evaluations", "255"): "error: --evaluations:1:1: 255, expected a whole number from 256 to 10000000",
     ("--harmonics", "1"): "error: --harmonics:1:1: 1, expected a whole number from 2 to 50",
     ("--noise", "0.1", "0.1", "1"): "error: --noise:1:1: 3 numbers, expected one, or one for each of 2 motors",
     ("--noise", "-1"): "error: --noise:1:1: -1, expected a number that is not negative",
@@ -169,7 +181,7 @@ REFUSED = {
     ("--noise-part", "0"): "error: --noise-part:1:1: 0, and no --noise, expected a measurement that is not exact",
     ("--rate", "5"): "error: --rate:1:1: 5, expected 20 times the highest harmonic, 0.5 Hz",
     ("--frequency", "5", "--periods", "1", "--rate", "1000"): (
-        "error: --periods:1:1: 200 samples at 1000 Hz, expected at least 2000 for the filters"
+        "error: --periods:1:1: 201 samples at 1000 Hz, expected at least 2000 for the filters"
     ),
     ("--parameters", "twim"): "error: --parameters:1:1: two_links has no parameter set 'twim', expected perhaps 'twin'",
 }

@@ -95,7 +95,9 @@ def test_motor_rows_turn_the_coupling_to_the_models_side(arm: Regressors, tmp_pa
     one = found(arm, tmp_path, noise=0.0).empty[0]
     names = arm.names
     chi = np.array([truth(arm)[name] for name in names])
-    for rows in motor_rows(one, arm, N, names):
+    of_motors = list(motor_rows(one, arm, N, names))
+    assert [rows.motor for rows in of_motors] == [0, 1, 2]
+    for rows in of_motors:
         assert len(rows.i) > 50
         assert KT[rows.motor] * rows.i == pytest.approx(rows.B @ chi, abs=2e-3 * float(np.abs(rows.i).max()))
 

@@ -42,6 +42,21 @@ def test_matlab(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     assert same(load(str(tmp_path / "a.mat"), robot), good)
 
 
+def test_a_variable_of_another_length_is_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    short = stacked(good, "tau").T[:-1]
+    variables = {
+        "t": good.columns["t"][:, None],
+        "q": stacked(good, "q").T,
+        "tau": stacked(good, "tau").T,
+        "more": short,
+    }
+    scipy.io.savemat(tmp_path / "a.mat", variables)
+    run = load(str(tmp_path / "a.mat"), robot)
+    count = len(good.columns["t"])
+    note = f"{tmp_path / 'a.mat'}: more is {count - 1} x 2, of runs of {count} samples: it is left out"
+    assert run.notes == (note,)
+
+
 def test_parquet(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     import pyarrow
     from pyarrow import parquet

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from identification.excitation.results import Excitation
     from identification.observation import Regressors
 
-#: Rows that a motion may have.
-_MOST = 1e7
+#: Rows that a motion may have; difference of two frequencies that is rounding, in parts of one.
+_MOST, _SAME = 1e7, 1e-9
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -116,11 +116,13 @@ def run(arguments: argparse.Namespace) -> None:
         regressors = Regressors(robot)
     found = _designed(arguments, robot, regressors)
     files = save(found, folder, {REPORT: report(found)})
-    print(_summary(found))
+    print(_summary(found, arguments.frequency))
     print(f"files            {', '.join(files)} in {folder}/")
 
 
 def _check(arguments: argparse.Namespace) -> None:
+    from identification.excitation.design import DRAWN
+
     for option, value in (
         ("--frequency", arguments.frequency),
         ("--rate", arguments.rate),
@@ -132,7 +134,7 @@ def _check(arguments: argparse.Namespace) -> None:
     for option, count, least, most in (
         ("--harmonics", arguments.harmonics, 2, 50),
         ("--periods", arguments.periods, 1, 1000),
-        ("--evaluations", arguments.evaluations, 1, 10**7),
+        ("--evaluations", arguments.evaluations, DRAWN, 10**7),
         ("--seed", arguments.seed, 0, 2**63),
     ):
         whole_number(count, option, least, most)
@@ -144,6 +146,12 @@ def _check(arguments: argparse.Namespace) -> None:
         raise InputError(
             command_line("--rate"), f"{arguments.rate:g}", f"20 times the highest harmonic, {fastest:g} Hz"
         )
+
+
+def _rows_of_a_period(arguments: argparse.Namespace) -> int:
+    """The nearest whole number: only then do logs repeat sample by sample."""
+    result: int = round(arguments.rate / arguments.frequency)
+    return result
 
 
 def _check_noise(arguments: argparse.Namespace, robot: Robot) -> None:
@@ -174,7 +182,8 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
 
     recipe = recipes.recipe_of(robot.name, arguments.recipe)
     filters = recipe.at(arguments.rate)
-    samples = round(arguments.periods / arguments.frequency * arguments.rate)
+    # The last row is the end of the last period, at rest again.
+    samples = arguments.periods * _rows_of_a_period(arguments) + 1
     if samples < filters.fewest:
         problem = f"{samples} samples at {arguments.rate:g} Hz"
         raise InputError(command_line("--periods"), problem, f"at least {filters.fewest} for the filters")
@@ -182,7 +191,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     regressors = regressors.loaded_by(values)
     part = arguments.noise_part if arguments.noise_part is not None else 0.0 if arguments.noise else PART
     limits = limits_of(robot, arguments.speed, arguments.acceleration)
-    shapes = Shapes(limits, arguments.frequency, arguments.harmonics)
+    shapes = Shapes(limits, arguments.rate / _rows_of_a_period(arguments), arguments.harmonics)
     usual = usual_torques(shapes, regressors, values, arguments.seed)
     noise = noise_of(robot, arguments.noise or [0.0], part, usual)
     standstill = recipe.standstills(robot)
@@ -208,9 +217,12 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     )
 
 
-def _summary(found: Excitation) -> str:
+def _summary(found: Excitation, asked: float) -> str:
     solution = found.expected
     lines = [f"{found.robot.name}: {found.duration:g} s at {found.rate:g} Hz, {len(found.units)} base parameters"]
+    frequency = found.design.series.frequency
+    if abs(frequency / asked - 1) > _SAME:
+        lines.append(f"note: {frequency:.6g} Hz for {asked:g}: a period is a whole number of samples")
     if solution.hidden:
         lines.append(f"note: {listed(solution.hidden)} will not be identifiable from this motion")
     width = max(map(len, [*found.units, "parameter"]))

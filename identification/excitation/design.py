@@ -11,14 +11,16 @@ from generator.errors import InputError
 from identification.arrays import Array
 from identification.covariance_adaptation import strategy
 from identification.excitation.criterion import Criterion, sizes_and_rank
-from identification.excitation.shapes import BETWEEN, CHECKED, Shapes
+from identification.excitation.shapes import BETWEEN, CHECKED, SEARCHED, Shapes
 from identification.fourier_series import FourierSeries
 from identification.observation import Motion, Regressors
 
 Progress = Callable[[float], None]
 
-#: Random motions looked at before the best ones are improved; how many are, and motions of a generation.
-_DRAWN, _STARTS, _GENERATION = 256, 2, 24
+#: Random motions looked at before the best ones are improved.
+DRAWN = 256
+#: How many of them are improved, and motions of a generation.
+_STARTS, _GENERATION = 2, 24
 #: Generations for which the axes of the evolution stay as they are, at most, since finding them costs as much as one;
 #: and drawn numbers for each: with fewer of them, axes learn faster than several generations may be summed.
 _WAIT, _EACH = 10, 6
@@ -43,13 +45,13 @@ class Design:
 def designed(
     criterion: Criterion, shapes: Shapes, evaluations: int, seed: int, progress: Progress = lambda part: None
 ) -> Design:
-    """The best of so many ``evaluations``; the same for the same seed.
+    """The best of so many ``evaluations``, DRAWN at least; the same for the same seed.
 
     Raises InputError where no joint may be faster than its standstill threshold, and where the robot's weight alone is
     beyond the torques at the best motion's centre.
     """
     draw = np.random.default_rng(seed)
-    x = shapes.drawn(_DRAWN, draw)
+    x = shapes.drawn(DRAWN, draw)
     information, loads = criterion.information(shapes.motions(x), len(x))
     scale, rank = sizes_and_rank(information)
     if not rank:
@@ -61,12 +63,14 @@ def designed(
         return criterion.costs(*criterion.information(shapes.motions(x), len(x)), scale, rank)
 
     found = [(float(first.min()), x[int(np.argmin(first))])]
-    budget = max(evaluations - _DRAWN, 0) // _STARTS
+    budget = max(evaluations - DRAWN, 0) // _STARTS
     for k, start in enumerate(np.argsort(first)[:_STARTS]):
         if budget >= _GENERATION:
             found.append(improved(x[start], costs, budget, draw, _part_of(progress, k)))
-    cost, best = min(found, key=lambda one: one[0])
+    _, best = min(found, key=lambda one: one[0])
     series, load = _allowed(shapes.series(best), criterion, shapes)
+    information, loads = criterion.information(series.motion(shapes.instants(SEARCHED)), 1)
+    (cost,) = criterion.costs(information, loads, scale, rank).tolist()
     return Design(series, cost, float(first.min()), load)
 
 
@@ -118,7 +122,7 @@ def _allowed(series: FourierSeries, criterion: Criterion, shapes: Shapes) -> tup
 
 def usual_torques(shapes: Shapes, regressors: Regressors, values: Mapping[str, float], seed: int) -> Array:
     """Rms torques (n) [N m, N] of random motions within the limits."""
-    motions = shapes.motions(shapes.drawn(_DRAWN, np.random.default_rng(seed)))
+    motions = shapes.motions(shapes.drawn(DRAWN, np.random.default_rng(seed)))
     result: Array = np.sqrt((regressors.torques(values, motions) ** 2).mean(axis=1))
     return result
 

@@ -140,7 +140,7 @@ def _find_fault(layout: _Layout, rows: int, problem: str, words: Sequence[str] =
             mark = mark or decimal_mark(field)
             if not form.is_number(field):
                 problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
-                units = row == 0 and not any(map(form.is_number, fields))
+                units = row == 0 and not any(map(form.is_number, fields)) and not re.search(r"\d", text)
                 raise InputError(layout.place(row, name), problem, _NO_UNITS if units else "a number")
             if form.separator != "," and other_marks(field, mark):
                 problem = f"{name} is {field.strip()!r}"

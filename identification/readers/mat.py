@@ -18,7 +18,7 @@ EXTENSIONS = (".mat",)
 def read(path: Path) -> Recording:
     """The numeric variables of a file; a matrix ``q`` of n columns gives ``q1`` to ``qn``, a scalar a constant column.
 
-    The number of samples is that of ``t``, else of the longest variable. What has another length is not a column.
+    The number of samples is that of ``t``, else of the longest variable. What has another length is left out, and told.
     Raises InputError for a file that is not of this format, and for a column that two variables make.
     """
     file = str(path)
@@ -39,12 +39,16 @@ def read(path: Path) -> Recording:
     arrays = {name: value for name, value in arrays.items() if value.size}
     length = max(arrays["t"].shape) if "t" in arrays else max((max(a.shape) for a in arrays.values()), default=0)
     columns: dict[str, Array] = {}
+    notes: list[str] = []
     for name, value in arrays.items():
         found = _columns(name, value, length)
+        if not found:
+            size = " x ".join(map(str, value.shape))
+            notes.append(f"{file}: {name} is {size}, of runs of {length} samples: it is left out")
         if twice := columns.keys() & found.keys():
             raise InputError(Place(file), f"column {min(twice)} is there twice", "each column once")
         columns |= found
-    return Recording(file, columns, digest(path), by_count(file, list(columns)))
+    return Recording(file, columns, digest(path), by_count(file, list(columns)), tuple(notes))
 
 
 def _columns(name: str, value: Array, length: int) -> dict[str, Array]:

@@ -9,6 +9,7 @@ import numpy as np
 from generator.bounds import above, not_negative, whole_number
 from generator.command_line import command_line
 from generator.errors import InputError
+from generator.review.words import plural
 from generator.robot.description import Robot
 from generator.robot.fields import nearest
 from identification.arrays import Array
@@ -89,7 +90,9 @@ def _check_rates(settings: Settings) -> None:
     if asked > _MOST:
         raise InputError(command_line("--duration"), f"{asked:g} samples", f"at most {_MOST}")
     if settings.samples < 2:
-        raise InputError(command_line("--duration"), f"{settings.duration:g} s is one sample", "a longer run")
+        raise InputError(
+            command_line("--duration"), f"{settings.duration:g} s, {plural(settings.samples, 'sample')}", "a longer run"
+        )
     if settings.log_rate is not None:
         ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
         if ratio < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:

@@ -153,7 +153,7 @@ class Loop:
 class Encoders:
     """The motors' encoders: steps of a resolution, a delay; ``q`` (n) is what they last told, in joint units.
 
-    Speeds are differences of the steps over one sample where there is a resolution, else the motors' own.
+    Speeds are differences of positions over one sample where any motor has a resolution, else the motors' own.
     """
 
     def __init__(self, robot: Robot, settings: Settings, start: Array) -> None:
