@@ -8,7 +8,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from generator.effects.library import lacking
+from generator.effects.library import lacking, names_of_effects
 from generator.errors import InputError
 from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
@@ -28,6 +28,7 @@ def parameter_vector(model: Model, values: Values) -> Vector:
 
     Raises InputError for an unknown name, a wrong unit, and base beside standard parameters.
     """
+    values = regrouped(model, values)
     _, standard = _kinds(model, values)
     known = {name: value.value for name, value in values.items()} | (_grouped(model, values) if standard else {})
     vector = model.default_parameters()
@@ -46,6 +47,24 @@ def standard_vector(model: Model, values: Values) -> Vector:
     if base:
         raise InputError(values[base[0]].place, f"{base[0]} is a base parameter", "standard parameters alone")
     return np.array([_number(values, parameter.name) for parameter in model.standard_parameters])
+
+
+def regrouped(model: Model, values: Values) -> dict[str, ParameterValue]:
+    """Values with the names of base parameters to which an effect of the robot has added its own since they were told:
+    ``MX1`` beside others' ``ZZ1R`` is what of ``MX1R`` was alone.
+    """
+    numeric, standard = model.grouping.numeric(), {parameter.name for parameter in model.standard_parameters}
+    if not any(name in numeric and name not in standard for name in values):
+        return dict(values)
+    of_effects = names_of_effects(model.robot)
+    result = {}
+    for name, value in values.items():
+        more = f"{name}R"
+        grown = (
+            name not in numeric and more not in values and {name} < set(numeric.get(more, ())) <= {name} | of_effects
+        )
+        result[more if grown else name] = value
+    return result
 
 
 def resolved_sets(model: Model) -> dict[str, dict[str, float]]:

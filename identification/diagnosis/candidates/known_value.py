@@ -46,13 +46,12 @@ def _beyond(effect: Effect, variable: str, joint: Joint, k: int, scene: Scene) -
         kind=VALUE,
         joints=(joint.number,),
         variable=variable,
-        grouped=_with_bodies(scene, f"{parameter.stem}{joint.number}"),
+        grouped=_is_grouped(scene, f"{parameter.stem}{joint.number}"),
         of_motion=True,
     )
 
 
-def _with_bodies(scene: Scene, name: str) -> bool:
-    """Whether a base parameter holds a parameter together with those of bodies."""
-    of_effects = names_of_effects(scene.robot)
-    holding = [terms for terms in scene.regressors.model.grouping.numeric().values() if name in terms]
-    return any(not of_effects.issuperset(terms) for terms in holding)
+def _is_grouped(scene: Scene, name: str) -> bool:
+    """Whether a base parameter of another name holds a parameter, or one together with those of bodies."""
+    numeric = scene.regressors.model.grouping.numeric()
+    return name not in numeric or not names_of_effects(scene.robot).issuperset(numeric[name])

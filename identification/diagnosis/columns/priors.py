@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from generator.effects.library import motor_side
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.model import Model
-from generator.symbolic.parameter_sets import resolved
+from generator.symbolic.parameter_sets import regrouped, resolved
 from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.named_set import named_set
@@ -59,7 +59,8 @@ def notes_of(model: Model, name: str) -> list[str]:
 
 def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
     """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_untold``)."""
-    given = _joined(model, named_set(model.robot, name, model.robot.place).values)
+    told = _joined(model, named_set(model.robot, name, model.robot.place).values)
+    given = regrouped(model, told)
     values = resolved(model, given)
     largest: dict[str, float] = {}
     for one in given.values():
@@ -77,12 +78,14 @@ def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
                 map_[row, keys.index(key)] = float(coefficient.subs(lengths))
     mean = np.array([values[parameter.name] for parameter in model.base_parameters])
     prior = Prior(mean, _precision(map_ * np.array([deviation[key] for key in keys])))
-    return prior, _unknown(model, given, prior)
+    return prior, _unknown(model, told, given, prior)
 
 
-def _unknown(model: Model, given: Mapping[str, ParameterValue], prior: Prior) -> dict[str, Array]:
+def _unknown(
+    model: Model, told: Collection[str], given: Mapping[str, ParameterValue], prior: Prior
+) -> dict[str, Array]:
     """How much the base parameters hold (p) of each parameter of an effect that is not ``given``, by its name, where
-    something would be known of one of them.
+    something would be known of one of them; those of which the set says all (``told``) hold nothing more.
     """
     names = [
         name
@@ -90,7 +93,7 @@ def _unknown(model: Model, given: Mapping[str, ParameterValue], prior: Prior) ->
         for name, parameter in zip(one.names, one.effect.parameters, strict=True)
         if not parameter.refines
     ]
-    whole = np.array([one.name in given for one in model.base_parameters])
+    whole = np.array([one.name in told for one in model.base_parameters])
     parts = {each: np.where(whole, 0.0, model.grouping.coefficients(each)) for each in names if each not in given}
     return {each: part for each, part in parts.items() if np.any(part[prior.known])}
 
