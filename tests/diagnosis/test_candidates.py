@@ -289,7 +289,7 @@ def test_what_the_file_corrects_is_not_offered(known_robots: Callable[[str], Kno
         drives=replace(robot.drives, torque_drift=tuple(Fraction(int(k == 1)) for k in range(n))),
         effects=(*robot.effects, EffectUse("coupled_rotor", (2,))),
     )
-    for candidate in ("position_offset", "torque_gain", "torque_delay", "current_limit", "torque_drift"):
+    for candidate in ("position_offset", "torque_gain", "current_limit", "torque_drift"):
         assert offered([scene], candidate, 2), candidate
         assert not offered([with_robot(scene, changed)], candidate, 2), candidate
     for candidate in ("position_offset", "torque_gain", "torque_delay", "torque_drift"):

@@ -17,7 +17,7 @@ from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.refit import with_values
 from identification.diagnosis.mending.repair import repaired
-from identification.diagnosis.verdict.alternatives import OTHER_BODY
+from identification.diagnosis.verdict.alternatives import OTHER_BODY, OTHER_GEOMETRY
 from identification.diagnosis.verdict.doubts import doubted
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.observation import Regressors
@@ -49,6 +49,8 @@ def test_another_offset_than_the_known_one_is_found(tmp_path: Path) -> None:
     assert value.value == pytest.approx(MORE, abs=3 * value.std)
     assert value.std < 0.1 * abs(MORE)
     assert not found.contradicted
+    little = doubted(replace(one, evidence=replace(one.evidence, sizes={0: 0.28})), 0.0, (), True)
+    assert (little.status, [each.effect for each in little.alternatives]) == (TENTATIVE, [OTHER_GEOMETRY])
 
 
 def test_another_inertia_of_a_rotor_is_found(tmp_path: Path) -> None:

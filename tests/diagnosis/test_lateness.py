@@ -42,9 +42,12 @@ def swinging(t: Array, slow: Motion) -> Motion:
     )
 
 
-def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS) -> Diagnosis:
-    """Of two links whose motors are recorded late by so many milliseconds, of which the file does not know."""
-    (folder / "two_links.yaml").write_text(text)
+def late_by(folder: Path, delays: tuple[int, int], text: str = TWO_LINKS, stated: int = 0) -> Diagnosis:
+    """Of two links whose motors are recorded late by so many milliseconds, of which the file does not know, or says
+    other ones.
+    """
+    said = f"signals: {{torque_delay: [{stated} ms, {stated} ms]}}\n" if stated else ""
+    (folder / "two_links.yaml").write_text(text + said)
     (folder / "late.yaml").write_text(f"{text}signals: {{torque_delay: [{delays[0]} ms, {delays[1]} ms]}}\n")
     robot, true, draw = read(folder / "two_links.yaml"), read(folder / "late.yaml"), np.random.default_rng(3)
     regressors, sources = Regressors(robot), []
@@ -99,6 +102,15 @@ def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[
     for motor, delay in enumerate(delays, 1):
         whole = told.get("torque_delay", 0.0) + told.get(f"torque_delay{motor}", 0.0)
         assert whole == pytest.approx(1e-3 * delay, abs=3e-4)
+
+
+@pytest.mark.parametrize(("stated", "more"), [(-3, 7), (4, 0)])
+def test_torques_are_late_by_more_than_is_stated(stated: int, more: int, tmp_path: Path) -> None:
+    found = late_by(tmp_path, (4, 4), stated=stated)
+    assert [one.hypothesis.key for one in found.findings] == [("torque_delay", 0)] * (more > 0)
+    for one in found.findings:
+        assert one.hypothesis.title == "delay between torque and position of all joints beyond the stated one"
+        assert one.parameters["torque_delay"].value == pytest.approx(1e-3 * more, abs=2e-4)
 
 
 def test_nothing_is_late_where_nothing_is(tmp_path: Path) -> None:

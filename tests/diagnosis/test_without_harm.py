@@ -17,10 +17,14 @@ from identification.residuals import Residual
 OLD = 0.1
 
 
-def finding(name: str, joints: Sequence[int], drop: float, status: str = TENTATIVE) -> Any:
+def finding(
+    name: str, joints: Sequence[int], drop: float, status: str = TENTATIVE, on: Sequence[int] | None = None
+) -> Any:
+    """One on joints, or ``on`` some of those that its torque reaches."""
     return SimpleNamespace(
         name=name,
         status=status,
+        joints=tuple(joints if on is None else on),
         amplitude=dict.fromkeys(joints, 1.0),
         evidence=SimpleNamespace(drop=drop),
         hypothesis=SimpleNamespace(named=name),
@@ -55,6 +59,13 @@ def test_what_spoils_its_joint_is_left_out_and_told() -> None:
     assert notes == [
         "gain is not in the new model, which is worse with it on joint 1 (20 % of it is left, 10 % without)"
     ]
+
+
+def test_what_a_link_s_swing_helps_on_its_neighbours_does_not_count() -> None:
+    worse = {frozenset({"gain"}): {1: 0.2, 2: 0.08}}
+    assert kept([finding("gain", [1, 2], 50.0, on=[1])], worse)[0] == set()
+    assert kept([finding("gain", [1, 2], 50.0, on=[2])], worse)[0] == {"gain"}
+    assert kept([finding("gain", [1, 2], 50.0, on=[3])], worse)[0] == {"gain"}
 
 
 def test_what_is_not_the_cause_stays() -> None:

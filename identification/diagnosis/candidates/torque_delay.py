@@ -37,29 +37,22 @@ class _Told:
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One delay of all torques, and one of each motor's own, without those that the robot's file states.
+    """One delay of all torques, and one of each motor's own, beyond those that the robot's file states.
 
-    The coefficient is ``torque_delay`` of the file's signals; it is negative where positions come later than torques.
+    The coefficient adds to ``torque_delay`` of the file's signals; it is negative where positions come later than
+    torques.
     """
     if not scenes:
         return []
-    moving, stated = scenes[0].robot.moving, scenes[0].robot.signals.torque_delay
-    if stated and all(stated):
-        return []
+    moving = scenes[0].robot.moving
     late, as_late = latenesses(scenes)
-    shared = None if any(stated) else delay_of(as_late)
+    shared = delay_of(as_late)
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
     each = [delay_of([one], start) for one in late]
     whole = [start + _value(beyond) for beyond in each]
     together = None if shared is None else _Told(shared, as_late, whole)
     told = [None if one is None else _Told(one, late, whole) for one in each]
-    own = [
-        _hypothesis(scenes, (joint,), k, start if told[k] else 0.0, told[k])
-        for k, joint in enumerate(moving)
-        if not (stated and stated[k])
-    ]
-    if any(stated):
-        return own
+    own = [_hypothesis(scenes, (joint,), k, start if told[k] else 0.0, told[k]) for k, joint in enumerate(moving)]
     return [_hypothesis(scenes, moving, None, 0.0, together), *(own if len(moving) > 1 else ())]
 
 
@@ -67,11 +60,11 @@ def _hypothesis(
     scenes: Sequence[Scene], joints: Sequence[Joint], k: int | None, start: float, told: _Told | None
 ) -> Hypothesis:
     """Of a delay beyond one of all motors that is ``start`` [s]."""
-    joint = None if k is None else joints[0]
+    joint, stated = None if k is None else joints[0], any(scenes[0].robot.signals.torque_delay)
     quiet = None if told is None else _quiet(scenes, k, start, told)
     return Hypothesis(
         "torque_delay",
-        "delay between torque and position" + (" of all joints" if k is None else ""),
+        "delay between torque and position" + " of all joints" * (k is None) + " beyond the stated one" * stated,
         0 if joint is None else joint.number,
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
         partial(_columns, k, joint, start, told, quiet),

@@ -23,9 +23,9 @@ def without_harm(
     model_of: Callable[[Sequence[Finding]], WrittenModel],
     tried_with: Callable[[WrittenModel], Mapping[int, Untouched]],
 ) -> tuple[WrittenModel, list[str]]:
-    """The ``model`` without tentative findings that make it worse than the old one on each of their joints and without
-    which it is better there, those of least evidence first, then all together of the same joints; and what is to be
-    told. What is known of bodies must not be contradicted in their place.
+    """The ``model`` without tentative findings that make it worse than the old one on each joint they are on, and
+    without which it is better there, those of least evidence first, then all together of the same joints; and what is
+    to be told. What is known of bodies must not be contradicted in their place.
     """
     notes: list[str] = []
     doubtful = sorted((one for one in model.findings if one.status == TENTATIVE), key=lambda one: one.evidence.drop)
@@ -40,7 +40,7 @@ def without_harm(
         less = model_of([other for other in model.findings if other not in several])
         instead = tried_with(less)
         what = listed([one.hypothesis.named for one in several])
-        if not all(replace(tried[j], before=instead[j].after).worse for j in several[0].amplitude):
+        if not all(replace(tried[j], before=instead[j].after).worse for j in _where(several[0])):
             continue
         if others := sorted(set(less.fit.contradicted).difference(model.fit.contradicted)):
             it = "it" if len(several) == 1 else "them"
@@ -50,7 +50,7 @@ def without_harm(
         told = [
             f"joint {j} ({tried[j].after.relative_to_mean:.3g} % of it is left, "
             f"{instead[j].after.relative_to_mean:.3g} % without)"
-            for j in several[0].amplitude
+            for j in _where(several[0])
         ]
         is_not, it = ("is not", "it") if len(several) == 1 else ("are not", "them")
         notes.append(f"{what} {is_not} in the new model, which is worse with {it} on {', '.join(told)}")
@@ -62,9 +62,14 @@ def _of_the_same_joints(found: Sequence[Finding]) -> list[list[Finding]]:
     """Findings that act on the same joints, where there are several: one may hide what the other spoils."""
     groups: dict[tuple[int, ...], list[Finding]] = {}
     for one in found:
-        groups.setdefault(tuple(one.amplitude), []).append(one)
+        groups.setdefault(_where(one), []).append(one)
     return [several for several in groups.values() if len(several) > 1]
 
 
 def _spoiled(one: Finding, tried: Mapping[int, Untouched]) -> bool:
-    return bool(one.amplitude) and all(j in tried and tried[j].worse for j in one.amplitude)
+    return bool(where := _where(one)) and all(j in tried and tried[j].worse for j in where)
+
+
+def _where(one: Finding) -> tuple[int, ...]:
+    """The joints that it is on: how a link swings shows on its neighbours too, but little."""
+    return tuple(j for j in one.amplitude if j in one.joints) or tuple(one.amplitude)

@@ -42,7 +42,8 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     it is largest, it is one of ``several`` springs on a joint, or the runs do not tell the values that make it a
     balancer or a payload and not any torque; the values of what slides before it slips, and where no motion
     ``repeats`` those of any effect; where it is little of what links do that stand elsewhere, of which a ``free``
-    fit takes up most, however they come to stand there; or where no motion tells it from a value of a body.
+    fit takes up most, however they come to stand there; where no motion tells it from a value of a body; or where a
+    known offset is other by so little that any other fault of what is known makes as much.
     """
     effect, kind = one.hypothesis.effect, one.hypothesis.kind
     if reasons := _any_torque(one, remains, several):
@@ -63,6 +64,10 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         told = "data of motor and gear, or of the bodies"
         other = outside(OTHER_BODY, "another value of a body than the known one", one.joints, one.evidence, told)
         return one.doubted("no motion tells it from a value of a body", alternatives=[other])
+    if kind == VALUE and effect == "offset" and one.evidence.size < _FAINT:
+        poses = "measured poses of the tool, and other sources of what is known"
+        other = outside(OTHER_GEOMETRY, "another fault of what is known", one.joints, one.evidence, poses)
+        return one.doubted(_SMALL, alternatives=[other])
     if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
     if kind in (EFFECT, ELASTIC) and not one.determined and not repeats:
