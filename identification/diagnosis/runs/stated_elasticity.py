@@ -1,9 +1,10 @@
 """Drive trains that the robot's file says give way: what they add to the torques of rigid joints.
 
-With q the motors' positions over the gears and q + e the links', M e'' + D e' + K e = -tau, M and tau those of the
-links alone along q (report eq. 7, 8), all joints of the file at once: their swings pull at each other. What the motors
-supply more than for rigid joints is one column; how it changes with each stiffness and each damping, which no file
-states, are others. They are fitted with the base parameters: where the runs are of a rigid robot they come out as zero.
+With q the motors' positions over the gears and q + e the links', M e'' + (C + D) e' + K e = -tau, M and tau those of
+the links alone along q, C what tau changes by with the speeds: an inertia that grows slows a link down (report eq. 7,
+8). All joints of the file at once: their swings pull at each other. What the motors supply more than for rigid joints
+is one column; how it changes with each stiffness and each damping, which no file states, are others. They are fitted
+with the base parameters: where the runs are of a rigid robot they come out as zero.
 """
 
 from __future__ import annotations
@@ -226,13 +227,22 @@ class _Links:
         return max(round(_HELD / self.scene.period), 1)
 
     @cached_property
+    def held(self) -> Motion:
+        """One sample in ``samples_per_inertia``, the middle one of them."""
+        count, last = self.samples_per_inertia, self.scene.motion.samples - 1
+        return self.scene.motion.at(np.minimum(np.arange(0, last + 1, count) + count // 2, last))
+
+    @cached_property
+    def drag(self) -> Array:
+        """Change of the loads per unit of the links' speeds (C x m x m), as the inertia."""
+        changes = [sensitivity(self.torque_on, self.held, alone(self.held, k, (0.0, 1.0, 0.0))) for k in self.at]
+        return np.stack([change[self.at].T for change in changes], axis=-1)
+
+    @cached_property
     def inertia(self) -> Array:
         """Of the links (C x m x m), once in ``samples_per_inertia``."""
-        motion = self.scene.motion.at(slice(0, None, self.samples_per_inertia))
-        still = self.torque_on(motion)
-        result = np.empty((motion.samples, len(self.at), len(self.at)))
-        for j, k in enumerate(self.at):
-            result[:, :, j] = (self.torque_on(quicker(motion, k)) - still)[self.at].T
+        still = self.torque_on(self.held)
+        result = np.stack([(self.torque_on(quicker(self.held, k)) - still)[self.at].T for k in self.at], axis=-1)
         # Values that hardly show may make too little inertia: nothing swings too fast for the samples.
         root = np.sqrt([one.stiffness for one in self.trains])
         scaled = (result + result.transpose(0, 2, 1)) / (2 * np.outer(root, root))
@@ -262,7 +272,8 @@ class _Links:
         inverse = np.linalg.inv(self.inertia)
         F = np.zeros((len(inverse), V, 2 * m, 2 * m))
         F[..., :m, m:] = np.eye(m)
-        F[..., m:, :m], F[..., m:, m:] = -inverse[:, None] * K[:, None], -inverse[:, None] * D[:, None]
+        slows = self.drag[:, None] + D[:, None] * np.eye(m)
+        F[..., m:, :m], F[..., m:, m:] = -inverse[:, None] * K[:, None], -inverse[:, None] @ slows
         even = np.eye(2 * m) + F @ F * (h * h / 12)
         P = np.linalg.inv(even - F * (h / 2))
         A = P @ (even + F * (h / 2))
@@ -283,6 +294,6 @@ class _Links:
             x[t, ..., 0] += b[block, ..., i]
         for v in range(V):
             e, speed = x[:, v, :m, 0], x[:, v, m:, 0]
-            pull = load + D[v] * speed + K[v] * e
+            pull = load + (slows[each, v] @ speed[..., None])[..., 0] + K[v] * e
             acceleration = -(inverse[each] @ pull[..., None])[..., 0]
             yield np.stack([e.T, speed.T, acceleration.T])
