@@ -73,7 +73,7 @@ def _of_commands(folder: Path) -> dict[str, bytes]:
     robot.write_text(robot_text())
     few = ["--duration", "6", "--noise", "0.3", "--parameters", "twin"]
     made = {
-        "excite": ["excite", robot, "--evaluations", "200", "--parameters", "twin"],
+        "excite": ["excite", robot, "--evaluations", "256", "--parameters", "twin"],
         "output_error": ["output-error", robot, "--data", run, "--test", f"{run}@1:5", "--starts", "2"],
     }
     assert main(["simulate", str(robot), *few, "--out", str(run)]) == 0

@@ -210,7 +210,7 @@ def test_functions_without_parameters_take_null(library: Path) -> None:
 
 def test_what_depends_on_parameters_alone_is_prepared(library: Path) -> None:
     header, source = ((library / name).read_text() for name in ("toy.h", "toy.c"))
-    fields = re.search(r"typedef struct \{([^}]*)\} toy_prepared;", header)
+    fields = re.search(r"typedef struct toy_prepared \{([^}]*)\} toy_prepared;", header)
     assert fields is not None
     found = re.findall(r"toy_real (\w+); /\*\*< (.*) \*/", fields[1])
     assert found == [
