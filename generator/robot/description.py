@@ -225,6 +225,10 @@ class Robot:
         """The frame where wrenches act and payloads sit: the file's tool frame, else the last frame."""
         return next((joint for joint in self.joints if joint.tool), self.joints[-1])
 
+    def has(self, effect: str, number: int) -> bool:
+        """Whether the file asks for an effect on joint ``number``."""
+        return any(use.effect == effect and number in use.joints for use in self.effects)
+
     def use(self, effect: str, number: int) -> EffectUse:
         """Where the file asks for an effect on joint ``number``."""
         return next(use for use in self.effects if use.effect == effect and number in use.joints)

@@ -1,5 +1,7 @@
 """Findings written into robot files: read back, derived, and nothing else of the text touched."""
 
+from __future__ import annotations
+
 import difflib
 import re
 from pathlib import Path

@@ -30,7 +30,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         _beyond(effect, variable, joint, k, scenes[0])
         for effect, variable in _EFFECTS
         for k, joint in enumerate(scenes[0].robot.moving)
-        if any(use.effect == effect.id and joint.number in use.joints for use in scenes[0].robot.effects)
+        if scenes[0].robot.has(effect.id, joint.number)
         if any(scene.moves(k) for scene in scenes)
     ]
 

@@ -33,11 +33,10 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     robot = scenes[0].robot
-    taken = {number for use in robot.effects if use.effect == EFFECT.id for number in use.joints}
     return [
         _hypothesis(robot, joint, other, ratio, stated)
         for other, joint in pairwise(robot.moving[-_WRIST:])
-        if joint.number not in taken and _moved_by(robot, joint) == other
+        if not robot.has(EFFECT.id, joint.number) and _moved_by(robot, joint) == other
         for ratio, stated in _ratios(robot, joint, other)
     ]
 

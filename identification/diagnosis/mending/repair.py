@@ -115,7 +115,7 @@ def as_written(one: Addition, robot: Robot, k: int) -> bool:
 
 def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     effect = library()[one.effect]
-    there = [j for j in one.joints if _has(robot, one.effect, j)]
+    there = [j for j in one.joints if robot.has(one.effect, j)]
     new = [j for j in one.joints if j not in there]
     notes = [f"joint {j} has the effect {one.effect} already; the file's stays" for j in there]
     if not new:
@@ -127,10 +127,6 @@ def _add_effect(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     values = _values(effect, robot.joints[new[0] - 1], one.values)
     entry = f"{{effect: {one.effect}, {where}{f', values: {{{values}}}' if values else ''}}}"
     return with_item(text, "effects", entry, _comment(robot, one)), notes
-
-
-def _has(robot: Robot, effect: str, number: int) -> bool:
-    return any(use.effect == effect and number in use.joints for use in robot.effects)
 
 
 def _comment(robot: Robot, one: Addition) -> str:
@@ -228,7 +224,7 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
         "is integrated with what was found, beside the generated inverse dynamics of rigid joints"
     ]
     for number in one.joints:
-        if one.parameters.get(f"Iam{number}") and not _has(robot, ROTOR.id, number):
+        if one.parameters.get(f"Iam{number}") and not robot.has(ROTOR.id, number):
             rotor = Addition(EFFECT, ROTOR.id, (number,), evidence=f"{ROTOR.title}, by how the link swings")
             text, _ = _add_effect(text, robot, rotor)
             robot = robot_of(text, robot.place.file)

@@ -216,13 +216,16 @@ def _many_steps(count: int) -> casadi.Function:
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
     """The scene's values with those of the joint's own drive-train effects taken out, ``rotor`` from where it is
-    grouped.
+    grouped: one that was found beside a model without it is in no base parameter.
     """
     model = scene.regressors.model
-    own, grouped = _of_motor(model, model.robot.moving[k].number), model.grouping.numeric()
+    number = model.robot.moving[k].number
+    own, grouped = _of_motor(model, number), model.grouping.numeric()
     result = dict(scene.values)
     result |= {name: 0.0 for name, terms in grouped.items() if set(terms) <= own}
-    for name, per_inertia in scene.regressors.rotors[k].items():
+    beside = scene.found(f"Ia{number}") and not scene.robot.has("rotor_inertia", number)
+    rotors = {} if beside else scene.regressors.rotors[k]
+    for name, per_inertia in rotors.items():
         if not set(grouped[name]) <= own:
             result[name] = result.get(name, 0.0) - per_inertia * rotor
     return result
