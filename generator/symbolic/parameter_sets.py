@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import sympy
@@ -64,6 +65,21 @@ def regrouped(model: Model, values: Values) -> dict[str, ParameterValue]:
             name not in numeric and more not in values and {name} < set(numeric.get(more, ())) <= {name} | of_effects
         )
         result[more if grown else name] = value
+    return result
+
+
+def shifted(model: Model, values: Values, name: str, more: float) -> dict[str, ParameterValue]:
+    """Those of the base parameters ``values`` that hold the standard parameter ``name``, with ``more`` [SI] of it; they
+    are as uncertain as before.
+    """
+    result = {}
+    for base, terms in model.grouping.numeric().items():
+        if name in terms and base in values:
+            before = values[base]
+            now = before.value + terms[name] * more
+            spread = before.relative_std
+            scaled = spread * abs(before.value / now) if spread is not None and now else None
+            result[base] = replace(before, value=now, relative_std=scaled)
     return result
 
 

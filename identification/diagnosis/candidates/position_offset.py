@@ -9,7 +9,7 @@ import numpy as np
 
 from generator.robot.description import PRISMATIC, Joint
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import change_of, sensitivity
 from identification.diagnosis.runs.scene import Scene
 
@@ -18,19 +18,19 @@ _LARGEST = {False: 0.3, True: 0.1}
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a joint, without those that the robot's file corrects; the coefficient is ``position_offset`` there."""
+    """One a joint; the coefficient adds to ``position_offset`` of the file's signals."""
     if not scenes:
         return []
     robot = scenes[0].robot
-    stated = robot.signals.position_offset
-    return [_hypothesis(k, joint) for k, joint in enumerate(robot.moving) if not (stated and stated[k])]
+    stated = robot.signals.position_offset or [0] * len(robot.moving)
+    return [_hypothesis(k, joint, stated[k] != 0) for k, joint in enumerate(robot.moving)]
 
 
-def _hypothesis(k: int, joint: Joint) -> Hypothesis:
+def _hypothesis(k: int, joint: Joint, stated: bool) -> Hypothesis:
     largest = _LARGEST[joint.sigma == PRISMATIC]
     return Hypothesis(
         "position_offset",
-        "offset of the encoder",
+        "offset of the encoder" + BEYOND * stated,
         joint.number,
         (Coefficient(f"position_offset{joint.number}", joint.position_unit, -largest, largest),),
         partial(_columns, k),

@@ -16,7 +16,7 @@ from generator.robot.description import Joint
 from identification.arrays import Array
 from identification.corrections import earlier
 from identification.diagnosis.columns.confirmed import confirmed
-from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.columns.lateness import LONGEST, Lateness, delay_of, latenesses, torques
 from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
@@ -64,7 +64,7 @@ def _hypothesis(
     quiet = None if told is None else _quiet(scenes, k, start, told)
     return Hypothesis(
         "torque_delay",
-        "delay between torque and position" + " of all joints" * (k is None) + " beyond the stated one" * stated,
+        "delay between torque and position" + " of all joints" * (k is None) + BEYOND * stated,
         0 if joint is None else joint.number,
         (Coefficient(_name(joint), "s", -LONGEST - start, LONGEST - start),),
         partial(_columns, k, joint, start, told, quiet),

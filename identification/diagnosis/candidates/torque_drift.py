@@ -2,7 +2,8 @@
 
 The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from the recording's beginning,
 or what the square of the motor's torque has heated since then, or a temperature's rise where the runs have one.
-``drift`` is ``torque_drift`` of the robot's drives; with ``start`` the constant differs already where w is 0.
+``drift`` adds to ``torque_drift`` of the robot's drives, d: (1 + d w)(1 + drift w/(1 + d w)) is 1 + (d + drift) w. With
+``start`` the constant differs already where w is 0.
 
 The true torque is linear in both, what is recorded is not: columns are of the torque that is recorded, not of the true
 one, as soon as an earlier search has found a drift, and a large one is exact.
@@ -17,14 +18,15 @@ import numpy as np
 
 from generator.robot.description import Joint
 from identification.arrays import Array
-from identification.corrections import by_heat
-from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis, ShapeRange
+from identification.corrections import by_heat, drifting
+from identification.diagnosis.columns.hypothesis import BEYOND, DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.warming import following, warm_up_times
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.residuals import rms
 
-_LARGEST = 0.6
+#: Of what is found, and of that and what the file states.
+_LARGEST, _WHOLE = 0.6, 0.95
 #: Of the warmth, in what part of a torque is recorded.
 _DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
@@ -33,18 +35,17 @@ _RISE = 2.0
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """By the warmth of the file, else by time, by the heat of the motor and, where every run has the joint's
-    temperature, by that too; none for a drift that the file states.
+    temperature, by that too.
     """
-    if not scenes or (drives := scenes[0].robot.drives) is None:
+    if not scenes or scenes[0].robot.drives is None:
         return []
-    robot, stated = scenes[0].robot, drives.torque_drift
+    robot = scenes[0].robot
     time = warm_up_times(scenes)
     found = []
     for k, joint in enumerate(robot.moving):
-        if stated and stated[k]:
-            continue
         if any(scene.warmth_is_stated(k) for scene in scenes):
-            found.append(_hypothesis(k, joint, "drive's warmth", recorded=by_heat(robot, k)))
+            stated = dict(drifting(robot)).get(k, 0.0)
+            found.append(_hypothesis(k, joint, "drive's warmth", recorded=by_heat(robot, k), stated=stated))
             continue
         found.append(_hypothesis(k, joint, "time since the start", (time,)))
         usual = max(rms(scene.motor_torque(k)) for scene in scenes)
@@ -73,14 +74,15 @@ def _exactly(name: str, unit: str, value: float) -> ShapeRange:
 
 
 def _hypothesis(
-    k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = (), recorded: bool = False
+    k: int, joint: Joint, along: str, shapes: tuple[ShapeRange, ...] = (), recorded: bool = False, stated: float = 0.0
 ) -> Hypothesis:
+    lower, upper = max(-_LARGEST, min(-_WHOLE - stated, 0.0)), min(_LARGEST, max(_WHOLE - stated, 0.0))
     return Hypothesis(
         "torque_drift",
-        f"drift of the torque constant with the {along}",
+        f"drift of the torque constant with the {along}{BEYOND * bool(stated)}",
         joint.number,
         (
-            Coefficient(f"torque_drift{joint.number}", "1", -_LARGEST, _LARGEST, essential=True),
+            Coefficient(f"torque_drift{joint.number}", "1", lower, upper, essential=True),
             Coefficient(f"start{joint.number}", "1", -_LARGEST, _LARGEST),
         ),
         partial(_columns, k),
@@ -109,6 +111,7 @@ def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
 
 def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> Array:
     own, w = supplied(scene.robot, k, torque), _warmth(k, scene, shape)
+    w = w / (1 + dict(drifting(scene.robot)).get(k, 0.0) * w)
     number = scene.robot.moving[k].number
     if not scene.found(f"torque_drift{number}") or not np.all(np.isfinite(w)):
         return -np.stack([own * w, own])

@@ -8,30 +8,29 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 
-#: Relative errors e of a torque: with them ``torque_gain`` stays within what a robot file may say; and the size up to
-#: which a free fit, whose parameters take up most of a gain, tells one from what a joint lacks otherwise.
-_LEAST, _LARGEST, _BELIEVED = -0.65, 1.9, 0.6
-#: What e looks like beside known values and a model whose torque was fitted to the recorded one: 1 + e times the true
-#: one.
-_FITTED = _LEAST / (1 + _LEAST)
+#: Recorded torques in parts of the true ones: with them ``torque_gain`` stays within what a robot file may say.
+_LEAST, _LARGEST = 0.35, 2.9
+#: Size of e up to which a free fit, whose parameters take up most of a gain, tells one from what a joint lacks
+#: otherwise.
+_BELIEVED = 0.6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a motor, without those whose gain the robot's file states."""
+    """One a motor; where the robot's file states a gain, of what is left with it."""
     if not scenes:
         return []
     robot = scenes[0].robot
-    stated = robot.signals.torque_gain
+    stated = robot.signals.torque_gain or [1] * len(robot.moving)
     return [
         Hypothesis(
             "torque_gain",
-            "error of the torque's gain",
+            "error of the torque's gain" + BEYOND * bool(stated[k] != 1),
             joint.number,
-            (_coefficient(f"torque_gain_error{joint.number}", scenes),),
+            (_coefficient(f"torque_gain_error{joint.number}", float(stated[k]), scenes),),
             partial(_columns, k),
             kind=SIGNAL,
             joints=(joint.number,),
@@ -47,13 +46,16 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             of_model=partial(_of_model, k),
         )
         for k, joint in enumerate(robot.moving)
-        if not (stated and stated[k] != 1)
     ]
 
 
-def _coefficient(name: str, scenes: Sequence[Scene]) -> Coefficient:
-    least = _LEAST if any(scene.settled or scene.found(name) for scene in scenes) else _FITTED
-    return Coefficient(name, "1", least, _LARGEST, believed=_BELIEVED)
+def _coefficient(name: str, stated: float, scenes: Sequence[Scene]) -> Coefficient:
+    """Beside a ``stated`` gain."""
+    least, largest = min(stated * _LEAST - 1, 0.0), max(stated * _LARGEST - 1, 0.0)
+    if not any(scene.settled or scene.found(name) for scene in scenes):
+        # Beside known values a model that was fitted to the recorded torque is 1 + e times the true one.
+        least /= 1 + least
+    return Coefficient(name, "1", least, largest, believed=_BELIEVED)
 
 
 def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:

@@ -22,6 +22,8 @@ EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base",
 #: What it becomes in the parameters alone: another value of one that the file has, which only what is known shows.
 VALUE = "value"
 
+#: How a correction is called that the file has another one of already.
+BEYOND = " beyond the stated one"
 #: What an effect shows over that changes where a joint turns round.
 SINCE_REVERSAL = "time since reversal"
 

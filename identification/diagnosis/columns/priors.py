@@ -12,7 +12,7 @@ from generator.effects.library import motor_side
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.model import Model
-from generator.symbolic.parameter_sets import regrouped, resolved
+from generator.symbolic.parameter_sets import regrouped, resolved, shifted
 from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.named_set import named_set
@@ -99,18 +99,19 @@ def _unknown(
 
 
 def _joined(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
-    """Values with those of the motor side (Iam, Fvm, ...) on the joints, of which the set has none."""
-    standard = {one.name for one in model.standard_parameters}
-    if any(name in model.grouping.numbers and name not in standard for name in given):
-        return dict(given)
-    sides = {
-        motor: own
-        for one in motor_side(model.robot)
-        if one.suffix
-        for motor, own in zip(one.names, one.on_joint, strict=True)
-    }
-    moved = {motor: own for motor, own in sides.items() if motor in given and own in standard and own not in given}
-    return {moved.get(name, name): value for name, value in given.items()}
+    """Values with those of the motor side (Iam, Fvm, ...) on the joints, of which the set has none; in base parameters
+    where those hold what is theirs.
+    """
+    standard, grouped = {one.name for one in model.standard_parameters}, model.grouping.numeric()
+    of_bases = any(name in grouped and name not in standard for name in given)
+    result = dict(given)
+    for one in (each for each in motor_side(model.robot) if each.suffix):
+        for motor, own in zip(one.names, one.on_joint, strict=True):
+            if motor not in given or own in given or own not in standard:
+                continue
+            value = result.pop(motor)
+            result |= shifted(model, result, own, value.value) if of_bases and own not in grouped else {own: value}
+    return result
 
 
 def _refining(model: Model, given: Mapping[str, ParameterValue]) -> dict[str, float]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from generator.effects.library import motor_side
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.model import Model
+from generator.symbolic.parameter_sets import shifted
 from identification.diagnosis.runs.rotor import told
 
 #: Name of the set in the robot file.
@@ -30,7 +30,7 @@ def flexible_set(model: Model, rigid: ParameterSet, found: Mapping[str, float]) 
             value = found.get(name, known)
             if one.suffix and own in values:
                 values[name] = values.pop(own)
-            elif value is not None and one.suffix and (links := _without(model, values, own, value)):
+            elif value is not None and one.suffix and (links := shifted(model, values, own, -value)):
                 values |= links
                 values[name] = ParameterValue(value, units[name], note=_source(value, known))
             elif value is not None and not one.suffix:
@@ -44,16 +44,3 @@ def _source(value: float, known: float | None) -> str:
     if known is None:
         return _ASSUMED
     return "" if value == known else _FOUND
-
-
-def _without(model: Model, values: Mapping[str, ParameterValue], own: str, value: float) -> dict[str, ParameterValue]:
-    """The base parameters that hold the standard parameter ``own``, with ``value`` [SI] of it taken out."""
-    result = {}
-    for base, terms in model.grouping.numeric().items():
-        if own in terms and base in values:
-            before = values[base]
-            left = before.value - terms[own] * value
-            spread = before.relative_std
-            scaled = spread * abs(before.value / left) if spread is not None and left else None
-            result[base] = replace(before, value=left, relative_std=scaled)
-    return result
