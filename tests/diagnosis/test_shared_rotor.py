@@ -102,3 +102,18 @@ def test_a_pair_is_offered_across_fixed_frames_and_not_across_branches(fixed: in
     run = ready(str(Recorded({"t": t, **columns}).save(tmp_path / "a.csv")), regressors)
     found = wrist.hypotheses([Scene(run.sampled, regressors, {})])
     assert {one.joints for one in found} == {(1, last)}
+
+
+@pytest.mark.parametrize(("slide", "offered"), [(0.01, True), (0.5, False)])
+def test_what_a_turn_and_a_slide_share_is_weighed_by_their_speeds(slide: float, offered: bool, tmp_path: Path) -> None:
+    """A screw of 0.05 m a turn: a slow slide turns its nut no faster than the joint beside it does."""
+    sliding = "{j: 2, sigma: 1, alpha: 0, d: 0, theta: 0, r: q2}"
+    text = PLANAR.replace("{j: 2, sigma: 0, alpha: 0, d: 0.5 m, theta: q2, r: 0}", sliding)
+    drives = "drives:\n  gear_ratios: [1, 125.66]\n  coupling: {convention: direct, N21: 1}\n"
+    (tmp_path / "quill.yaml").write_text(text + drives)
+    regressors = Regressors(read(tmp_path / "quill.yaml"))
+    t, motion = _of_time(np.random.default_rng(1))
+    columns = {"t": t, "q1": motion.q[0], "q2": slide * motion.q[1], "tau1": np.cos(t), "tau2": np.cos(t)}
+    run = ready(str(Recorded(columns).save(tmp_path / "a.csv")), regressors)
+    found = wrist.hypotheses([Scene(run.sampled, regressors, {})])
+    assert [one.given["ratio"] for one in found] == ([pytest.approx(1 / 125.66)] if offered else [])

@@ -15,10 +15,12 @@ from generator.robot.description import FIXED, Joint, Robot
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
+from identification.residuals import rms
 
 #: Joints, counted from the tool, that may share a rotor.
 _WRIST = 3
-#: Below this share of the other joint's speed a coupled rotor is the joint's own (report section 2.3.1).
+#: Below this share of the other joint's speed, in parts of its own where one turns and one slides, a coupled rotor is
+#: the joint's own (report section 2.3.1).
 _WEAKEST = 0.1
 #: What a parameter shows over that is no friction.
 _SHOWN = {"Iar": "qdd"}
@@ -37,7 +39,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         _hypothesis(robot, joint, other, ratio, stated)
         for other, joint in pairwise(robot.moving[-_WRIST:])
         if not robot.has(EFFECT.id, joint.number) and _moved_by(robot, joint) == other
-        for ratio, stated in _ratios(robot, joint, other)
+        for ratio, stated in _ratios(scenes, joint, other)
     ]
 
 
@@ -49,17 +51,25 @@ def _moved_by(robot: Robot, joint: Joint) -> Joint | None:
     return carrier
 
 
-def _ratios(robot: Robot, joint: Joint, other: Joint) -> list[tuple[float, bool]]:
+def _ratios(scenes: Sequence[Scene], joint: Joint, other: Joint) -> list[tuple[float, bool]]:
     """Speeds of the rotor per speed of the other joint, in units of that per speed of its own; whether the file says
     it.
     """
+    robot = scenes[0].robot
+    own, its = robot.moving.index(joint), robot.moving.index(other)
     if robot.drives is not None:
-        row = robot.drives.coupling[robot.moving.index(joint)]
-        ratio = float(row[robot.moving.index(other)] / row[robot.moving.index(joint)])
-        if abs(ratio) >= _WEAKEST:
+        row = robot.drives.coupling[own]
+        ratio = float(row[its] / row[own])
+        speeds = [1.0, 1.0] if joint.sigma == other.sigma else [_speed(scenes, k) for k in (its, own)]
+        if ratio and abs(ratio) * speeds[0] >= _WEAKEST * speeds[1]:
             return [(ratio, True)]
     # A slide and a turn share no rotor unless the file says how.
     return [(1.0, False), (-1.0, False)] if joint.sigma == other.sigma else []
+
+
+def _speed(scenes: Sequence[Scene], k: int) -> float:
+    """Of coordinate ``k``, rms [rad/s, m/s]."""
+    return rms(np.concatenate([scene.motion.qd[k] for scene in scenes]))
 
 
 def _hypothesis(robot: Robot, joint: Joint, other: Joint, ratio: float, stated: bool) -> Hypothesis:
