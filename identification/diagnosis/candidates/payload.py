@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
-from generator.symbolic.bodies import INERTIAL
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
-from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS
+from identification.diagnosis.columns.payload_body import COEFFICIENTS, columns
 from identification.diagnosis.runs.scene import Scene
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One for the robot."""
-    if not scenes:
+    """One for the robot; none where all runs state a payload, to which ``stated_payload`` adds."""
+    if all(scene.sampled.run.payload is not None for scene in scenes):
         return []
     return [
         Hypothesis(
@@ -40,6 +37,4 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
 
 
 def _columns(scene: Scene, shape: Mapping[str, float]) -> Array:
-    per_joint = np.stack(scene.regressors.payload(scene.motion), axis=1)
-    by_name = dict(zip(INERTIAL, per_joint, strict=True))
-    return np.stack([np.sum([by_name[name] for name in names], axis=0) for names in PARAMETERS.values()])
+    return columns(scene)

@@ -10,7 +10,7 @@ import numpy as np
 from generator.effects.library import library
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, VALUE, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, VALUE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 
@@ -66,7 +66,7 @@ class Acting:
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
-        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY, VALUE))
+        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY, LOAD, VALUE))
 
     def _sum(self, scene: Scene, counts: Callable[[Hypothesis, Coefficient], bool]) -> Array:
         result = np.zeros_like(scene.motion.q)
@@ -83,4 +83,4 @@ class Acting:
 
 def _loads(one: Hypothesis, coefficient: Coefficient) -> bool:
     """Whether a drive carries it: of a rotor its inertia alone."""
-    return one.kind == BODY or library()[one.effect].loads or coefficient.unit in ("kg m2", "kg")
+    return one.kind in (BODY, LOAD) or library()[one.effect].loads or coefficient.unit in ("kg m2", "kg")

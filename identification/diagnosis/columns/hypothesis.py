@@ -21,6 +21,8 @@ _AT_END = 0.01
 EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base", "drive", "elastic"
 #: What it becomes in the parameters alone: another value of one that the file has, which only what is known shows.
 VALUE = "value"
+#: What it becomes in the runs' sidecars alone: another payload than they state.
+LOAD = "load"
 
 #: How a correction is called that the file has another one of already.
 BEYOND = " beyond the stated one"

@@ -9,7 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
+from generator.symbolic.bodies import INERTIAL
+from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Coefficient
+from identification.diagnosis.runs.scene import Scene
+from identification.sidecar import Payload
 
 #: Those of a payload [SI].
 COEFFICIENTS = (
@@ -26,3 +32,24 @@ _OTHERS = {"I": ("XX", "YY", "ZZ"), "XX-I": ("XX",), "YY-I": ("YY",)}
 
 #: Inertial parameters, in the tool frame, of each of which a coefficient is so much, by the coefficient's name.
 PARAMETERS: Mapping[str, tuple[str, ...]] = {one.name: _OTHERS.get(one.name, (one.name,)) for one in COEFFICIENTS}
+
+
+def columns(scene: Scene) -> Array:
+    """Torques (k x n x N) [N m, N] per unit of each coefficient along a scene."""
+    per_joint = np.stack(scene.regressors.payload(scene.motion), axis=1)
+    by_name = dict(zip(INERTIAL, per_joint, strict=True))
+    return np.stack([np.sum([by_name[name] for name in names], axis=0) for names in PARAMETERS.values()])
+
+
+def beyond(name: str) -> str:
+    """How a coefficient is called that adds to what a sidecar states."""
+    return f"{name}_beyond"
+
+
+def corrected(stated: Payload, found: Mapping[str, float]) -> Payload:
+    """A payload that sidecars state, with what was ``found`` ``beyond`` it [SI]."""
+    known = dict(stated.known)
+    for name, stems in PARAMETERS.items():
+        for stem in stems:
+            known[stem] += found.get(beyond(name), 0.0)
+    return Payload(stated.name, known)

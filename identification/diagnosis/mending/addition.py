@@ -21,6 +21,7 @@ class Addition:
     - BASE: ``tilt_x``, ``tilt_y``, ``tilt_z`` [rad], the rotation vector in the world that follows the file's rotation.
     - ELASTIC: ``gap`` where there is backlash. The joints' drive trains become elastic.
     - BODY: a payload, which base parameters hold; the file's text does not change.
+    - LOAD: what runs carry beyond the payload that their sidecars state; the file's text does not change.
     - VALUE: what parameters of the file's effects are beyond what was known; the file's text does not change.
 
     ``parameters`` [SI] are values of the flexible model's parameters that come with it and that no rigid fit shows.

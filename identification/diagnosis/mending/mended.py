@@ -87,7 +87,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
             return written_model(old_text, name, found, findings, prior)
 
         def tried_with(model: WrittenModel) -> dict[int, Untouched]:
-            played = _played(found.roles.test, Player(model.regressors), model.played)
+            played = _played(found.roles.test, Player(model.regressors), model)
             return untouched(bank, *fitted.and_after(played, model.swings))
 
         whole = model_of(found.findings)
@@ -99,7 +99,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     replace(folder, {name: text.encode()})
     player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
-        played = _played(found.roles.test, player, model.played)
+        played = _played(found.roles.test, player, model)
         pair, free, held = (one.and_after(played, model.swings) for one in (before, fitted, near))
     tried = untouched(bank, *pair)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
@@ -137,5 +137,5 @@ def _gain(near: Sequence[Played], free: Sequence[Played], after: Sequence[Played
         )
 
 
-def _played(sources: Sequence[str], player: Player, values: Mapping[str, float]) -> tuple[Played, ...]:
-    return tuple(play(one, player, values) for one in prepared_runs(sources, player.regressors))
+def _played(sources: Sequence[str], player: Player, model: WrittenModel) -> tuple[Played, ...]:
+    return tuple(play(one, player, model.played) for one in prepared_runs(sources, player.regressors, model.loads))

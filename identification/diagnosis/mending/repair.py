@@ -20,7 +20,17 @@ from generator.robot.description import Joint, Robot
 from generator.robot.sections.drives import element
 from generator.robot.signal_units import signal_unit
 from identification.corrections import NEVER, by_time
-from identification.diagnosis.columns.hypothesis import BASE, BODY, DRIVE, EFFECT, ELASTIC, SIGNAL, VALUE, on_joints
+from identification.diagnosis.columns.hypothesis import (
+    BASE,
+    BODY,
+    DRIVE,
+    EFFECT,
+    ELASTIC,
+    LOAD,
+    SIGNAL,
+    VALUE,
+    on_joints,
+)
 from identification.diagnosis.mending.addition import Addition
 from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
 
@@ -255,6 +265,10 @@ def _add_body(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     return text, ["the payload is held by base parameters of the new set; the robot file gets no body for it"]
 
 
+def _of_sidecars(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    return text, ["another payload than the stated one is none of the robot: its file and the new set hold none of it"]
+
+
 def _keep(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     return text, [f"the new set has {listed(one.values)} with what was found: the robot file has the effect already"]
 
@@ -267,6 +281,7 @@ _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] =
     ELASTIC: _add_elastic,
     BODY: _add_body,
     VALUE: _keep,
+    LOAD: _of_sidecars,
 }
 
 

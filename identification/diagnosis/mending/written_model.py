@@ -9,8 +9,9 @@ from math import isfinite
 from generator.robot.description import ParameterSet, Robot
 from generator.symbolic.model import Model
 from identification import recipe as recipes
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, VALUE
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, VALUE
 from identification.diagnosis.columns.normal_equations import Prior
+from identification.diagnosis.columns.payload_body import corrected
 from identification.diagnosis.columns.priors import preferring, prior_of
 from identification.diagnosis.diagnosis import Diagnosis
 from identification.diagnosis.mending.addition import Addition, addition, measured
@@ -33,6 +34,7 @@ from identification.observation import Regressors
 from identification.outcome import Value
 from identification.robot_file import rounded
 from identification.sampling import Sampled
+from identification.sidecar import UNITS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +44,7 @@ class WrittenModel:
 
     ``flexible`` is the set of the model with elastic drive trains, None where the file has none. What plays are
     ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing, if
-    they do (``swings``).
+    they do (``swings``), with ``loads`` [SI] beyond what sidecars state of payloads.
     """
 
     findings: tuple[Finding, ...]
@@ -52,6 +54,7 @@ class WrittenModel:
     swings: bool
     regressors: Regressors
     played: Mapping[str, float]
+    loads: Mapping[str, float]
     notes: tuple[str, ...]
 
 
@@ -67,7 +70,8 @@ def written_model(
     regressors = Regressors(preferring(new.robot, prior))
     known = None if prior is None else _prior(prior, regressors, held)
     said, given = _description(held), _given(entered, new.robot)
-    fit = refit(fitted_runs(found, regressors), regressors, known, said, given)
+    loads = {name: x for one in held if one.hypothesis.kind == LOAD for name, x in one.known.items()}
+    fit = refit(fitted_runs(found, regressors, loads), regressors, known, said, given)
     swings, bodies, played = has_swings(found.search, additions), fit.parameter_set, fit.written
     if swings:
         bodies = beside_swings(found.search, held, fit.regressors.model, bodies)
@@ -83,7 +87,8 @@ def written_model(
         swings=swings,
         regressors=fit.regressors.described(_as_played(fit.regressors.model.robot, flexible, found.search, held)),
         played=played,
-        notes=(*stated_aside, *unwritten, *new.notes, *fit.notes),
+        loads=loads,
+        notes=(*stated_aside, *unwritten, *new.notes, *_sidecars(found.search, loads), *fit.notes),
     )
 
 
@@ -107,17 +112,37 @@ def _as_played(robot: Robot, flexible: ParameterSet | None, found: Search, findi
     return replace(robot, parameter_sets=sets, flexible=swinging_joints(found, findings, robot.flexible))
 
 
-def prepared_runs(sources: Sequence[str], regressors: Regressors) -> Iterator[Prepared]:
-    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed."""
+def prepared_runs(
+    sources: Sequence[str], regressors: Regressors, loads: Mapping[str, float] | None = None
+) -> Iterator[Prepared]:
+    """Runs by the filters of the diagnosis: those of an identification blur what happens at low speed. Payloads that
+    sidecars state have ``loads`` beyond that.
+    """
     robot = regressors.model.robot
     for run in loaded(sources, robot):
+        if run.payload is not None:
+            run = replace(run, payload=corrected(run.payload, loads or {}))
         yield prepared(run, recipes.recipe_of(robot.name), regressors)
 
 
-def fitted_runs(found: Diagnosis, regressors: Regressors) -> list[Sampled]:
-    """The runs that were searched, with all their rows but those of what passes by."""
-    runs = prepared_runs(found.roles.searched, regressors)
+def fitted_runs(found: Diagnosis, regressors: Regressors, loads: Mapping[str, float] | None = None) -> list[Sampled]:
+    """The runs that were searched, with all their rows but those of what passes by; ``loads`` as of prepared runs."""
+    runs = prepared_runs(found.roles.searched, regressors, loads)
     return [without(one.sampled, found.search.passing) for one in runs]
+
+
+def _sidecars(found: Search, loads: Mapping[str, float]) -> list[str]:
+    """What the runs say of payloads that their sidecars state, where something is ``loads`` beyond that."""
+    notes = []
+    for scene in found.bank.scenes if loads else ():
+        if (stated := scene.sampled.run.payload) is not None:
+            right = corrected(stated, loads).known
+            values = ", ".join(f"{stem} {right[stem]:.4g} {UNITS[stem]}" for stem in ("M", "MX", "MY", "MZ"))
+            notes.append(
+                f"by the runs payload {stated.name} is {values}, where sidecars state M {stated.known['M']:.4g} kg; "
+                "correct those"
+            )
+    return list(dict.fromkeys(notes))
 
 
 def _addition(one: Finding) -> Addition:

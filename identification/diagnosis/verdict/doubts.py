@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SINCE_REVERSAL, VALUE
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, LOAD, SINCE_REVERSAL, VALUE
 from identification.diagnosis.search.likely import balances, misplaces, pulls
 from identification.diagnosis.verdict.alternatives import (
     OTHER_BODY,
@@ -74,6 +74,10 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         return one.doubted(f"{_UNDETERMINED}, and no motion repeats")
     if remains > _LEFT:
         return one.doubted("it leaves more on its joint than it explains there")
+    if kind == LOAD and free and not vague(one.main[0]):
+        weighed = "the payload on a scale, or known inertial parameters (--prior)"
+        other = outside("torque_gain", "the same error of all torques' gains", one.joints, one.evidence, weighed)
+        return one.doubted("a free fit scales all parameters with the payload's", alternatives=[other])
     if kind == BODY and vague(one.main[0]):
         return one.doubted("the runs do not determine its mass")
     if all(map(vague, one.main)):
