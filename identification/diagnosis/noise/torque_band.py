@@ -30,7 +30,7 @@ _MOST = 0.75
 #: Least joints of which most are not one or two that swing; and of fewer, the power at the rows' highest frequencies
 #: that a rotor makes by itself.
 _SEVERAL, _ROTOR = 3, 0.05
-#: Power, in parts of that of the slowest, that no filter makes, but a link as it swings.
+#: Power, in parts of that of the slowest, that no filter makes on any joint, but a link as it swings.
 _LIFTED = 2.0
 
 
@@ -50,7 +50,7 @@ def end(scenes: Sequence[Scene]) -> float:
     power = np.quantile(each, _MOST, axis=0, method="inverted_cdf")
     short = power < _SHORT
     if len(scenes[0].tau) < _SEVERAL:
-        lifted = power.max() > _LIFTED * power[0]
+        lifted = any(one.max() > _LIFTED * one[0] for one in each)
         short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR) & ~lifted
     return float(frequency[np.argmax(short)]) if short.any() else np.inf
 
