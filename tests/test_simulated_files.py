@@ -36,6 +36,14 @@ def test_the_sidecar_tells_any_file_that_was_played(machine: Machine, tmp_path: 
     assert str(played) in beside.read_text()
 
 
+def test_the_sidecar_tells_which_motors_have_a_limit(machine: Machine, tmp_path: Path) -> None:
+    for largest, told in (((np.inf, 5.0), "[none, 5]"), ((np.inf,), "[none]"), ((5.0,), "[5]")):
+        run = simulate(machine, replace(SHORT, largest=largest))
+        path, beside = save(run, "two_links", machine.robot.digest, tmp_path / "a.csv")
+        assert f"\n  largest: {told}\n" in beside.read_text()
+        assert sidecar.read(path).robot == "two_links"
+
+
 def test_what_is_read_is_not_written_over(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     robot, run = tmp_path / "trajectory.yaml", tmp_path / "run.csv"
     robot.write_text(file.read_text())

@@ -59,7 +59,7 @@ def _sidecar(run: Simulated, robot: str, digest: str) -> str:
         "rate": settings.rate,
         "log_rate": settings.log_rate or settings.rate,
         "bandwidth": settings.bandwidth,
-        "largest": [one for one in settings.largest if one != np.inf],
+        "largest": ["none" if one == np.inf else one for one in settings.largest],
         "resolution": settings.resolution,
         "noise": settings.noise,
         "wrench_noise": settings.wrench_noise,
