@@ -160,6 +160,7 @@ def test_help_of_a_quantity_lists_its_inputs(capsys: pytest.CaptureFixture[str])
     text = command("evaluate", "scara", "inverse_dynamics", "--help", capsys=capsys).out
     assert "  --q: 4 numbers in rad, rad, m, rad (joint positions)\n" in text
     assert "  prints tau [4]: " in text
+    assert command("evaluate", "scara", "inverse_dynamics", "-h", capsys=capsys).out == text
 
 
 def test_evaluating_does_not_import_casadi() -> None:
