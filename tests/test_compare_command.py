@@ -121,3 +121,13 @@ def test_sets_that_cannot_be_compared_are_refused(
     done = command("compare", "kr500:report_table_11", b.format(tmp_path), capsys=capsys)
     assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
     assert error in done.err
+
+
+def test_nothing_is_printed_where_the_files_cannot_be_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "file"
+    out.write_text("")
+    done = command("compare", "kr500:report_table_11", "kr500:report_table_13", "--out", out, capsys=capsys)
+    assert (done.status, done.out) == (2, "")
+    assert done.err.startswith(f"error: {out}:1:1: ")
