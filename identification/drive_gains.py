@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
@@ -122,8 +123,7 @@ def drive_gains(
     seen = [sampled(run, recipe, regressors) for run in runs]
     names = _names(regressors, runs)
     rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
-    fit, refused, parts = _observable(rows, names, len(N), robot, carrying[0])
-    from_payload = _of_payload(rows, names, fit, refused, stds)
+    fit, refused, parts, from_payload = _observable(rows, names, len(N), robot, carrying[0], stds)
     variance = np.diag(fit.covariance) + from_payload**2
     n = len(N)
     constants = {m: (float(fit.k[m]), float(np.sqrt(variance[m]))) for m in range(n) if m not in refused}
@@ -232,10 +232,11 @@ def _parts(
 
 
 def _observable(
-    rows: Observations, names: Sequence[str], n: int, robot: Robot, first: Run
-) -> tuple[Fit, dict[int, str], list[Part]]:
-    """The fit of all motors whose gain can be told, and why that of the others cannot."""
+    rows: Observations, names: Sequence[str], n: int, robot: Robot, first: Run, stds: Mapping[str, float]
+) -> tuple[Fit, dict[int, str], list[Part], Array]:
+    """The fit of all motors whose gain can be told, why that of the others cannot, and what comes ``_of_payload``."""
     refused: dict[int, str] = {}
+    too_loose = False
     for m in range(n):
         if not any(len(each[m].i) for _, each in rows):
             refused[m] = "it has no rows: its joint is never faster than the standstill threshold"
@@ -244,22 +245,34 @@ def _observable(
         fit = solve(parts, n)
         if fit.scale == 0.0:
             break
-        relative = _relative(fit)
         live = [m for m in range(n) if m not in refused]
-        worst = max(live, key=lambda m: relative[m])
-        if fit.unsettled and relative[worst] <= LIMIT:
+        from_payload = np.zeros(n + len(names))
+        relative = _relative(fit, from_payload)
+        shown = bool(np.all(relative[live] <= LIMIT))
+        if fit.unsettled and shown:
             problem = f"no drive gain of {robot.name} can be told: the currents contradict what is known of the payload"
             raise InputError(first.place, problem, "currents of all motors and the payload of one and the same run")
+        if shown:
+            from_payload = _of_payload(rows, names, fit, refused, stds)
+            relative = _relative(fit, from_payload)
+        worst = max(live, key=lambda m: relative[m])
         if relative[worst] <= LIMIT:
-            return fit, refused, parts
+            return fit, refused, parts, from_payload
         size = f"{100 * relative[worst]:.3g} %" if np.isfinite(relative[worst]) else "infinite"
-        refused[worst] = f"what is known of the payload does not show in its torque (relative std {size})"
+        lack = "is not exact enough" if shown else "does not show in its torque"
+        refused[worst] = f"what is known of the payload {lack} (relative std {size})"
+        too_loose = shown
+    if too_loose:
+        problem = f"no drive gain of {robot.name} can be told: what is known of the payload is not exact enough"
+        raise InputError(command_line("--payload-std"), problem, f"one gain within {100 * LIMIT:g} % at least")
     problem = f"no drive gain of {robot.name} can be told: what is known of the payload shows in no torque"
     raise InputError(first.place, problem, "a payload that moves against gravity, and its mass or first moments")
 
 
-def _relative(fit: Fit) -> Array:
-    std = np.sqrt(np.diag(fit.covariance)[: len(fit.k)])
+def _relative(fit: Fit, more: Array) -> Array:
+    """Relative standard deviations of the gains (n), with ``more`` of [k, chi] beside those of the fit."""
+    n = len(fit.k)
+    std = np.sqrt(np.diag(fit.covariance)[:n] + more[:n] ** 2)
     result: Array = np.where(fit.k != 0, std / np.maximum(np.abs(fit.k), 1e-300), np.inf)
     return result
 
