@@ -33,6 +33,8 @@ from identification.total_least_squares import Fit, Part, solve
 
 #: Step of a payload's known value for its derivative, in standard deviations.
 _STEP = 0.5
+#: Largest standard deviation [SI] of a value that is zero: beyond, sums overflow.
+_LARGEST = 1e12
 #: Unexplained part of a motor's torque [%] that is told.
 _DOUBTFUL = 50.0
 
@@ -103,8 +105,8 @@ def drive_gains(
     ``payload`` is that of loaded runs whose sidecar tells none; at least one of its values must be known.
     ``payload_std`` are standard deviations of known values by stem [SI].
 
-    Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, and where the known
-    values of the payload show in no torque.
+    Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, for a standard
+    deviation larger than its value is, but for zero, and where the known values of the payload show in no torque.
     """
     recipe = recipe or recipes.recipe_of(robot.name)
     if robot.drives is None:
@@ -187,9 +189,11 @@ def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
         assert run.payload is not None
         if values.setdefault(run.payload.name, run.payload.known) != run.payload.known:
             raise InputError(run.place, f"payload {run.payload.name} has other values here", "one payload of a name")
-        for stem in stds:
+        for stem, std in stds.items():
             if stem not in run.payload.known:
                 raise InputError(run.place, f"{stem} of payload {run.payload.name} is not known", "a value for its std")
+            if not std <= (most := abs(run.payload.known[stem]) or _LARGEST):
+                raise InputError(command_line("--payload-std"), f"{stem}={std:g}", f"{most:g} at most")
 
 
 def _names(regressors: Regressors, runs: Sequence[Run]) -> tuple[str, ...]:

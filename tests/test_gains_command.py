@@ -210,10 +210,14 @@ def test_runs_that_show_no_gain_are_refused(
         words = ["--empty", empty, "--loaded", loaded, *(["--payload", *payload] if payload else [])]
         done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
         assert (done.status, error in done.err) == (2, True), done.err
-    done = command(
-        "gains", robot, "--empty", a, "--loaded", b, "--payload", "M=20", "--payload-std", "MX=1", capsys=capsys
-    )
-    assert "MX of payload L is not known, expected a value for its std" in done.err
+    for std, error in (
+        ("MX=1", "b.csv:1:1: MX of payload L is not known, expected a value for its std"),
+        ("M=1e200", "error: --payload-std:1:1: M=1e+200, expected 20 at most"),
+        ("MY=1e200", "error: --payload-std:1:1: MY=1e+200, expected 1e+12 at most"),
+    ):
+        words = ["--empty", a, "--loaded", b, "--payload", "M=20", "MY=0", "--payload-std", std]
+        done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
+        assert (done.status, error in done.err) == (2, True), done.err
 
 
 def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:
