@@ -102,7 +102,8 @@ def drive_gains(
 ) -> DriveGains:
     """Gains from runs ``empty`` and ``loaded``, whose efforts are currents.
 
-    ``payload`` is that of loaded runs whose sidecar tells none; at least one of its values must be known.
+    ``payload`` is that of loaded runs whose sidecar tells none, and contradicts no other; at least one of its values
+    must be known.
     ``payload_std`` are standard deviations of known values by stem [SI].
 
     Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, for a standard
@@ -119,6 +120,7 @@ def drive_gains(
     carrying = [_carrying(run, payload) for run in carrying]
     stds = dict(payload_std or {})
     _check_known(carrying, stds)
+    _check_carried(carrying, payload)
     runs = [*unloaded, *carrying]
     unshared({"fit": runs})
     regressors = regressors or Regressors(robot)
@@ -179,6 +181,16 @@ def _carrying(run: Run, payload: Payload | None) -> Run:
     if not any(carried.known.values()):
         raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass or first moments")
     return replace(run, payload=carried)
+
+
+def _check_carried(loaded: Sequence[Run], payload: Payload | None) -> None:
+    """Raises InputError where no run has the ``payload``, because all sidecars tell another."""
+    carried = [run.payload for run in loaded if run.payload is not None]
+    if payload is not None and not any(
+        one.name == payload.name and payload.known.items() <= one.known.items() for one in carried
+    ):
+        problem = f"no loaded run carries payload {payload.name} with these values: their sidecars tell others"
+        raise InputError(command_line("--payload"), problem, "that of a run whose sidecar tells none")
 
 
 def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:

@@ -214,10 +214,27 @@ def test_runs_that_show_no_gain_are_refused(
         ("MX=1", "b.csv:1:1: MX of payload L is not known, expected a value for its std"),
         ("M=1e200", "error: --payload-std:1:1: M=1e+200, expected 20 at most"),
         ("MY=1e200", "error: --payload-std:1:1: MY=1e+200, expected 1e+12 at most"),
+        ("name=L", "error: --payload-std:1:1: payload value 'name=L', expected NAME=VALUE of a known value"),
     ):
         words = ["--empty", a, "--loaded", b, "--payload", "M=20", "MY=0", "--payload-std", std]
         done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
         assert (done.status, error in done.err) == (2, True), done.err
+
+
+def test_a_payload_that_the_sidecars_contradict_is_refused(arm: Regressors, tmp_path: Path) -> None:
+    found(arm, tmp_path)
+    (tmp_path / "b.yaml").write_text("payload: {M: 20 kg, MY: -0.8 kg m}\n")
+    empty, loaded = ([str(tmp_path / name)] for name in ("a.csv", "b.csv"))
+    for known in ({"M": 9.0}, {"M": 0.0}, {"XX": 0.3}):
+        with pytest.raises(InputError, match="--payload:1:1: no loaded run carries payload L with these values"):
+            drive_gains(arm.model.robot, empty, loaded, Payload("L", known), regressors=arm)
+    with pytest.raises(InputError, match="no loaded run carries payload K"):
+        drive_gains(arm.model.robot, empty, loaded, Payload("K", {"M": 20.0}), regressors=arm)
+    alone, beside = (
+        drive_gains(arm.model.robot, empty, loaded, payload, regressors=arm).constants
+        for payload in (None, Payload("L", {"M": 20.0}))
+    )
+    assert alone == beside
 
 
 def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:
