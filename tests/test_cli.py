@@ -112,6 +112,14 @@ def test_asking_for_help_imports_no_algebra() -> None:
             ["generate", "kr500", "--uot", "x"],
             "error: counterpoise generate:1:1: unrecognized arguments: --uot x, expected",
         ),
+        (
+            ["generate", "kr501", "--out", "a", "--out=b"],
+            "error: counterpoise generate --out:1:1: the option is given twice, expected it once",
+        ),
+        (
+            ["identify", "kr500", "--data", "a.csv", "--data", "b.csv"],
+            "error: counterpoise identify --data:1:1: the option is given twice, expected it once",
+        ),
     ],
 )
 def test_mistakes_on_the_command_line(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,6 +15,7 @@ import sys
 import tomllib
 from collections.abc import Sequence
 from importlib import metadata
+from itertools import takewhile
 from pathlib import Path
 from typing import NoReturn, Protocol, cast
 
@@ -60,9 +61,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         # What a command leaves goes with its process; Python's last collection would walk all of it first.
         atexit.register(gc.freeze)
     try:
-        arguments, unknown = _parser(commands()).parse_known_args(argv)
+        words = sys.argv[1:] if argv is None else argv
+        arguments, unknown = _parser(commands()).parse_known_args(words)
         if unknown:
             arguments.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
+        _check_once(words, arguments.parser.prog)
         arguments.command.run(arguments)
         sys.stdout.flush()
     except InputError as error:
@@ -74,6 +77,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     return DONE
+
+
+def _check_once(words: Sequence[str], command: str) -> None:
+    """Raises InputError for an option that is given twice, of which argparse would take the last alone."""
+    seen = set()
+    for word in takewhile(lambda word: word != "--", words):
+        name = word.partition("=")[0]
+        if name.startswith("--") and name in seen:
+            raise InputError(command_line(f"{command} {name}"), "the option is given twice", "it once")
+        seen.add(name)
 
 
 def commands() -> dict[str, Command]:
