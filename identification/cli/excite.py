@@ -9,6 +9,7 @@ for each base parameter.
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -111,7 +112,7 @@ def run(arguments: argparse.Namespace) -> None:
     robot = read(path)
     folder = arguments.out or Path("excitation") / robot.name
     for source in (path, arguments.recipe):
-        if source is not None and source.exists():
+        if source is not None and os.path.exists(source):
             spare(source, [folder / RUN, folder / BESIDE])
     _check_noise(arguments, robot)
     with stage(f"deriving the model of {path.stem}"):
