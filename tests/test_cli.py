@@ -145,6 +145,26 @@ def test_a_reader_that_stops_early_is_no_error() -> None:
     assert "Error" not in done.stderr
 
 
+@pytest.mark.parametrize("words", ["list", "check kr500"])
+def test_output_that_cannot_be_written_is_one_line(words: str) -> None:
+    """Of many bytes some are written at once, of few all at the end."""
+    line = f'"{sys.executable}" -m generator {words}'
+    full, closed = (
+        subprocess.run(["bash", "-c", f"{line} {to}"], cwd=ROOT, capture_output=True, text=True, check=False)
+        for to in ("> /dev/full", ">&-")
+    )
+    assert full.returncode == 2
+    expected = "error: standard output:1:1: No space left on device, expected a place for what is printed"
+    assert full.stderr.splitlines()[-1] == expected
+    assert (closed.returncode, "Error" in closed.stderr) == (0, False)
+
+
+def test_letters_that_the_terminal_lacks_are_told_by_number(pendulum: Path) -> None:
+    pendulum.write_text(PENDULUM.replace("one link", "ein B\u00fcgel"), encoding="utf-8")
+    done = process("generate", pendulum, "--out", pendulum.parent / "out", PYTHONIOENCODING="ascii")
+    assert (done.status, "ein B\\xfcgel" in done.out) == (0, True), done.err
+
+
 # -- list, check, review --------------------------------------------------------------------------------------------
 
 
