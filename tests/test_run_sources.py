@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import pyarrow
 import pytest
+import scipy.io
+from pyarrow import parquet
 
 from generator.errors import InputError
 from generator.robot.description import Robot
@@ -32,6 +36,21 @@ def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp
     t = first + good.columns["t"] * 5 / 7
     path = str(good.with_columns(t=t).save(tmp_path / "a.csv"))
     assert load(part_of(path, t[200], t[801]), robot).samples == 602
+
+
+def test_a_column_that_was_left_out_is_told_where_it_lacks(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    count = len(good.columns["t"])
+    short = {"t": good.columns["t"][:-5]} | {
+        stem: np.stack([good.columns[f"{stem}{j}"] for j in (1, 2)], axis=1) for stem in ("q", "tau")
+    }
+    scipy.io.savemat(tmp_path / "a.mat", short)
+    with pytest.raises(InputError, match=f"or qm1 to qm2; q is {count} x 2, of runs of {count - 5} samples: it is"):
+        load(str(tmp_path / "a.mat"), robot)
+    for name in ("t", "q1"):
+        columns = dict(good.columns) | {name: ["x"] * count}
+        parquet.write_table(pyarrow.table(columns), tmp_path / "a.parquet")
+        with pytest.raises(InputError, match=f"there is no column {name}, .*; {name} held no number and is left out"):
+            load(str(tmp_path / "a.parquet"), robot)
 
 
 @pytest.mark.parametrize("source", ["", ".", "/"])
