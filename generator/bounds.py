@@ -14,15 +14,14 @@ from generator.errors import InputError
 def above(value: float, argument: str, bound: float, most: float = inf) -> float:
     """A finite number; raises InputError where it is not above ``bound``, or above ``most`` if there is one."""
     if not bound < value < inf or value > most:
-        end = f", {most:g} at most" if most < inf else ""
-        raise InputError(command_line(argument), f"{value:g}", f"a number above {bound:g}{end}")
+        raise InputError(command_line(argument), f"{value:g}", f"a number above {bound:g}{_end(most)}")
     return value
 
 
-def not_negative(value: float, argument: str) -> float:
-    """A finite number; raises InputError where it is below zero."""
-    if not 0 <= value < inf:
-        raise InputError(command_line(argument), f"{value:g}", "a number that is not negative")
+def not_negative(value: float, argument: str, most: float = inf) -> float:
+    """A finite number; raises InputError where it is below zero, or above ``most`` if there is one."""
+    if not 0 <= value < inf or value > most:
+        raise InputError(command_line(argument), f"{value:g}", f"a number that is not negative{_end(most)}")
     return value
 
 
@@ -32,3 +31,7 @@ def whole_number(value: int, argument: str, least: int, most: int | None = None)
         end = "on" if most is None else f"to {most}"
         raise InputError(command_line(argument), f"{value}", f"a whole number from {least} {end}")
     return value
+
+
+def _end(most: float) -> str:
+    return f", {most:g} at most" if most < inf else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -27,5 +28,5 @@ def spare_inputs(folder: Path, robot: Robot, files: Sequence[Path | None], runs:
     """
     beside = [sidecar.path_of(RunSource.of(run).path) for run in runs]
     for source in (*files, *beside):
-        if source is not None and source.exists():
+        if source is not None and os.path.exists(source):
             spare(source, [folder / f"{robot.name}.yaml"])

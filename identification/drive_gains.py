@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import recipe as recipes
@@ -32,6 +33,8 @@ from identification.total_least_squares import Fit, Part, solve
 
 #: Step of a payload's known value for its derivative, in standard deviations.
 _STEP = 0.5
+#: Largest standard deviation [SI] of a value that is zero: beyond, sums overflow.
+_LARGEST = 1e12
 #: Unexplained part of a motor's torque [%] that is told.
 _DOUBTFUL = 50.0
 
@@ -99,11 +102,12 @@ def drive_gains(
 ) -> DriveGains:
     """Gains from runs ``empty`` and ``loaded``, whose efforts are currents.
 
-    ``payload`` is that of loaded runs whose sidecar tells none; at least one of its values must be known.
+    ``payload`` is that of loaded runs whose sidecar tells none, and contradicts no other; at least one of its values
+    must be known.
     ``payload_std`` are standard deviations of known values by stem [SI].
 
-    Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, and where the known
-    values of the payload show in no torque.
+    Raises InputError for runs without currents, loaded ones without a payload, empty ones with one, for a standard
+    deviation larger than its value is, but for zero, and where the known values of the payload show in no torque.
     """
     recipe = recipe or recipes.recipe_of(robot.name)
     if robot.drives is None:
@@ -116,14 +120,14 @@ def drive_gains(
     carrying = [_carrying(run, payload) for run in carrying]
     stds = dict(payload_std or {})
     _check_known(carrying, stds)
+    _check_carried(carrying, payload)
     runs = [*unloaded, *carrying]
     unshared({"fit": runs})
     regressors = regressors or Regressors(robot)
     seen = [sampled(run, recipe, regressors) for run in runs]
     names = _names(regressors, runs)
     rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
-    fit, refused, parts = _observable(rows, names, len(N), robot, carrying[0])
-    from_payload = _of_payload(rows, names, fit, refused, stds)
+    fit, refused, parts, from_payload = _observable(rows, names, len(N), robot, carrying[0], stds)
     variance = np.diag(fit.covariance) + from_payload**2
     n = len(N)
     constants = {m: (float(fit.k[m]), float(np.sqrt(variance[m]))) for m in range(n) if m not in refused}
@@ -179,6 +183,16 @@ def _carrying(run: Run, payload: Payload | None) -> Run:
     return replace(run, payload=carried)
 
 
+def _check_carried(loaded: Sequence[Run], payload: Payload | None) -> None:
+    """Raises InputError where no run has the ``payload``, because all sidecars tell another."""
+    carried = [run.payload for run in loaded if run.payload is not None]
+    if payload is not None and not any(
+        one.name == payload.name and payload.known.items() <= one.known.items() for one in carried
+    ):
+        problem = f"no loaded run carries payload {payload.name} with these values: their sidecars tell others"
+        raise InputError(command_line("--payload"), problem, "that of a run whose sidecar tells none")
+
+
 def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
     if not loaded:
         raise ValueError("no loaded run")
@@ -187,9 +201,11 @@ def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
         assert run.payload is not None
         if values.setdefault(run.payload.name, run.payload.known) != run.payload.known:
             raise InputError(run.place, f"payload {run.payload.name} has other values here", "one payload of a name")
-        for stem in stds:
+        for stem, std in stds.items():
             if stem not in run.payload.known:
                 raise InputError(run.place, f"{stem} of payload {run.payload.name} is not known", "a value for its std")
+            if not std <= (most := abs(run.payload.known[stem]) or _LARGEST):
+                raise InputError(command_line("--payload-std"), f"{stem}={std:g}", f"{most:g} at most")
 
 
 def _names(regressors: Regressors, runs: Sequence[Run]) -> tuple[str, ...]:
@@ -232,10 +248,11 @@ def _parts(
 
 
 def _observable(
-    rows: Observations, names: Sequence[str], n: int, robot: Robot, first: Run
-) -> tuple[Fit, dict[int, str], list[Part]]:
-    """The fit of all motors whose gain can be told, and why that of the others cannot."""
+    rows: Observations, names: Sequence[str], n: int, robot: Robot, first: Run, stds: Mapping[str, float]
+) -> tuple[Fit, dict[int, str], list[Part], Array]:
+    """The fit of all motors whose gain can be told, why that of the others cannot, and what comes ``_of_payload``."""
     refused: dict[int, str] = {}
+    too_loose = False
     for m in range(n):
         if not any(len(each[m].i) for _, each in rows):
             refused[m] = "it has no rows: its joint is never faster than the standstill threshold"
@@ -244,22 +261,34 @@ def _observable(
         fit = solve(parts, n)
         if fit.scale == 0.0:
             break
-        relative = _relative(fit)
         live = [m for m in range(n) if m not in refused]
-        worst = max(live, key=lambda m: relative[m])
-        if fit.unsettled and relative[worst] <= LIMIT:
+        from_payload = np.zeros(n + len(names))
+        relative = _relative(fit, from_payload)
+        shown = bool(np.all(relative[live] <= LIMIT))
+        if fit.unsettled and shown:
             problem = f"no drive gain of {robot.name} can be told: the currents contradict what is known of the payload"
             raise InputError(first.place, problem, "currents of all motors and the payload of one and the same run")
+        if shown:
+            from_payload = _of_payload(rows, names, fit, refused, stds)
+            relative = _relative(fit, from_payload)
+        worst = max(live, key=lambda m: relative[m])
         if relative[worst] <= LIMIT:
-            return fit, refused, parts
+            return fit, refused, parts, from_payload
         size = f"{100 * relative[worst]:.3g} %" if np.isfinite(relative[worst]) else "infinite"
-        refused[worst] = f"what is known of the payload does not show in its torque (relative std {size})"
+        lack = "is not exact enough" if shown else "does not show in its torque"
+        refused[worst] = f"what is known of the payload {lack} (relative std {size})"
+        too_loose = shown
+    if too_loose:
+        problem = f"no drive gain of {robot.name} can be told: what is known of the payload is not exact enough"
+        raise InputError(command_line("--payload-std"), problem, f"one gain within {100 * LIMIT:g} % at least")
     problem = f"no drive gain of {robot.name} can be told: what is known of the payload shows in no torque"
     raise InputError(first.place, problem, "a payload that moves against gravity, and its mass or first moments")
 
 
-def _relative(fit: Fit) -> Array:
-    std = np.sqrt(np.diag(fit.covariance)[: len(fit.k)])
+def _relative(fit: Fit, more: Array) -> Array:
+    """Relative standard deviations of the gains (n), with ``more`` of [k, chi] beside those of the fit."""
+    n = len(fit.k)
+    std = np.sqrt(np.diag(fit.covariance)[:n] + more[:n] ** 2)
     result: Array = np.where(fit.k != 0, std / np.maximum(np.abs(fit.k), 1e-300), np.inf)
     return result
 

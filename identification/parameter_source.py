@@ -105,6 +105,8 @@ def _json(path: Path) -> Any:
 def _entry(one: Any, name: str, place: Place) -> Known:
     entry = one if isinstance(one, dict) else {"value": ""}
     value, std = (_number(entry.get(key), name, place) for key in ("value", "std"))
+    if std is not None and not std >= 0:
+        raise InputError(place, f"{name} has the std {std:g}", "a number from 0, or null where it is not known")
     unit = str(entry.get("unit", ""))
     return Known(None, None, unit) if value is None or not math.isfinite(value) else Known(value, std, unit)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
@@ -16,6 +17,7 @@ from identification.arrays import Array
 Where: TypeAlias = Callable[[int | None, str], Place]
 
 _CHUNK = 1 << 20
+_WORD = re.compile(r"\w+")
 
 
 def left_out(file: str, words: Sequence[str]) -> tuple[str, ...]:
@@ -59,6 +61,12 @@ class Recording:
 
         columns = {name: values[first:last] for name, values in self.columns.items()}
         return replace(self, columns=columns, where=where)
+
+    def why_lacking(self, names: Iterable[str]) -> str:
+        """What ``notes`` tell of the file's own columns ``names``, each after a semicolon; empty without any."""
+        wanted = set(names)
+        told = (one.removeprefix(f"{self.file}: ") for one in self.notes if one.endswith("left out"))
+        return "".join(f"; {one}" for one in told if wanted & set(_WORD.findall(one)))
 
 
 def digest(path: Path) -> str:

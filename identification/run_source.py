@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,7 +32,7 @@ class RunSource:
 
         Raises InputError where one of the times is no number.
         """
-        match = None if Path(name).exists() else _PART.match(name)
+        match = None if os.path.exists(name) else _PART.match(name)
         if match is None:
             return cls(name, Path(name))
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -74,7 +75,7 @@ def read(run: Path) -> Sidecar:
     Raises InputError, with line and column, for an unknown key and a value with a wrong unit.
     """
     path = path_of(run)
-    if not path.is_file():
+    if not os.path.isfile(path):
         return Sidecar()
     root = document(path, "the sidecar of a run")
     if isinstance(root, Table) and "joints" in root.entries:

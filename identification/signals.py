@@ -88,6 +88,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
             if number not in present:
                 near = difflib.get_close_matches(name, set(recording.columns) - set(wanted), n=1, cutoff=0.6)
                 expected = _from_to(wanted) + (f"; perhaps {near[0]} is meant" if near else "")
+                expected += recording.why_lacking([name])
                 raise InputError(recording.where(None, wanted[0]), f"there is no column {name}", expected)
         for number in sorted(present):
             if number not in numbers:
@@ -99,6 +100,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
     first = {f"{stem}{numbers[0]}" for stem in stems}
     close = next((column for column in recording.columns if column.replace("_", "").lower() in first), "")
     hint = f"; perhaps {close} is meant, which a sidecar's columns can say" if close else ""
+    hint += recording.why_lacking(one for stem in stems for one in (stem, *(f"{stem}{number}" for number in numbers)))
     raise NoColumns(recording.where(None, close), f"there are no columns of {what}", choices + hint)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ def done_before(folder: Path, tasks: Mapping[str, Any], keys: Collection[str] = 
     result = {}
     for name in tasks:
         path = folder / f"{name}.json"
-        if not path.is_file():
+        if not os.path.isfile(path):
             continue
         try:
             result[name] = json.loads(path.read_text(encoding="utf-8"))

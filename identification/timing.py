@@ -72,7 +72,9 @@ def clock(recording: Recording) -> Clock:
     the rate.
     """
     if "t" not in recording.columns:
-        raise InputError(recording.where(None, "t"), "there is no column t", "times in s")
+        raise InputError(
+            recording.where(None, "t"), "there is no column t", f"times in s{recording.why_lacking(['t'])}"
+        )
     t = recording.columns["t"]
     if len(t) < 3:
         raise InputError(recording.where(None, "t"), plural(len(t), "row"), "a run")

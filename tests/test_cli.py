@@ -112,6 +112,14 @@ def test_asking_for_help_imports_no_algebra() -> None:
             ["generate", "kr500", "--uot", "x"],
             "error: counterpoise generate:1:1: unrecognized arguments: --uot x, expected",
         ),
+        (
+            ["generate", "kr501", "--out", "a", "--out=b"],
+            "error: counterpoise generate --out:1:1: the option is given twice, expected it once",
+        ),
+        (
+            ["identify", "kr500", "--data", "a.csv", "--data", "b.csv"],
+            "error: counterpoise identify --data:1:1: the option is given twice, expected it once",
+        ),
     ],
 )
 def test_mistakes_on_the_command_line(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -135,6 +143,26 @@ def test_a_reader_that_stops_early_is_no_error() -> None:
     done = subprocess.run(["bash", "-c", line], cwd=ROOT, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, "# Groupings of kr500\n")
     assert "Error" not in done.stderr
+
+
+@pytest.mark.parametrize("words", ["list", "check kr500"])
+def test_output_that_cannot_be_written_is_one_line(words: str) -> None:
+    """Of many bytes some are written at once, of few all at the end."""
+    line = f'"{sys.executable}" -m generator {words}'
+    full, closed = (
+        subprocess.run(["bash", "-c", f"{line} {to}"], cwd=ROOT, capture_output=True, text=True, check=False)
+        for to in ("> /dev/full", ">&-")
+    )
+    assert full.returncode == 2
+    expected = "error: standard output:1:1: No space left on device, expected a place for what is printed"
+    assert full.stderr.splitlines()[-1] == expected
+    assert (closed.returncode, "Error" in closed.stderr) == (0, False)
+
+
+def test_letters_that_the_terminal_lacks_are_told_by_number(pendulum: Path) -> None:
+    pendulum.write_text(PENDULUM.replace("one link", "ein B\u00fcgel"), encoding="utf-8")
+    done = process("generate", pendulum, "--out", pendulum.parent / "out", PYTHONIOENCODING="ascii")
+    assert (done.status, "ein B\\xfcgel" in done.out) == (0, True), done.err
 
 
 # -- list, check, review --------------------------------------------------------------------------------------------

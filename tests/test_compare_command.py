@@ -100,6 +100,8 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
         ("{}/long.json", "long.json:1:1: a number has too many digits, expected a results file"),
         ("{}/list.json", "list.json:1:1: there are no parameters of the full model, expected results.json of an"),
         ("{}/words.json", "words.json:1:1: ZZ1R has no value, expected a number, or null where it is not known"),
+        ("{}/nan.json", "nan.json:1:1: ZZ1R has the std nan, expected a number from 0, or null where it is not known"),
+        ("{}/negative.json", "negative.json:1:1: ZZ1R has the std -0.1, expected a number from 0, or null"),
         ("{}/unit.json", "unit.json:1:1: ZZ1R is given in N m, expected kg m2, as in kr500:report_table_11"),
         ("{}/other.json", "other.json:1:1: no parameter has a value here and in kr500:report_table_11"),
     ],
@@ -113,6 +115,8 @@ def test_sets_that_cannot_be_compared_are_refused(
         "long": f'{{"parameters": {{"ZZ1R": {{"value": {"1" * 5000}}}}}}}',
         "list": "[1]",
         "words": '{"parameters": {"ZZ1R": {"value": "many"}}}',
+        "nan": '{"parameters": {"ZZ1R": {"value": 1, "std": NaN, "unit": "kg m2"}}}',
+        "negative": '{"parameters": {"ZZ1R": {"value": 1, "std": -0.1, "unit": "kg m2"}}}',
         "unit": '{"parameters": {"ZZ1R": {"value": 1, "unit": "N m"}}}',
         "other": '{"parameters": {"foo": {"value": 1}}}',
     }
@@ -121,3 +125,13 @@ def test_sets_that_cannot_be_compared_are_refused(
     done = command("compare", "kr500:report_table_11", b.format(tmp_path), capsys=capsys)
     assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
     assert error in done.err
+
+
+def test_nothing_is_printed_where_the_files_cannot_be_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "file"
+    out.write_text("")
+    done = command("compare", "kr500:report_table_11", "kr500:report_table_13", "--out", out, capsys=capsys)
+    assert (done.status, done.out) == (2, "")
+    assert done.err.startswith(f"error: {out}:1:1: ")

@@ -160,6 +160,7 @@ def test_help_of_a_quantity_lists_its_inputs(capsys: pytest.CaptureFixture[str])
     text = command("evaluate", "scara", "inverse_dynamics", "--help", capsys=capsys).out
     assert "  --q: 4 numbers in rad, rad, m, rad (joint positions)\n" in text
     assert "  prints tau [4]: " in text
+    assert command("evaluate", "scara", "inverse_dynamics", "-h", capsys=capsys).out == text
 
 
 def test_evaluating_does_not_import_casadi() -> None:
@@ -208,6 +209,8 @@ def test_refused(pendulum: Path, arguments: list[str], message: str, capsys: pyt
         ('{"ZZ1": {"unit": "kg m2"}}', ":1:9: value of ZZ1 has no key 'value', expected the keys value"),
         ('{"ZZ1": "heavy"}', ":1:10: 'heavy' is not a number, expected "),
         ('{"ZZ1": NaN}', ":1:9: 'NaN' is not a finite number, expected a finite number"),
+        ('{"ZZ1": {"value": 1, "relative_std": NaN}}', ":1:38: 'NaN' is not a finite number, expected a finite number"),
+        ('{"ZZ1": {"value": 1, "unit": "kg m2", "note": [1]}}', ":1:47: note on ZZ1 is a list, expected a text"),
         ("[1, 2]", ":1:1: the parameter file is a list, expected a table with names as keys"),
         ('{"ZZ1": 1', ":1:10: not YAML: "),
     ],

@@ -207,7 +207,6 @@ REFUSED = {
     ("--payload", "M=-3"): "error: --payload:1:1: M=-3, expected a number that is not negative",
     ("--bootstrap", "3"): "error: --bootstrap:1:1: 3, expected a whole number from 50 to 100000",
     ("--essential", "1"): "error: --essential:1:1: 1, expected a number above 1",
-    ("--data", "none.csv"): "error: none.csv:1:1: there is no such file, expected a run in .csv or ",
 }
 
 
@@ -216,6 +215,12 @@ def test_bad_options_are_refused(words: tuple[str, str], folder: Path, capsys: p
     done = identified(folder, capsys, *words)
     assert done.status == 2
     assert done.err.splitlines()[-1].startswith(REFUSED[words])
+
+
+def test_a_run_that_is_not_there_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    done = command("identify", folder / "two_links.yaml", "--data", "none.csv", capsys=capsys)
+    told = "error: none.csv:1:1: there is no such file, expected a run in .csv or "
+    assert (done.status, done.err.splitlines()[-1].startswith(told)) == (2, True)
 
 
 def test_bad_recipes_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -204,6 +204,13 @@ def test_the_command_writes_its_results_and_resumes(
     done = command(*words, capsys=capsys)
     assert "starts: 1 of 2 done\nstarts: 2 of 2 done" in done.err
     assert (out / "results.json").read_bytes() == before
+    kept = json.loads((first / "start_002.json").read_text())
+    for key, damaged in (("rms", ["1"]), ("chi", [*kept["chi"], 1.0]), ("states", 3), ("scale", [[1.0], 2.0])):
+        (first / "start_002.json").write_text(json.dumps(kept | {key: damaged}))
+        done = command(*words, capsys=capsys)
+        told = f"error: {first}/start_002.json:1:1: these are not the numbers of a start, expected a file that"
+        assert (done.status, done.err.splitlines()[-1].startswith(told)) == (2, True)
+    (first / "start_002.json").write_text(json.dumps(kept))
     fast = tmp_path / "fast.csv"
     values = np.loadtxt(run, delimiter=",", skiprows=1)
     values[:, -1] *= 1e6

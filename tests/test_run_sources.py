@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import pyarrow
 import pytest
+import scipy.io
+from pyarrow import parquet
 
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification import sidecar
 from identification.dataset import load
 from identification.run_source import RunSource, part_of
+from tests.commands import PENDULUM, command
 from tests.recorded import Recorded
 
 
@@ -33,6 +38,21 @@ def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp
     assert load(part_of(path, t[200], t[801]), robot).samples == 602
 
 
+def test_a_column_that_was_left_out_is_told_where_it_lacks(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    count = len(good.columns["t"])
+    short = {"t": good.columns["t"][:-5]} | {
+        stem: np.stack([good.columns[f"{stem}{j}"] for j in (1, 2)], axis=1) for stem in ("q", "tau")
+    }
+    scipy.io.savemat(tmp_path / "a.mat", short)
+    with pytest.raises(InputError, match=f"or qm1 to qm2; q is {count} x 2, of runs of {count - 5} samples: it is"):
+        load(str(tmp_path / "a.mat"), robot)
+    for name in ("t", "q1"):
+        columns = dict(good.columns) | {name: ["x"] * count}
+        parquet.write_table(pyarrow.table(columns), tmp_path / "a.parquet")
+        with pytest.raises(InputError, match=f"there is no column {name}, .*; {name} held no number and is left out"):
+            load(str(tmp_path / "a.parquet"), robot)
+
+
 @pytest.mark.parametrize("source", ["", ".", "/"])
 def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
     sidecar.path_of(RunSource.of(source).path)
@@ -42,3 +62,27 @@ def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
 
 def test_a_folder_may_look_like_a_part() -> None:
     assert part_of("data@1:2/run.csv", 0.0, 5.0) == str(Path("data@1:2/run.csv@0:5"))
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "identify {robot} --data {long}.csv",
+        "identify {robot} --data {run} --recipe {long}.yaml",
+        "gains {robot} --empty {long}.csv --loaded {run}",
+        "stiffness {robot} --locked 1 --data {long}.csv --prior light",
+        "output-error {robot} --data {long}.csv",
+        "diagnose {robot} {long}.csv",
+        "excite {robot} --recipe {long}.yaml",
+        "simulate {robot} --parameters light --trajectory played --set file={long}.csv",
+        "simulate {robot} --parameters light --duration 0.1 --out {long}.csv",
+    ],
+)
+def test_a_name_that_is_too_long_is_one_line(words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot, run = tmp_path / "pendulum.yaml", tmp_path / "a.csv"
+    robot.write_text(PENDULUM)
+    run.write_text("t,q1,tau1\n0,0,0\n")
+    told = [word.format(robot=robot, run=run, long=tmp_path / ("a" * 300)) for word in words.split()]
+    done = command(*told, capsys=capsys)
+    assert done.status == 2
+    assert done.err.splitlines()[-1].startswith("error: ")

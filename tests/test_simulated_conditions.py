@@ -136,7 +136,7 @@ REFUSED = {
     ("--payload", "weight=3"): "--payload:1:1: payload value 'weight=3', expected NAME=VALUE with one of ",
     ("--payload", "M=2", "MX=1", "YY=0.1"): "--payload:1:1: inertias that are too small for its moments, ",
     ("--payload", "M=2", "XX=3", "YY=1", "ZZ=1"): "--payload:1:1: inertias that are too small for its moments, ",
-    ("--warm-up", "0"): "--warm-up:1:1: 0, expected a number above 0",
+    ("--warm-up", "0"): "--warm-up:1:1: 0, expected a number above 1e-09",
     ("--temperature", "-5"): "--temperature:1:1: -5, expected a number above 0",
     ("--temperature-rise", "nan"): "--temperature-rise:1:1: nan, expected a number that is not negative",
 }

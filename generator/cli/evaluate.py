@@ -43,7 +43,8 @@ def run(arguments: argparse.Namespace) -> None:
     """Prints one JSON object on one line."""
     from generator.cli import signal_options
 
-    given = signal_options.split(arguments.options, _COMMAND)
+    words = ["--help" if word == "-h" else word for word in arguments.options]
+    given = signal_options.split(words, _COMMAND)
     model, function = _derived(arguments.robot, arguments.quantity)
     if "help" in given:
         print(_signature(function))

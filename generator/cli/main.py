@@ -11,10 +11,13 @@ import atexit
 import gc
 import importlib
 import os
+import signal
 import sys
 import tomllib
 from collections.abc import Sequence
 from importlib import metadata
+from io import TextIOWrapper
+from itertools import takewhile
 from pathlib import Path
 from typing import NoReturn, Protocol, cast
 
@@ -27,7 +30,7 @@ GROUP = "counterpoise.commands"
 #: Where a checkout that is not installed names its commands.
 _PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
-DONE, BAD_INPUT, INTERRUPTED = 0, 2, 130
+DONE, BAD_INPUT, INTERRUPTED, TERMINATED = 0, 2, 130, 143
 
 #: Matrices here are small or narrow: more threads of NumPy's BLAS gain nothing, and on a busy machine they wait for
 #: each other. It is read when NumPy is imported, by the command.
@@ -56,24 +59,62 @@ class _Parser(argparse.ArgumentParser):
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command that ``argv`` names (the process's own arguments, if None); returns the exit status."""
     os.environ.setdefault(_THREADS, "1")
+    if isinstance(sys.stdout, TextIOWrapper):
+        # A robot file may have letters that the terminal has not.
+        sys.stdout.reconfigure(errors="backslashreplace")
     if argv is None:
         # What a command leaves goes with its process; Python's last collection would walk all of it first.
         atexit.register(gc.freeze)
+        # What a command has open, such as a temporary folder, is closed where the process is asked to end.
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(TERMINATED))
     try:
-        arguments, unknown = _parser(commands()).parse_known_args(argv)
+        words = sys.argv[1:] if argv is None else argv
+        arguments, unknown = _parser(commands()).parse_known_args(words)
         if unknown:
             arguments.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
+        _check_once(words, arguments.parser.prog)
         arguments.command.run(arguments)
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         return BAD_INPUT
     except BrokenPipeError:
-        # The reader has seen enough; nothing more can be written, not even when Python closes standard output.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader has seen enough.
+        _write_no_more()
+    except OSError as error:
+        if sys.stdout is None or not _is_stuck():
+            raise
+        _write_no_more()
+        print(f"error: standard output:1:1: {error.strerror}, expected a place for what is printed", file=sys.stderr)
+        return BAD_INPUT
     except KeyboardInterrupt:
         return INTERRUPTED
     return DONE
+
+
+def _is_stuck() -> bool:
+    """Whether standard output does not take a line either."""
+    try:
+        print(flush=True)
+    except OSError:
+        return True
+    return False
+
+
+def _write_no_more() -> None:
+    """Nothing more is written to standard output, not even when Python closes it."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _check_once(words: Sequence[str], command: str) -> None:
+    """Raises InputError for an option that is given twice, of which argparse would take the last alone."""
+    seen = set()
+    for word in takewhile(lambda word: word != "--", words):
+        name = word.partition("=")[0]
+        if name.startswith("--") and name in seen:
+            raise InputError(command_line(f"{command} {name}"), "the option is given twice", "it once")
+        seen.add(name)
 
 
 def commands() -> dict[str, Command]:

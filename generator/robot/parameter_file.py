@@ -13,7 +13,7 @@ from generator.robot import fields
 from generator.robot.description import ParameterValue
 from generator.robot.document import Entry, Table
 from generator.robot.readers import document
-from generator.units import parse_unit
+from generator.robot.sections.parameter_sets import parameter_value, relative_std
 
 #: Unit of a value that the file gives as a number alone: the parameter's own, in SI.
 UNSTATED = ""
@@ -22,7 +22,8 @@ UNSTATED = ""
 def read(path: Path) -> dict[str, ParameterValue]:
     """The values by parameter name, in SI; JSON is read as the YAML that it is.
 
-    Raises InputError, with line and column, for what is not a table of finite numbers.
+    Raises InputError, with line and column, for what is not a table of finite numbers, for a relative_std below
+    zero and for a source or note that is no text.
     """
     root = document(path, "a file of parameter values")
     return {name: _value(name, entry) for name, entry in fields.named(root, "the parameter file").items()}
@@ -36,10 +37,14 @@ def _value(name: str, entry: Entry) -> ParameterValue:
             short = fields.quantity(entry.value, what, None)
             return ParameterValue(float(short.value), short.unit, place=entry.key)
         return ParameterValue(float(fields.number(entry.value, what)), UNSTATED, place=entry.key)
+    if "unit" in entry.value.entries:
+        return parameter_value(name, entry)
     keys = fields.table(entry.value, what, ("value",), ("unit", "relative_std", "source", "note"))
-    value = fields.number(keys["value"].value, what)
-    if "unit" not in keys:
-        return ParameterValue(float(value), UNSTATED, place=entry.key)
-    text = fields.text(keys["unit"].value, f"unit of {name}", "a unit")
-    unit = parse_unit(text.content, text.place)
-    return ParameterValue(float(value * unit.factor), unit.si, place=entry.key)
+    return ParameterValue(
+        value=float(fields.number(keys["value"].value, what)),
+        unit=UNSTATED,
+        relative_std=relative_std(keys.get("relative_std"), name),
+        source=fields.prose(keys.get("source"), f"source of {name}"),
+        note=fields.prose(keys.get("note"), f"note on {name}"),
+        place=entry.key,
+    )

@@ -34,13 +34,14 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.parameter_source import parameters
 
     found = compare(parameters(arguments.a), parameters(arguments.b))
-    print(_table(found))
+    lines = [_table(found)]
     if arguments.out is not None:
         from identification.report.compare.report import report
         from identification.report.page import REPORT
 
         files = save(found, arguments.out, {REPORT: report(found)})
-        print(f"files            {', '.join(files)} in {arguments.out}/")
+        lines.append(f"files            {', '.join(files)} in {arguments.out}/")
+    print("\n".join(lines))
 
 
 def _table(found: Comparison) -> str:

@@ -9,6 +9,7 @@ for each base parameter.
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 #: Rows that a motion may have; difference of two frequencies that is rounding, in parts of one.
 _MOST, _SAME = 1e7, 1e-9
+#: Least noise that is one, and largest noise, speed and acceleration [SI]: beyond, squares overflow.
+_LEAST, _LARGEST = 1e-12, 1e12
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -109,7 +112,7 @@ def run(arguments: argparse.Namespace) -> None:
     robot = read(path)
     folder = arguments.out or Path("excitation") / robot.name
     for source in (path, arguments.recipe):
-        if source is not None and source.exists():
+        if source is not None and os.path.exists(source):
             spare(source, [folder / RUN, folder / BESIDE])
     _check_noise(arguments, robot)
     with stage(f"deriving the model of {path.stem}"):
@@ -123,14 +126,11 @@ def run(arguments: argparse.Namespace) -> None:
 def _check(arguments: argparse.Namespace) -> None:
     from identification.excitation.design import DRAWN
 
-    for option, value in (
-        ("--frequency", arguments.frequency),
-        ("--rate", arguments.rate),
-        ("--speed", arguments.speed),
-        ("--acceleration", arguments.acceleration),
-    ):
+    for option, value in (("--frequency", arguments.frequency), ("--rate", arguments.rate)):
+        above(value, option, 0)
+    for option, value in (("--speed", arguments.speed), ("--acceleration", arguments.acceleration)):
         if value is not None:
-            above(value, option, 0)
+            above(value, option, 0, _LARGEST)
     for option, count, least, most in (
         ("--harmonics", arguments.harmonics, 2, 50),
         ("--periods", arguments.periods, 1, 1000),
@@ -160,7 +160,8 @@ def _check_noise(arguments: argparse.Namespace, robot: Robot) -> None:
     if len(noise) not in (0, 1, n):
         raise InputError(command_line("--noise"), f"{len(noise)} numbers", f"one, or one for each of {n} motors")
     for option, value in (*(("--noise", one) for one in noise), ("--noise-part", 0.0 if part is None else part)):
-        not_negative(value, option)
+        if not_negative(value, option, _LARGEST):
+            above(value, option, _LEAST, _LARGEST)
     if not part and noise and not all(noise):
         raise InputError(command_line("--noise"), "a motor without noise", "noise on every motor, or --noise-part")
     if part == 0 and not noise:

@@ -64,10 +64,14 @@ def run(arguments: argparse.Namespace) -> None:
 
     path = find_robot(arguments.robot)
     payload = None if arguments.payload is None else given(arguments.payload, command_line("--payload"))
-    stds = given(arguments.payload_std, command_line("--payload-std")).known
+    place = command_line("--payload-std")
+    stds = given(arguments.payload_std, place).known
+    for word in arguments.payload_std:
+        if word.startswith("name="):
+            raise InputError(place, f"payload value {word!r}", "NAME=VALUE of a known value")
     for stem, std in stds.items():
         if std < 0:
-            raise InputError(command_line("--payload-std"), f"{stem}={std:g}", "a number that is not negative")
+            raise InputError(place, f"{stem}={std:g}", "a number that is not negative")
     recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)
     with stage(f"deriving the model of {path.stem}"):
         robot = read(path)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -166,7 +167,7 @@ def run(arguments: argparse.Namespace) -> None:
     if out.suffix != ".csv":
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
     played = (Path(value) for value in settings.trajectory_settings.values() if isinstance(value, str))
-    for source in (path, *(file for file in played if file.is_file())):
+    for source in (path, *(file for file in played if os.path.isfile(file))):
         spare(source, files_of(out))
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from generator.version import VERSION
 from identification import recipe as recipes
@@ -22,7 +22,7 @@ from identification.executors import Executor
 from identification.executors.here import Here
 from identification.inverse_model import Identification, Options, identify
 from identification.least_squares import not_shown
-from identification.output_error.criterion import Point
+from identification.output_error.criterion import Criterion, Point
 from identification.output_error.estimate import Estimate, evaluated
 from identification.output_error.experiment import Experiment, experiment
 from identification.output_error.methods import methods
@@ -111,6 +111,8 @@ def output_error(
     }
     kept = None if folder is None else folder / STARTS / _key(tasks["start_001"])
     results = study(run_start, tasks, executor or Here(), kept, counted, _RESULT)
+    if kept is not None:
+        _check_kept(results, search.criterion, chi, kept)
     scores = {name: _score(search, np.array(one["rms"])) for name, one in results.items()}
     chosen = min(scores, key=lambda name: scores[name])
     best = evaluated(search, _minimum(search, results[chosen]), tried)
@@ -118,6 +120,33 @@ def output_error(
     hidden = [name for name in best.names if name in best.hidden or name in solution.hidden]
     best = replace(best, hidden=tuple(hidden))
     return OutputError(robot, settings, first, train, tried, scores, chosen, best, _notes(first, best, train))
+
+
+def _check_kept(results: Mapping[str, Any], criterion: Criterion, chi: Array, folder: Path) -> None:
+    """Raises InputError for one of the ``results`` in ``folder`` whose numbers are not as many as a search leaves."""
+    first = criterion.begin(chi).states
+    like: dict[str, Array | int] = {
+        "chi": chi,
+        "scale": criterion.scale,
+        "rms": criterion.scale,
+        "simulations": 0,
+        "iterations": 0,
+    }
+    for name, one in results.items():
+        states = one["states"] if isinstance(one["states"], list) else []
+        whole = len(states) == len(first) and all(map(_alike, states, first))
+        if not (whole and all(_alike(one[key], value) for key, value in like.items())):
+            place = Place(str(folder / f"{name}.json"))
+            raise InputError(place, "these are not the numbers of a start", "a file that output-error wrote")
+
+
+def _alike(found: object, like: Array | int) -> bool:
+    """Whether a JSON value has numbers alone, in the shape of ``like``."""
+    try:
+        numbers = np.array(found)
+    except ValueError:
+        return False
+    return numbers.dtype.kind in "if" and numbers.shape == np.shape(like)
 
 
 def run_start(start: Start) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -21,8 +22,8 @@ def read(path: Path) -> Recording:
     expected = f"a run in {' or '.join(readers)}"
     if reader is None:
         raise InputError(Place(file), f"a run file ending in {path.suffix!r}", expected)
-    if not path.is_file():
-        problem = "there is no such file" if not path.exists() else "this is not a regular file"
+    if not os.path.isfile(path):
+        problem = "there is no such file" if not os.path.exists(path) else "this is not a regular file"
         raise InputError(Place(file), problem, expected)
     try:
         recording: Recording = reader.read(path)

@@ -21,6 +21,8 @@ from identification.trajectory import Trajectory, Value, ends_of
 
 #: Samples of the controller that a run may have.
 _MOST = 10**8
+#: Largest size, in SI, of what is added to a log, and shortest time of a warm-up [s]: beyond, numbers overflow.
+_LARGEST, _SHORTEST = 1e12, 1e-9
 
 
 def each(values: Sequence[float], n: int, option: str) -> Array:
@@ -57,29 +59,27 @@ def check(settings: Settings, robot: Robot) -> None:
 
 
 def _check_numbers(settings: Settings) -> None:
-    for option, value, bound in (
-        ("--duration", settings.duration, 0),
-        ("--rate", settings.rate, 0),
-        ("--bandwidth", settings.bandwidth, 0),
-        ("--temperature", settings.temperature, 0),
-        *((("--warm-up", settings.warm_up, 0),) if settings.warm_up is not None else ()),
-        *(("--largest", one, 0) for one in settings.largest if one != np.inf),
-        ("--friction-drift", settings.friction_drift, -1),
-        ("--torque-constant-drift", settings.constant_drift, -1),
+    for option, value, bound, most in (
+        ("--duration", settings.duration, 0, np.inf),
+        ("--rate", settings.rate, 0, np.inf),
+        ("--bandwidth", settings.bandwidth, 0, np.inf),
+        ("--temperature", settings.temperature, 0, _LARGEST),
+        *((("--warm-up", settings.warm_up, _SHORTEST, np.inf),) if settings.warm_up is not None else ()),
+        *(("--largest", one, 0, np.inf) for one in settings.largest if one != np.inf),
+        ("--friction-drift", settings.friction_drift, -1, _LARGEST),
+        ("--torque-constant-drift", settings.constant_drift, -1, _LARGEST),
     ):
-        above(value, option, bound)
+        above(value, option, bound, most)
     for option, values in (
         ("--resolution", settings.resolution),
         ("--noise", settings.noise),
         ("--wrench-noise", settings.wrench_noise),
-        ("--delay", [settings.delay]),
-        ("--link-delay", [settings.link_delay]),
         ("--temperature-rise", [settings.rise]),
     ):
         for value in values:
-            not_negative(value, option)
+            not_negative(value, option, _LARGEST)
     for option, delay in (("--delay", settings.delay), ("--link-delay", settings.link_delay)):
-        if delay > settings.duration:
+        if not_negative(delay, option) > settings.duration:
             raise InputError(command_line(option), f"{delay:g} s", f"no more than the run, {settings.duration:g} s")
     for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
         whole_number(seed, option, 0)

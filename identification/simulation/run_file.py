@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -33,7 +34,7 @@ def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Pat
     """
     files = files_of(path)
     for file in files:
-        if file.is_dir():
+        if os.path.isdir(file):
             raise InputError(Place(str(file)), "it is a folder", "a file that can be written")
     values = np.stack(list(run.columns.values()), axis=1)
     row = ",".join([f"%.{_DIGITS}g"] * values.shape[1])
@@ -59,7 +60,7 @@ def _sidecar(run: Simulated, robot: str, digest: str) -> str:
         "rate": settings.rate,
         "log_rate": settings.log_rate or settings.rate,
         "bandwidth": settings.bandwidth,
-        "largest": [one for one in settings.largest if one != np.inf],
+        "largest": ["none" if one == np.inf else one for one in settings.largest],
         "resolution": settings.resolution,
         "noise": settings.noise,
         "wrench_noise": settings.wrench_noise,

@@ -176,7 +176,7 @@ def without_last_column(folder: Path) -> str:
 @pytest.mark.parametrize(
     ("run", "options", "parts"),
     [
-        ("2.csv", ("--prior", "knwon"), ("arm.yaml", "no parameter set 'knwon'", "known")),
+        ("2.csv", ("--prior", "knwon"), ("--prior:1:1: ", "no parameter set 'knwon'", "known")),
         (cut_off, (), ("short.csv", "a run of 0.038 s, expected 1 s at least")),
         (in_milliseconds, (), ("slow.csv", "expected at least 4.44 Hz; are the times in s?")),
         (without_last_column, (), ("cut.csv",)),

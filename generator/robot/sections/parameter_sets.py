@@ -35,10 +35,15 @@ def _set(name: str, entry: Entry) -> ParameterSet:
 
 
 def _values(entry: Entry, source: str) -> dict[str, ParameterValue]:
-    return {key: _value(key, one, source) for key, one in fields.named(entry.value, "values").items()}
+    return {key: parameter_value(key, one, source) for key, one in fields.named(entry.value, "values").items()}
 
 
-def _value(name: str, entry: Entry, source: str) -> ParameterValue:
+def parameter_value(name: str, entry: Entry, source: str = "") -> ParameterValue:
+    """The value of a parameter in SI, of the ``source`` unless it names its own.
+
+    Raises InputError for what is not a finite number with a known unit, a relative_std below zero
+    and a source or note that is no text.
+    """
     node = entry.value
     if not isinstance(node, Table):
         short = fields.quantity(node, f"value of {name}", None)
@@ -54,14 +59,15 @@ def _value(name: str, entry: Entry, source: str) -> ParameterValue:
     return ParameterValue(
         value=float(value),
         unit=unit.si,
-        relative_std=_relative_std(keys.get("relative_std"), name),
+        relative_std=relative_std(keys.get("relative_std"), name),
         source=fields.prose(keys.get("source"), f"source of {name}") or source,
         note=fields.prose(keys.get("note"), f"note on {name}"),
         place=entry.key,
     )
 
 
-def _relative_std(entry: Entry | None, name: str) -> float | None:
+def relative_std(entry: Entry | None, name: str) -> float | None:
+    """The relative standard deviation [%] of a parameter, None without an entry; raises InputError below zero."""
     if entry is None:
         return None
     value = fields.number(entry.value, f"relative_std of {name}")

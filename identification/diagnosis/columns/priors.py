@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
+from generator.command_line import command_line
 from generator.effects.library import motor_side
 from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
@@ -59,7 +60,7 @@ def notes_of(model: Model, name: str) -> list[str]:
 
 def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
     """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_untold``)."""
-    told = _joined(model, named_set(model.robot, name, model.robot.place).values)
+    told = _joined(model, named_set(model.robot, name, command_line("--prior")).values)
     given = regrouped(model, told)
     values = resolved(model, given)
     largest: dict[str, float] = {}

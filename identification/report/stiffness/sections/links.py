@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from generator.review.markup import Markup, element, join
-from generator.robot.description import PRISMATIC
 from identification.arrays import Array
 from identification.link_encoders import LinkEncoders
 from identification.report.chart import axis
@@ -33,7 +32,7 @@ def render(subject: Subject) -> Markup | None:
 def _panel(found: LinkEncoders, k: int) -> list[Markup]:
     joint, rows = found.robot.moving[k], found.rows[k]
     number = joint.number
-    length, torque = ("m", "N") if joint.sigma == PRISMATIC else ("rad", "N m")
+    length, torque = joint.position_unit, joint.torque_unit
     latency, stiffness = found.latency[f"latency{number}"], found.stiffness[f"k{number}"]
     means = rows.constants @ (rows.constants.T @ rows.twist / np.maximum(rows.constants.sum(axis=0), 1))
     twist, left = rows.beside_motion()

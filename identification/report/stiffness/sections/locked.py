@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from generator.review.markup import Markup, element, join
-from generator.robot.description import PRISMATIC
 from identification.locked_output import LockedOutput
 from identification.report.chart import ESTIMATED, MEASURED, axis, chart, line
 from identification.report.choice import choice
@@ -24,7 +23,7 @@ def render(subject: Subject) -> Markup | None:
         return None
     chi = [one.value or 0.0 for one in found.values.values()]
     joint = found.joint
-    angle, torque = ("m", "N") if joint.sigma == PRISMATIC else ("rad", "N m")
+    angle, torque = joint.position_unit, joint.torque_unit
     panels = {}
     for (run, _), rows in zip(found.runs, found.rows, strict=True):
         at = some(len(rows), _POINTS)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from generator.review.markup import Markup, element, join
-from generator.robot.description import PRISMATIC
 from identification.drive_train import coupling
 from identification.force_steps import ForceSteps
 from identification.outcome import Value
@@ -33,7 +32,7 @@ def render(subject: Subject) -> Markup | None:
 def _panel(found: ForceSteps, k: int) -> list[Markup]:
     joint = found.robot.moving[k]
     number = joint.number
-    length, torque = ("m", "N") if joint.sigma == PRISMATIC else ("rad", "N m")
+    length, torque = joint.position_unit, joint.torque_unit
     twists = [(pose.run.name, pose.q[k], pose.wrench_torque[k]) for pose in found.poses]
     across, upward = axis(f"change of q{number}", length), axis("torque of the wrench", torque)
     drawn = [_chart(twists, found.stiffness.get(f"k{number}"), f"k{number}", across, upward)]
