@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import EFFECT, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.verdict.doubts import beside_warming
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, SIGNAL, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.verdict.doubts import beside_drive_trains, beside_warming
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
 from tests.matrices import Array
 
@@ -88,3 +89,23 @@ def test_what_is_little_beside_friction_that_warms_is_tentative(
     first, second = beside_warming(told)
     assert first is warm
     assert (second is other) == firm
+
+
+@pytest.mark.parametrize(
+    ("status", "joints", "firm"),
+    [(TENTATIVE, (1, 2), False), (TENTATIVE, (1,), True), (FIRM, (1, 2), True)],
+)
+def test_a_delay_is_as_sure_as_a_drive_train_of_its_joints(status: str, joints: tuple[int, ...], firm: bool) -> None:
+    train, delay = (
+        SimpleNamespace(
+            hypothesis=SimpleNamespace(effect=effect, kind=kind), status=how, joints=on, doubted=lambda why: why
+        )
+        for effect, kind, how, on in (
+            ("backlash", ELASTIC, status, (2,)),
+            ("torque_delay", SIGNAL, FIRM, joints),
+        )
+    )
+    told: list[Any] = [train, delay]
+    first, second = beside_drive_trains(told)
+    assert first is train
+    assert (second is delay) == firm

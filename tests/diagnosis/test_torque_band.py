@@ -113,6 +113,18 @@ def test_a_filter_lifts_nothing(lifted: float, ends: bool, arm: Known, monkeypat
     assert np.isfinite(end([alone])) == ends
 
 
+def test_of_two_joints_the_lifted_one_swings(arm: Known, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However much more of the slow torque the other one has."""
+    one = scene(arm)
+    both = replace(one, sampled=replace(one.sampled, tau=one.tau[:2]))
+    ends, lifted = np.geomspace(1.0, 0.003, 25), np.repeat([0.6, 2.2], [20, 5])
+    powers = [np.concatenate([start, ends]) for start in (np.full(25, 2.0), lifted)]
+    monkeypatch.setattr(torque_band, "_power", lambda scenes, errors, k, *_: powers[k])
+    assert end([both]) == np.inf
+    powers[1] = powers[0]
+    assert np.isfinite(end([both]))
+
+
 def test_what_one_joint_lacks_may_be_its_drive_train(arm: Known) -> None:
     assert end([slow(scene(arm), slice(1, 2))]) == np.inf
 

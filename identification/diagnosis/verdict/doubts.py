@@ -117,6 +117,18 @@ def beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     ]
 
 
+def beside_drive_trains(told: Sequence[Finding]) -> list[Finding]:
+    """With delays as sure as the drive trains beside them: a link that follows by another law is late as well."""
+    tentative = {
+        number for one in told if one.hypothesis.kind == ELASTIC and one.status == TENTATIVE for number in one.joints
+    }
+    why = "a link that follows its motor by another law than the drive train's beside it is late as well"
+    return [
+        one.doubted(why) if one.hypothesis.effect == "torque_delay" and not tentative.isdisjoint(one.joints) else one
+        for one in told
+    ]
+
+
 def beside_warming(told: Sequence[Finding]) -> list[Finding]:
     """With what is little beside friction that warms up on its joint as sure as the law by which that warms."""
     warming = {number: one for one in told if one.hypothesis.effect == "warm_friction" for number in one.joints}

@@ -15,7 +15,13 @@ from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.likely import pulls
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.alternatives import alternatives
-from identification.diagnosis.verdict.doubts import beside_any_torque, beside_warming, doubted, swinging
+from identification.diagnosis.verdict.doubts import (
+    beside_any_torque,
+    beside_drive_trains,
+    beside_warming,
+    doubted,
+    swinging,
+)
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.gap_crossings import left_between
 from identification.diagnosis.verdict.shape_reach import reaching
@@ -74,7 +80,7 @@ def findings(
     told = [doubted(one, _remains(found, one, left), several, found.repeats, free) for one in result]
     settled = [left_between(found, one.evidence, left) if one.hypothesis.effect == "backlash" else left for one in told]
     told = [swinging(one, rest, _remains(found, one, rest)) for one, rest in zip(told, settled, strict=True)]
-    told = beside_warming(beside_any_torque(told))
+    told = beside_warming(beside_drive_trains(beside_any_torque(told)))
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
 
