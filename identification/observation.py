@@ -6,7 +6,7 @@ The generated NumPy module computes it, block by block: most of the time of a fi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -61,10 +61,9 @@ class Motion:
         signals = (self.q, self.qd, self.qdd, self.states, self.warmth)
         return Motion(*(None if one is None else one[:, samples] for one in signals))  # type: ignore[arg-type]
 
-    def of_joints(self, order: Sequence[int]) -> Motion:
-        """The motion with joint k moving as joint ``order[k]`` did; the states stay what they were."""
-        k = list(order)
-        return replace(self, q=self.q[k], qd=self.qd[k], qdd=self.qdd[k])
+    def mixed(self, A: Array) -> Motion:
+        """The motion with joints moving by ``A`` (n x n) times how they did; the states stay what they were."""
+        return replace(self, q=A @ self.q, qd=A @ self.qd, qdd=A @ self.qdd)
 
     def turned(self, k: int) -> Motion:
         """The motion with joint k moving the other way; the states stay what they were."""

@@ -1,12 +1,12 @@
 """Fits that are too bad to be believed: is it another robot's run, or are columns swapped?
 
-Where a joint's residual is large, the fit is repeated on a thinned run with each two joints' columns exchanged. If that
-explains the torques far better, the columns are refused and named.
+Where a joint's residual is large, the fit is repeated on a thinned run with each two joints' columns exchanged, or two
+motors'. If that explains the torques far better, the columns are refused and named.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
 from generator.review.words import listed
-from generator.robot.description import REVOLUTE
+from generator.robot.description import REVOLUTE, Robot
 from generator.symbolic.model import Model
 from identification.arrays import Array
+from identification.drive_train import constants, coupling
 from identification.factors import Factor, triangular
 from identification.filtering import smoothed
 from identification.least_squares import Problem
@@ -90,7 +91,7 @@ def _asked(one: Residual) -> str:
 
 
 def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
-    """Raises InputError where two joints' columns are swapped."""
+    """Raises InputError where columns of two joints or motors are swapped."""
     if bad := _doubtful(residuals):
         for one in runs:
             _swapped(one, regressors, bad)
@@ -127,7 +128,7 @@ def misread(one: Sampled, regressors: Regressors) -> list[str]:
     joints = regressors.model.robot.moving
 
     def misfit(moved: Motion, torques: Array) -> float:
-        return _Thinned(regressors, moved, torques, used, independent).misfit(range(len(tau)))
+        return _Thinned(regressors, moved, torques, used, independent).misfit(np.eye(len(tau)))
 
     ways: dict[str, tuple[Motion, Array]] = {}
     for k, joint in enumerate(joints):
@@ -160,12 +161,11 @@ def _mounted(one: Sampled, regressors: Regressors) -> str:
     axes = (1, 0, 0), (0, 1, 0), (0, 0, 1)
     others = [(sign * x * size, sign * y * size, sign * z * size) for x, y, z in axes for sign in (-1, 1)]
     motion, tau, used, independent = _thinned(one)
-    straight = list(range(len(tau)))
     # Its parameter sets have the base parameters of the gravity that the file says.
     bare = replace(robot, parameter_sets={})
     tried = {each: Regressors(replace(bare, gravity=each)) for each in others if size and each != own}
     misfits = {
-        gravity: _Thinned(each, motion, tau, used, independent).misfit(straight)
+        gravity: _Thinned(each, motion, tau, used, independent).misfit(np.eye(len(tau)))
         for gravity, each in {own: regressors, **tried}.items()
     }
     best = min(misfits, key=lambda gravity: misfits[gravity])
@@ -186,25 +186,38 @@ def _thinned(one: Sampled) -> tuple[Motion, Array, NDArray[np.bool_], float]:
 
 def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
     motion, tau, used, independent = _thinned(one)
-    straight = list(range(len(tau)))
+    same = np.eye(len(tau))
     given = _Thinned(regressors, motion, tau, used, independent)
-    best, what = given.misfit(straight) - np.log(_BETTER), ""
-    numbers = regressors.model.robot.numbers
-    for i, k in combinations(straight, 2):
+    best, what, of = given.misfit(same) - np.log(_BETTER), "", ""
+    robot = regressors.model.robot
+    for i, k in combinations(range(len(tau)), 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue
-        order = straight.copy()
-        order[i], order[k] = k, i
-        other = _Thinned(regressors, motion.of_joints(order), tau, used[order], independent)
-        for name, misfit in (
-            ("torques", given.misfit(order)),
-            ("positions", other.misfit(straight)),
-            ("columns", other.misfit(order)),
-        ):
-            if misfit < best:
-                best, what = misfit, f"the {name} of joints {numbers[i]} and {numbers[k]} look swapped"
+        for whose, A, B in _exchanges(robot, i, k, one.run.by_motors):
+            rows = np.all(used | (A == 0)[:, :, None], axis=1)
+            other = _Thinned(regressors, motion.mixed(A), tau, rows, independent)
+            tried = {"torques": given.misfit(B), "positions": other.misfit(same), "columns": other.misfit(B)}
+            name = min(tried, key=lambda which: tried[which])
+            if tried[name] < best:
+                best, of = tried[name], whose
+                what = f"the {name} of {whose} {robot.numbers[i]} and {robot.numbers[k]} look swapped"
     if what:
-        raise InputError(one.run.place, what, "columns in the joints' order")
+        raise InputError(one.run.place, what, f"columns in the {of}' order")
+
+
+def _exchanges(robot: Robot, i: int, k: int, by_motors: bool) -> Iterator[tuple[str, Array, Array]]:
+    """Whose columns i and k may be exchanged, and by which matrices (n x n each) that mixes the joints' motion and
+    torques: of joints, and of motors where the run is ``by_motors``, whose efforts are torques or currents.
+    """
+    P = np.eye(len(robot.moving))
+    P[[i, k]] = P[[k, i]]
+    yield "joints", P, P
+    if by_motors:
+        N, kt = coupling(robot), constants(robot)
+        for per_effort in dict.fromkeys([(1.0,) * len(kt), tuple(kt.tolist())]):
+            K = np.diag(per_effort)
+            motion, torques = np.linalg.solve(N, P @ N), N.T @ K @ P @ np.linalg.inv(N.T @ K)
+            yield "motors", np.asarray(motion), np.asarray(torques)
 
 
 class _Thinned:
@@ -224,11 +237,11 @@ class _Thinned:
         """Whether joint k has rows enough to doubt its columns."""
         return bool(self._rows[k] > _FEWEST * len(self._structure[k]))
 
-    def misfit(self, order: Sequence[int]) -> float:
-        """Sum of the logarithms of the joints' residuals where joint k has the torques of joint ``order[k]``."""
+    def misfit(self, mix: Array) -> float:
+        """Sum of the logarithms of the joints' residuals with torques that are ``mix`` (n x n) times the given ones."""
         factors = []
         for k, (R, names) in enumerate(zip(self._factors, self._structure, strict=True)):
-            columns = [*range(len(names)), len(names) + order[k]]
-            factors.append(Factor(k, names, R[:, columns], int(self._rows[k]), 0.0))
+            mixed = np.column_stack([R[:, : len(names)], R[:, len(names) :] @ mix[k]])
+            factors.append(Factor(k, names, mixed, int(self._rows[k]), 0.0))
         sigma = Problem(tuple(factors), self._names, {}, weighted=True).solve().sigma
         return float(np.log(list(sigma.values())).sum())

@@ -331,16 +331,6 @@ def test_rows_near_standstill_are_left_out(links: Regressors, clean: Path) -> No
     assert all(len(kept[0.05][k].Y) < len(kept[0.0][k].Y) for k in (0, 1))
 
 
-@pytest.mark.parametrize("change", ["torques", "positions"])
-def test_swapped_columns_are_found_out(change: str, links: Regressors, folder: Path) -> None:
-    run = recorded(links, TRUTH, seed=7, noise=0.03)
-    stem = {"torques": "tau", "positions": "q"}[change]
-    columns = {f"{stem}1": run.columns[f"{stem}2"], f"{stem}2": run.columns[f"{stem}1"]}
-    path = run.with_columns(**columns).save(folder / f"swapped_{change}.csv")
-    with pytest.raises(InputError, match=f"the {change} of joints 1 and 2 look swapped"):
-        identify(links.model.robot, [path], regressors=links)
-
-
 def test_torques_that_the_model_cannot_make_are_refused(links: Regressors, folder: Path) -> None:
     run = recorded(links, TRUTH, seed=8)
     other = np.random.default_rng(3).normal(size=(2, len(run.columns["t"])))
@@ -368,15 +358,3 @@ def test_negative_friction_is_told(links: Regressors, folder: Path) -> None:
     run = recorded(links, {**TRUTH, "Fv1": -8.0}, noise=0.01)
     found = identify(links.model.robot, [run.save(folder / "driven.csv")], regressors=links)
     assert any(note.startswith("Fv1 is -") and "below its bound 0" in note for note in found.notes)
-
-
-def test_columns_of_a_short_run_are_not_doubted(links: Regressors, folder: Path) -> None:
-    """Of 2.5 s some thirty rows are independent, by which 13 parameters explain what they like."""
-    short, long = (
-        run.with_columns(tau1=run.columns["tau2"], tau2=run.columns["tau1"]).save(folder / f"swapped_{seconds:g}.csv")
-        for seconds in (2.5, 25.0)
-        for run in [recorded(links, TRUTH, duration=seconds, seed=7, noise=0.03)]
-    )
-    identify(links.model.robot, [short], regressors=links)
-    with pytest.raises(InputError, match="look swapped"):
-        identify(links.model.robot, [long], regressors=links)

@@ -1,0 +1,65 @@
+"""Columns that are swapped, of joints or of motors: refused and named, where a run is long enough to tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.errors import InputError
+from identification.drive_train import constants, coupling
+from identification.inverse_model import identify
+from identification.observation import Regressors
+from tests.recorded import TRUTH, Recorded, recorded, two_links
+
+
+@pytest.fixture(scope="module")
+def links(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
+    return two_links(tmp_path_factory.mktemp("swapped"))
+
+
+@pytest.mark.parametrize("change", ["torques", "positions"])
+def test_swapped_columns_are_found_out(change: str, links: Regressors, tmp_path: Path) -> None:
+    run = recorded(links, TRUTH, seed=7, noise=0.03)
+    stem = {"torques": "tau", "positions": "q"}[change]
+    columns = {f"{stem}1": run.columns[f"{stem}2"], f"{stem}2": run.columns[f"{stem}1"]}
+    path = run.with_columns(**columns).save(tmp_path / f"swapped_{change}.csv")
+    with pytest.raises(InputError, match=f"the {change} of joints 1 and 2 look swapped"):
+        identify(links.model.robot, [path], regressors=links)
+
+
+@pytest.mark.parametrize(
+    ("change", "stems"), [("torques", ("i",)), ("torques", ("taum",)), ("positions", ("qm",)), ("columns", ("qm", "i"))]
+)
+def test_swapped_columns_of_motors_are_found_out(
+    change: str, stems: Sequence[str], links: Regressors, tmp_path: Path
+) -> None:
+    """Ratios, constants and the coupling of the two are not alike: what is read of the joints is a mixture."""
+    robot = links.model.robot
+    run, N = recorded(links, TRUTH, seed=7, noise=0.01).columns, coupling(robot)
+    motors = N @ np.stack([run["q1"], run["q2"]]), np.linalg.solve(N.T, np.stack([run["tau1"], run["tau2"]]))
+    effort = "taum" if "taum" in stems else "i"
+    if effort == "i":
+        motors = motors[0], motors[1] / constants(robot)[:, None]
+    columns = {f"{stem}{k}": x for stem, two in zip(("qm", effort), motors, strict=True) for k, x in enumerate(two, 1)}
+    for stem in stems:
+        columns[f"{stem}1"], columns[f"{stem}2"] = columns[f"{stem}2"], columns[f"{stem}1"]
+    path = Recorded({"t": run["t"], **columns}).save(tmp_path / f"swapped_motors_{'_'.join(stems)}.csv")
+    with pytest.raises(
+        InputError, match=f"the {change} of motors 1 and 2 look swapped, expected columns in the motors'"
+    ):
+        identify(robot, [path], regressors=links)
+
+
+def test_columns_of_a_short_run_are_not_doubted(links: Regressors, tmp_path: Path) -> None:
+    """Of 2.5 s some thirty rows are independent, by which 13 parameters explain what they like."""
+    short, long = (
+        run.with_columns(tau1=run.columns["tau2"], tau2=run.columns["tau1"]).save(tmp_path / f"swapped_{seconds:g}.csv")
+        for seconds in (2.5, 25.0)
+        for run in [recorded(links, TRUTH, duration=seconds, seed=7, noise=0.03)]
+    )
+    identify(links.model.robot, [short], regressors=links)
+    with pytest.raises(InputError, match="look swapped"):
+        identify(links.model.robot, [long], regressors=links)
