@@ -20,16 +20,16 @@ from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.stated_swings import swing
 
-#: Kinds of what changes no base parameter that the searched model has as well.
-_APART = {EFFECT, ELASTIC}
+#: Kinds of what changes no base parameter that the searched model has as well, and such corrections of signals.
+_APART, _LATE = (EFFECT, ELASTIC), ("torque_delay", "link_delay")
 
 
 def has_swings(found: Search, additions: Collection[Addition]) -> bool:
     """Whether a model with ``additions`` plays with swings: of drive trains of the file, or of those that were found,
     unless what else was added changes the base parameters, which the search then does not tell.
     """
-    kinds = {one.kind for one in additions}
-    return (ELASTIC in kinds or swing(found)) and kinds <= _APART
+    elastic = any(one.kind == ELASTIC for one in additions)
+    return (elastic or swing(found)) and all(one.kind in _APART or one.effect in _LATE for one in additions)
 
 
 def beside_swings(found: Search, findings: Sequence[Finding], model: Model, rigid: ParameterSet) -> ParameterSet:
