@@ -68,7 +68,6 @@ def _cores() -> int:
 def _send(here: Connection, there: Connection, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
     # An interruption is of whoever waits, who ends this; where that one is gone, sending fails.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     here.close()
     try:
         there.send([function(one) for one in items])

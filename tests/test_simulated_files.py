@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +14,7 @@ from identification.dataset import Run, load
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.simulate import simulate
-from tests.commands import ROOT, command
+from tests.commands import command
 from tests.test_simulate import SHORT, Array
 
 
@@ -61,21 +58,6 @@ def test_what_is_read_is_not_written_over(file: Path, tmp_path: Path, capsys: py
         assert done.status == 2
         assert "it would be written over" in done.err.splitlines()[-1]
         assert (robot.read_bytes(), run.read_bytes()) == before
-
-
-def test_a_simulation_that_is_asked_to_end_leaves_nothing_behind(file: Path, tmp_path: Path) -> None:
-    words = [sys.executable, "-m", "generator", "simulate", file, "--duration", "10000", "--out", tmp_path / "a.csv"]
-    there = tmp_path / "temporary"
-    there.mkdir()
-    places = {"PYTHONPATH": str(ROOT), "TMPDIR": str(there)}
-    with subprocess.Popen(words, env={**os.environ, **places}, stderr=subprocess.PIPE, text=True) as running:
-        assert running.stderr is not None
-        assert any(line.startswith("simulating ") for line in running.stderr)
-        assert list(there.iterdir())
-        running.terminate()
-    assert running.returncode == 143
-    assert [one.name for one in tmp_path.iterdir()] == ["temporary"]
-    assert not list(there.iterdir())
 
 
 #: What of the log changes with a section of signals.

@@ -11,7 +11,6 @@ import atexit
 import gc
 import importlib
 import os
-import signal
 import sys
 import tomllib
 from collections.abc import Sequence
@@ -30,7 +29,7 @@ GROUP = "counterpoise.commands"
 #: Where a checkout that is not installed names its commands.
 _PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
-DONE, BAD_INPUT, INTERRUPTED, TERMINATED = 0, 2, 130, 143
+DONE, BAD_INPUT, INTERRUPTED = 0, 2, 130
 
 #: Matrices here are small or narrow: more threads of NumPy's BLAS gain nothing, and on a busy machine they wait for
 #: each other. It is read when NumPy is imported, by the command.
@@ -65,8 +64,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     if argv is None:
         # What a command leaves goes with its process; Python's last collection would walk all of it first.
         atexit.register(gc.freeze)
-        # What a command has open, such as a temporary folder, is closed where the process is asked to end.
-        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(TERMINATED))
     try:
         words = sys.argv[1:] if argv is None else argv
         arguments, unknown = _parser(commands()).parse_known_args(words)
