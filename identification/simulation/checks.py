@@ -62,7 +62,7 @@ def _check_numbers(settings: Settings) -> None:
     for option, value, bound, most in (
         ("--duration", settings.duration, 0, np.inf),
         ("--rate", settings.rate, 0, np.inf),
-        ("--bandwidth", settings.bandwidth, 0, np.inf),
+        ("--bandwidth", settings.bandwidth, 0, _LARGEST),
         ("--temperature", settings.temperature, 0, _LARGEST),
         *((("--warm-up", settings.warm_up, _SHORTEST, np.inf),) if settings.warm_up is not None else ()),
         *(("--largest", one, 0, np.inf) for one in settings.largest if one != np.inf),

@@ -117,6 +117,12 @@ def test_a_model_plays_with_swings_unless_something_else_changes_its_base_parame
     assert has_swings(searched(STATED, shown, 0.05), [Addition(kind, "", (1,)) for kind in kinds]) == plays
 
 
+@pytest.mark.parametrize(("effect", "plays"), [("torque_delay", True), ("position_offset", False)])
+def test_a_delay_changes_no_base_parameter(effect: str, plays: bool) -> None:
+    both = [Addition(ELASTIC, "joint_elasticity", (1,)), Addition(SIGNAL, effect, (1, 2))]
+    assert has_swings(searched(TWO_LINKS), both) == plays
+
+
 def test_drive_trains_of_the_file_swing_where_the_runs_show_them() -> None:
     still, swings = searched(STATED, 0.2, 0.05), searched(STATED, 0.9, 0.05)
     assert drive_trains(still, []) == {}

@@ -6,16 +6,19 @@ The simulated robot integrates its drive trains as differential equations and sh
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import ModuleType
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
+from generator.robot.readers import read
 from identification.diagnosis.candidates import backlash, elasticity
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.columns.whitening import Colour
-from identification.diagnosis.runs.link_side import LinkSides, Train, link_side
+from identification.diagnosis.runs.link_side import LinkSides, Train, link_side, without_drive_train
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.rotor import rotor_inertia, rotor_is_told
 from identification.diagnosis.runs.scene import Scene
@@ -29,6 +32,8 @@ from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
+from tests.recorded import TRUTH as LINKS
+from tests.recorded import TWO_LINKS
 
 NAME, GAP = "scara_like", 4e-4
 COMPLIANCE = Effect("joint_flexibility", 1).amount(ROBOTS["scara_like"])
@@ -228,3 +233,22 @@ def test_swings_settle_beside_the_base_parameters(
     assert found.shape["Iam"] == pytest.approx(ROTOR, rel=0.01)
     assert found.shape["gap"] == pytest.approx(GAP, rel=off)
     assert acting.coefficients["gap1"] == pytest.approx(GAP, rel=0.05)
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_a_rotor_is_taken_from_what_holds_it(stated: bool, tmp_path: Path) -> None:
+    """One that was found beside a file without the effect is in no base parameter; what a file's holds is there."""
+    path = tmp_path / "two_links.yaml"
+    rotors = "  - {effect: rotor_inertia, joints: all}\n"
+    path.write_text(TWO_LINKS if stated else TWO_LINKS.replace(rotors, ""))
+    regressors = Regressors(read(path))
+    ((holds, per_inertia),) = regressors.rotors[0].items()
+    values = {name: LINKS.get(name, 9.0) for name in regressors.names}
+    beside, none = (
+        replace(scene, beside=found)
+        for scene in [Scene(cast(Any, None), regressors, values)]
+        for found in (Found({"Ia1": 2.0}), None)
+    )
+    for scene, taken in ((none, True), (beside, stated)):
+        left = without_drive_train(scene, 0, 2.0)[holds]
+        assert left == pytest.approx(values[holds] - 2.0 * per_inertia * taken)

@@ -10,10 +10,11 @@ import pytest
 
 from generator.robot.readers import read
 from identification.diagnosis.columns.hypothesis import LOAD
-from identification.diagnosis.columns.payload_body import beyond, corrected
+from identification.diagnosis.columns.payload_body import STATED_MASS, beyond, corrected
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
+from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.sidecar import UNITS, Payload
 from tests.diagnosis.diagnosed_arm import diagnosis_of
@@ -34,14 +35,20 @@ def carrying(mass: float) -> dict[str, float]:
     return {name: value + mass * more.get(name, 0.0) for name, value in TRUTH.items()}
 
 
-def recorded(folder: Path, masses: Sequence[tuple[float, float]]) -> tuple[Regressors, list[str]]:
-    """Runs with a mass each and what its sidecar states; that of none states that."""
+def recorded(
+    folder: Path, masses: Sequence[tuple[float, float]], gains: Sequence[float] = (1.0, 1.0)
+) -> tuple[Regressors, list[str]]:
+    """Runs with a mass each and what its sidecar states, that of none states that; what is recorded of the motors'
+    torques is ``gains`` times as large.
+    """
     path = folder / "two_links.yaml"
     path.write_text(TEXT)
     regressors, draw, sources = Regressors(read(path)), np.random.default_rng(3), []
+    N = coupling(regressors.model.robot)
     for seed, (mass, stated) in enumerate(masses, 1):
         t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
-        tau = regressors.torques(carrying(mass), motion) + draw.normal(size=motion.q.shape)
+        true = regressors.torques(carrying(mass), motion) + draw.normal(size=motion.q.shape)
+        tau = N.T @ np.diag(gains) @ np.linalg.solve(N.T, true)
         columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
         sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
         values = ["payload: none"] if not stated else ["payload:", f"  M: {stated} kg"]
@@ -61,7 +68,7 @@ def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path)
     assert mass.value == pytest.approx(MASS - STATED, abs=3 * mass.std)
     assert mass.std < 0.2 * (STATED - MASS)
     assert new is not None
-    assert any("by the runs payload L is M 1." in note and "sidecars state M 4.5 kg" in note for note in new.notes)
+    assert any("by the runs L has" in note and "kg for 4.5 of its sidecar" in note for note in new.notes)
     first, second = (sum(one.residuals.total.norm for one in each) for each in (new.before, new.after))
     assert second < 0.6 * first
     # The arm itself stays as it was known, to twice as much.
@@ -86,8 +93,32 @@ def test_a_payload_that_is_as_stated_is_nothing(known: str | None, tmp_path: Pat
     assert diagnosis_of(sources, regressors, known).verdict == NOTHING
 
 
-def test_what_is_found_adds_to_every_payload_alike() -> None:
+@pytest.mark.parametrize(
+    ("gains", "found"),
+    [((1.15, 1.15), {0: 0.15}), pytest.param((1.15, 1.25), {1: 0.15, 2: 0.25}, marks=pytest.mark.long)],
+)
+def test_gains_are_not_taken_for_a_payload(gains: Sequence[float], found: dict[int, float], tmp_path: Path) -> None:
+    """Known values tell that the payload is as stated: one error of all motors, or of each."""
+    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (STATED, STATED)] * 2, gains)
+    told = diagnosis_of(sources, regressors, "known").findings
+    assert {(one.hypothesis.effect, one.status) for one in told} == {("torque_gain", FIRM)}
+    assert {one.hypothesis.joint: one.main[0].value for one in told} == pytest.approx(found, abs=0.005)
+
+
+def test_what_is_found_adds_to_the_payload_of_that_mass_alone() -> None:
     stated = Payload("L", dict.fromkeys(UNITS, 2.0))
-    right = corrected(stated, {beyond("M"): -0.5, beyond("I"): 0.25, beyond("YY-I"): 0.125})
+    found = {STATED_MASS: 2.0, beyond("M"): -0.5, beyond("I"): 0.25, beyond("YY-I"): 0.125}
+    right = corrected(stated, found)
     changed = {stem: x - 2.0 for stem, x in right.known.items() if x != 2.0}
     assert (right.name, changed) == ("L", {"M": -0.5, "XX": 0.25, "YY": 0.375, "ZZ": 0.25})
+    other = Payload("L", dict.fromkeys(UNITS, 3.0))
+    assert corrected(other, found) == other
+    assert corrected(stated, {}) == stated
+
+
+def test_runs_with_another_payload_are_played_with_what_they_state(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (MASS, STATED), (1.0, 1.0), (MASS, STATED)])
+    found = diagnosis_of(sources, regressors, "known")
+    (one,) = found.findings
+    assert (one.hypothesis.effect, one.shape) == ("stated_payload", {STATED_MASS: STATED})
+    assert one.parameters["M_beyond"].value == pytest.approx(MASS - STATED, abs=0.05)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
-from identification.diagnosis.columns.hypothesis import BEYOND
+from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
-from identification.diagnosis.mending.addition import addition
+from identification.diagnosis.mending.addition import Addition, addition
 from identification.diagnosis.mending.repair import repaired
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.drive_train import coupling
@@ -77,6 +77,13 @@ def test_another_offset_than_the_stated_one_is_one_of_what_may_be(tmp_path: Path
     angle = one.parameters["tilt_y" if one.hypothesis.effect == "base_tilt" else "position_offset1"]
     assert angle.value is not None
     assert abs(angle.value) == pytest.approx(0.1 - OFFSET, abs=3 * angle.std)
+
+
+def test_an_offset_beyond_the_stated_one_adds_to_it() -> None:
+    text = stating(**(RIGHT | {"position_offset": 0.1}))
+    found = Addition(SIGNAL, "position_offset", (1,), values={"position_offset": OFFSET - 0.1})
+    written = repaired(text, "x", [found]).robot.signals.position_offset
+    assert [float(x) for x in written] == pytest.approx([OFFSET, 0.0])
 
 
 def test_what_is_stated_rightly_is_not_found_again(tmp_path: Path) -> None:

@@ -1,38 +1,36 @@
-"""Another payload than the runs' sidecars state: what all that state one carry beyond it."""
+"""Another payload than the runs' sidecars state: what all that state the same mass carry beyond it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BEYOND, LOAD, Coefficient, Hypothesis
-from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS, beyond, columns
+from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS, STATED_MASS, beyond, columns, states
 from identification.diagnosis.runs.scene import Scene
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One for all runs together, where one states a payload: a mass that all have wrong alike."""
-    carried = [scene.sampled.run.payload for scene in scenes]
-    stated = [one.known for one in carried if one is not None]
-    if not stated:
-        return []
+    """One for each mass that runs state; a robot has one of them."""
+    carried = [one.known for scene in scenes if (one := scene.sampled.run.payload) is not None]
     return [
         Hypothesis(
             "stated_payload",
             f"payload{BEYOND}",
             0,
-            tuple(_beyond(one, stated) for one in COEFFICIENTS),
+            tuple(_beyond(one, [known for known in carried if known["M"] == mass]) for one in COEFFICIENTS),
             _columns,
             kind=LOAD,
             joints=scenes[0].robot.numbers,
             variable="q",
+            given={STATED_MASS: mass},
+            units={STATED_MASS: "kg"},
             would_show="known inertial parameters (--prior), or runs without the payload: in a free fit the parameters "
             "of the last bodies take up what all runs carry",
             separating={"torque_gain": "a payload that was weighed"},
         )
+        for mass in dict.fromkeys(known["M"] for known in carried)
     ]
 
 
@@ -43,5 +41,4 @@ def _beyond(one: Coefficient, stated: Sequence[Mapping[str, float]]) -> Coeffici
 
 
 def _columns(scene: Scene, shape: Mapping[str, float]) -> Array:
-    found = columns(scene)
-    return found if scene.sampled.run.payload is not None else np.zeros_like(found)
+    return columns(scene) * states(scene.sampled.run.payload, shape)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
+from generator.robot.description import Joint
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
@@ -20,47 +21,66 @@ _BELIEVED = 0.6
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
-    """One a motor; where the robot's file states a gain, of what is left with it."""
+    """One a motor, and of several one of all alike, as by another unit or a payload that is not the stated one; where
+    the robot's file states a gain, of what is left with it.
+    """
     if not scenes:
         return []
-    robot = scenes[0].robot
-    stated = robot.signals.torque_gain or [1] * len(robot.moving)
-    return [
-        Hypothesis(
-            "torque_gain",
-            "error of the torque's gain" + BEYOND * bool(stated[k] != 1),
-            joint.number,
-            (_coefficient(f"torque_gain_error{joint.number}", float(stated[k]), scenes),),
-            partial(_columns, k),
-            kind=SIGNAL,
-            joints=(joint.number,),
-            variable="load",
-            would_show="a known payload, or known inertial parameters (--prior): a free fit scales all parameters of "
-            "the joint",
-            separating={
-                "payload": "a run with a known payload",
-                "rotor_inertia": "a run with a known payload, or at rest: a gain scales the weight's torque too",
-                "gear_ratio": "a known angle at the joint: a wrong gain does not turn it",
-                "torque_drift": "one long run: a gain does not change with time",
-            },
-            of_model=partial(_of_model, k),
-        )
-        for k, joint in enumerate(robot.moving)
-    ]
+    moving = scenes[0].robot.moving
+    own = [_hypothesis(scenes, (joint,), k) for k, joint in enumerate(moving)]
+    return [*([_hypothesis(scenes, moving, None)] if len(moving) > 1 else []), *own]
 
 
-def _coefficient(name: str, stated: float, scenes: Sequence[Scene]) -> Coefficient:
-    """Beside a ``stated`` gain."""
-    least, largest = min(stated * _LEAST - 1, 0.0), max(stated * _LARGEST - 1, 0.0)
+def _hypothesis(scenes: Sequence[Scene], joints: Sequence[Joint], k: int | None) -> Hypothesis:
+    """Of motor k, or of all."""
+    stated = [float(one) for one in scenes[0].robot.signals.torque_gain] or [1.0] * len(scenes[0].robot.moving)
+    mine = stated if k is None else [stated[k]]
+    joint = None if k is None else joints[0]
+    return Hypothesis(
+        "torque_gain",
+        "error of " + ("all torques' gains" if k is None else "the torque's gain") + BEYOND * any(x != 1 for x in mine),
+        0 if joint is None else joint.number,
+        (_coefficient(_name(joint), mine, scenes),),
+        partial(_columns, k),
+        kind=SIGNAL,
+        joints=tuple(one.number for one in joints),
+        variable="load",
+        would_show="a known payload, or known inertial parameters (--prior): a free fit scales all parameters of "
+        "the joint",
+        separating={
+            "payload": "a run with a known payload",
+            "stated_payload": "a payload that was weighed",
+            "rotor_inertia": "a run with a known payload, or at rest: a gain scales the weight's torque too",
+            "gear_ratio": "a known angle at the joint: a wrong gain does not turn it",
+            "torque_drift": "one long run: a gain does not change with time",
+        },
+        of_model=partial(_of_model, k),
+    )
+
+
+def _name(joint: Joint | None) -> str:
+    return "torque_gain_error" if joint is None else f"torque_gain_error{joint.number}"
+
+
+def _coefficient(name: str, stated: Sequence[float], scenes: Sequence[Scene]) -> Coefficient:
+    """Beside ``stated`` gains."""
+    least, largest = min(max(stated) * _LEAST - 1, 0.0), max(min(stated) * _LARGEST - 1, 0.0)
     if not any(scene.settled or scene.found(name) for scene in scenes):
         # Beside known values a model that was fitted to the recorded torque is 1 + e times the true one.
         least /= 1 + least
     return Coefficient(name, "1", least, largest, believed=_BELIEVED)
 
 
-def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    return supplied(scene.robot, k, scene.torque)[None]
+def _columns(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
+    return _supplied(k, scene, scene.torque)
 
 
-def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
-    return supplied(scene.robot, k, scene.model_torque)[None]
+def _of_model(k: int | None, scene: Scene, shape: Mapping[str, float]) -> Array:
+    return _supplied(k, scene, scene.model_torque)
+
+
+def _supplied(k: int | None, scene: Scene, torque: Array) -> Array:
+    """Of a motor beside an error of all: one multiplies what the other left."""
+    if k is None:
+        return torque[None]
+    return (1 + scene.found(_name(None))) * supplied(scene.robot, k, torque)[None]

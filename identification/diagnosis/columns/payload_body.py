@@ -27,6 +27,9 @@ COEFFICIENTS = (
     *(Coefficient(name, "kg m2", refines=True) for name in ("XX-I", "YY-I", "XY", "XZ", "YZ")),
 )
 
+#: The mass [kg] that sidecars state of it.
+STATED_MASS = "stated_mass"
+
 #: Those that are not called as the one inertial parameter, in the tool frame, of which they are so much.
 _OTHERS = {"I": ("XX", "YY", "ZZ"), "XX-I": ("XX",), "YY-I": ("YY",)}
 
@@ -42,12 +45,19 @@ def columns(scene: Scene) -> Array:
 
 
 def beyond(name: str) -> str:
-    """How a coefficient is called that adds to what a sidecar states."""
+    """How a coefficient is called that adds to what sidecars state."""
     return f"{name}_beyond"
 
 
+def states(payload: Payload | None, shape: Mapping[str, float]) -> bool:
+    """Whether a run's sidecar states the payload of which a ``shape`` has the mass."""
+    return payload is not None and payload.known.get("M") == shape.get(STATED_MASS)
+
+
 def corrected(stated: Payload, found: Mapping[str, float]) -> Payload:
-    """A payload that sidecars state, with what was ``found`` ``beyond`` it [SI]."""
+    """A payload that sidecars state, with what was ``found`` ``beyond`` it [SI], of which a shape is its mass."""
+    if not states(stated, found):
+        return stated
     known = dict(stated.known)
     for name, stems in PARAMETERS.items():
         for stem in stems:

@@ -44,7 +44,7 @@ class WrittenModel:
 
     ``flexible`` is the set of the model with elastic drive trains, None where the file has none. What plays are
     ``regressors`` of a robot file with it, and values ``played`` [SI] of base parameters and of how links swing, if
-    they do (``swings``), with ``loads`` [SI] beyond what sidecars state of payloads.
+    they do (``swings``), with ``loads`` [SI] beyond what sidecars state of a payload.
     """
 
     findings: tuple[Finding, ...]
@@ -70,7 +70,7 @@ def written_model(
     regressors = Regressors(preferring(new.robot, prior))
     known = None if prior is None else _prior(prior, regressors, held)
     said, given = _description(held), _given(entered, new.robot)
-    loads = {name: x for one in held if one.hypothesis.kind == LOAD for name, x in one.known.items()}
+    loads = {name: x for one in held if one.hypothesis.kind == LOAD for name, x in {**one.shape, **one.known}.items()}
     fit = refit(fitted_runs(found, regressors, loads), regressors, known, said, given)
     swings, bodies, played = has_swings(found.search, additions), fit.parameter_set, fit.written
     if swings:
@@ -134,14 +134,16 @@ def fitted_runs(found: Diagnosis, regressors: Regressors, loads: Mapping[str, fl
 def _sidecars(found: Search, loads: Mapping[str, float]) -> list[str]:
     """What the runs say of payloads that their sidecars state, where something is ``loads`` beyond that."""
     notes = []
-    for scene in found.bank.scenes if loads else ():
-        if (stated := scene.sampled.run.payload) is not None:
-            right = corrected(stated, loads).known
-            values = ", ".join(f"{stem} {right[stem]:.4g} {UNITS[stem]}" for stem in ("M", "MX", "MY", "MZ"))
-            notes.append(
-                f"by the runs payload {stated.name} is {values}, where sidecars state M {stated.known['M']:.4g} kg; "
-                "correct those"
-            )
+    carried = [scene.sampled.run.payload for scene in found.bank.scenes]
+    for stated in (one for one in carried if one is not None and loads):
+        right = corrected(stated, loads).known
+        other = [
+            f"{stem} {right[stem]:.4g} {unit} for {stated.known[stem]:.4g}"
+            for stem, unit in UNITS.items()
+            if right[stem] != stated.known[stem]
+        ]
+        if other:
+            notes.append(f"if it is the payload: by the runs {stated.name} has {', '.join(other)} of its sidecar")
     return list(dict.fromkeys(notes))
 
 

@@ -65,6 +65,9 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
     # Each is told by rows of its own, not by what the other leaves.
     if one.preset and other.preset:
         return 0.0
+    # Gains have no law but themselves.
+    if one.effect == other.effect == "torque_gain":
+        return _ELSE
     # The rows of several motors tell it alike: no law of one joint lacks that.
     if one.preset and len(one.joints) > 1 and other.joint != 0:
         return _ANYWHERE

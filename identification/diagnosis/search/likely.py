@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from generator.effects.effect import BALANCER, EVERYWHERE, OFTEN, SPRING
 from generator.effects.library import library
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import BODY, LOAD, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
 
 
 def balances(effect: str) -> bool:
@@ -27,7 +27,7 @@ def misplaces(hypothesis: Hypothesis) -> bool:
 
 def common(variant: Variant) -> bool:
     """Whether nearly every robot has the effect, or this one by what its file says."""
-    return variant.hypothesis.kind in (BODY, LOAD) or variant.hypothesis.stated or _occurs(variant) == EVERYWHERE
+    return variant.hypothesis.kind == BODY or variant.hypothesis.stated or _occurs(variant) == EVERYWHERE
 
 
 def likely(variant: Variant, others: Sequence[Variant]) -> bool:

@@ -25,7 +25,8 @@ from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search import doubling
-from identification.diagnosis.search.selection import Choice, Selection
+from identification.diagnosis.search.load_or_gains import searched
+from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
@@ -124,7 +125,7 @@ def search(
         bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy, free)
         progress("weighing the evidence")
-        choices = [] if dry else Selection(weighing).search(chosen)
+        choices = [] if dry else searched(weighing, chosen)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
         before, acting, old = acting, Acting.found(bank, chosen, solution), values

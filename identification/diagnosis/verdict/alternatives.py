@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from generator.effects.library import library
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import Hypothesis, on_joints
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.selection import Choice
@@ -14,10 +17,17 @@ from identification.diagnosis.verdict.finding import Alternative
 OTHER_RIPPLE, OTHER_TORQUE, OTHER_FRICTION = "other_ripple", "other_torque", "other_friction"
 OTHER_GEOMETRY, OTHER_BODY = "other_geometry", "other_body"
 
+#: Those of motors one by one, and of all alike.
+_GAIN = "torque_gain"
 
-def alternatives(mine: Hypothesis, one: Choice) -> tuple[Alternative, ...]:
-    """What explains as much in the place of ``mine``, which is that of a choice."""
-    found = [_alternative(mine, other) for other in one.alternatives]
+
+def alternatives(mine: Hypothesis, one: Choice, chosen: Sequence[Variant]) -> tuple[Alternative, ...]:
+    """What explains as much in the place of ``mine``, which is that of a choice among all that were ``chosen``. Of
+    several gains the common part is none: it says the same of all of them.
+    """
+    gains = [each for each in chosen if each.hypothesis.effect == _GAIN]
+    same = _GAIN if len(gains) > 1 and mine.effect == _GAIN else ""
+    found = [_alternative(mine, other) for other in one.alternatives if other.variant.hypothesis.effect != same]
     if one.odds < UNSURE:
         title = "ripple whose order is no whole number"
         turns = "more turns of the joint in one run: they tell the order more closely"

@@ -74,10 +74,12 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         return one.doubted(f"{_UNDETERMINED}, and no motion repeats")
     if remains > _LEFT:
         return one.doubted("it leaves more on its joint than it explains there")
-    if kind == LOAD and free and not vague(one.main[0]):
+    if kind == LOAD and free:
         weighed = "the payload on a scale, or known inertial parameters (--prior)"
         other = outside("torque_gain", "the same error of all torques' gains", one.joints, one.evidence, weighed)
-        return one.doubted("a free fit scales all parameters with the payload's", alternatives=[other])
+        there = [each.effect for each in one.alternatives]
+        more = [] if "torque_gain" in there else [other]
+        return one.doubted("a free fit scales all parameters with the payload's", alternatives=more)
     if kind == BODY and vague(one.main[0]):
         return one.doubted("the runs do not determine its mass")
     if all(map(vague, one.main)):
