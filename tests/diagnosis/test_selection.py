@@ -374,6 +374,14 @@ def test_what_the_model_takes_up_is_invisible_and_named_so() -> None:
     assert Selection(weighing).search() == []
 
 
+def test_what_all_joints_have_alike_hides_none_that_one_joint_shows() -> None:
+    data = Data(15)
+    hidden, seen = data.base[:, 0] - 2 * data.base[:, 1], data.base[:, 0] + data.column()
+    whole, alone = (replace(fixed(effect, hidden), joint=0) for effect in ("gain", "alone"))
+    one = data.bank(0.3 * hidden, [whole, alone, fixed("gain", seen)])
+    assert [each.effect for each in invisible(Weighing(one, TRAIN, VALIDATE, None))] == ["alone"]
+
+
 def test_a_column_that_no_row_shows_makes_nothing_visible() -> None:
     """As the first moments of a payload along a vertical axis."""
     data = Data(15)

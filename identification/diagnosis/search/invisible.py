@@ -15,7 +15,7 @@ _ELSEWHERE = "other motion, or the base mounted another way: along these runs it
 
 def invisible(weighing: Weighing) -> list[Hypothesis]:
     """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make no
-    torque along the runs.
+    torque along the runs. What may be of one joint is told of each.
     """
     hidden: dict[Key, list[bool]] = {}
     whose: dict[Key, Hypothesis] = {}
@@ -27,4 +27,6 @@ def invisible(weighing: Weighing) -> list[Hypothesis]:
             whose[key] = variant.hypothesis
     taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
     nowhere = [one for key, one in weighing.bank.nowhere.items() if key not in hidden and not one.measured]
-    return [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
+    found = [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
+    of_one = {effect for effect, joint in (*hidden, *weighing.bank.nowhere) if joint}
+    return [one for one in found if one.joint or one.effect not in of_one]

@@ -22,8 +22,9 @@ _SHOWN, _VAGUE = 0.5, 0.25
 
 
 def taken_up(weighing: Weighing) -> list[Hypothesis]:
-    """Gains of drives whose part of the model's own torque the fit takes up."""
-    gains = [one for one in weighing.bank.variants if one.hypothesis.of_model and not one.hypothesis.shapes]
+    """Gains of drives one by one whose part of the model's own torque the fit takes up."""
+    mine = [one for one in weighing.bank.variants if one.hypothesis.of_model and one.hypothesis.joint]
+    gains = [one for one in mine if not one.hypothesis.shapes]
     return [one.hypothesis for one in gains if (own := _own(weighing, one)) and not weighing.visible(own)]
 
 
