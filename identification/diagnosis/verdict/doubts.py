@@ -109,24 +109,21 @@ def _much(one: Finding, remains: float) -> bool:
 
 def beside_any_torque(told: Sequence[Finding]) -> list[Finding]:
     """With offsets as sure as the torques of the position beside them: another law there takes another offset."""
-    tentative = {
-        number for one in told if pulls(one.hypothesis.effect) and one.status == TENTATIVE for number in one.joints
-    }
     why = "another law in the place of the torque of the position on its joint takes another offset"
-    return [
-        one.doubted(why) if one.hypothesis.effect == "offset" and not tentative.isdisjoint(one.joints) else one
-        for one in told
-    ]
+    return _as_sure("offset", [one for one in told if pulls(one.hypothesis.effect)], told, why)
 
 
 def beside_drive_trains(told: Sequence[Finding]) -> list[Finding]:
     """With delays as sure as the drive trains beside them: a link that follows by another law is late as well."""
-    tentative = {
-        number for one in told if one.hypothesis.kind == ELASTIC and one.status == TENTATIVE for number in one.joints
-    }
     why = "a link that follows its motor by another law than the drive train's beside it is late as well"
+    return _as_sure("torque_delay", [one for one in told if one.hypothesis.kind == ELASTIC], told, why)
+
+
+def _as_sure(effect: str, others: Sequence[Finding], told: Sequence[Finding], why: str) -> list[Finding]:
+    """With findings of an ``effect`` doubted that share a joint with a tentative one of ``others``."""
+    tentative = {number for one in others if one.status == TENTATIVE for number in one.joints}
     return [
-        one.doubted(why) if one.hypothesis.effect == "torque_delay" and not tentative.isdisjoint(one.joints) else one
+        one.doubted(why) if one.hypothesis.effect == effect and not tentative.isdisjoint(one.joints) else one
         for one in told
     ]
 
