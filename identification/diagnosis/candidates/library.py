@@ -58,7 +58,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         if any(scene.moves(k) for scene in scenes)
         if _possible(effect, joint, robot) and (effect.role != BALANCER or weighty[k])
         if "warmth" not in effect.needs or _warming(k, scenes)
-        for one in _hypothesis(effect, joint, k, scenes, effect.role != BALANCER or k in shoulders)
+        for one in on_joint(effect, joint, k, scenes, effect.role != BALANCER or k in shoulders)
     ]
 
 
@@ -104,7 +104,7 @@ def _told(k: int, scenes: Sequence[Scene]) -> bool:
     return any(scene.warmth_is_stated(k) for scene in scenes)
 
 
-def _hypothesis(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usual: bool) -> list[Hypothesis]:
+def on_joint(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usual: bool) -> list[Hypothesis]:
     """The effect on a joint, coordinate k; none where a shape has no value to begin with."""
     columns = EffectColumns(effect, joint, k, scenes[0].robot)
     shapes: list[ShapeRange] = []

@@ -10,7 +10,7 @@ import numpy as np
 from generator.effects.library import library
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, VALUE, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, SHAPE, VALUE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 
@@ -45,7 +45,7 @@ class Acting:
     def again(self) -> bool:
         """Whether columns depend on what was found: on the model's torque, or on the load of a transmission."""
         on_load = len(self.variants) > 1 and any(one.hypothesis.variable == "load" for one in self.variants)
-        return on_load or any(one.hypothesis.kind not in (EFFECT, VALUE) for one in self.variants)
+        return on_load or any(one.hypothesis.kind not in (EFFECT, SHAPE, VALUE) for one in self.variants)
 
     def near(self, before: Acting) -> bool:
         """Whether another search, in whose columns ``before`` acts, would find the same."""
@@ -66,7 +66,7 @@ class Acting:
 
     @property
     def _torques(self) -> tuple[Variant, ...]:
-        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY, LOAD, VALUE))
+        return tuple(one for one in self.variants if one.hypothesis.kind in (EFFECT, BODY, LOAD, SHAPE, VALUE))
 
     def _sum(self, scene: Scene, counts: Callable[[Hypothesis, Coefficient], bool]) -> Array:
         result = np.zeros_like(scene.motion.q)

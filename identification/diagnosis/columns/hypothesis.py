@@ -23,6 +23,8 @@ EFFECT, SIGNAL, BODY, BASE, DRIVE, ELASTIC = "effect", "signal", "body", "base",
 VALUE = "value"
 #: What it becomes in the runs' sidecars alone: another payload than they state.
 LOAD = "load"
+#: What it becomes in an effect that the file has: other shape values.
+SHAPE = "shape"
 
 #: How a correction is called that the file has another one of already.
 BEYOND = " beyond the stated one"
@@ -214,6 +216,11 @@ class Hypothesis:
         for shape in self.shapes:
             result = [{**one, shape.name: x} for one in result for x in shape.grid()]
         return result
+
+
+def reshaped(name: str) -> str:
+    """How a coefficient of the file is called that has another shape."""
+    return f"{name}_reshaped"
 
 
 def on_joints(numbers: Iterable[int]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from generator.effects.library import library
-from identification.diagnosis.columns.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SIGNAL, Hypothesis
+from identification.diagnosis.columns.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SHAPE, SIGNAL, Hypothesis
 
 
 @dataclass(frozen=True)
@@ -15,6 +15,7 @@ class Addition:
 
     - EFFECT: ``effect`` is an id of the library, ``values`` its fixed ones, and the joints' ``warm_up_time`` where the
       file has none.
+    - SHAPE: ``values`` replace those of an effect that the file has.
     - SIGNAL: keys of section ``signals`` with their value for the joints: an offset or a delay is added to the file's,
       a gain multiplies it, a limit, time or rise replaces it.
     - DRIVE: ``gear_ratio``, a factor of the joints' ratios; ``torque_drift``, added to the motors'; the rest as SIGNAL.
@@ -49,7 +50,7 @@ def addition(
     values: dict[str, float] = {}
     parameters: dict[str, float] = {}
     joints = (one.joint,) if one.joint else one.joints
-    if one.kind == EFFECT:
+    if one.kind in (EFFECT, SHAPE):
         usual = {each.name: each.default for each in library()[one.effect].shapes}
         values = {name: x for name, x in {**one.given, **shape}.items() if x or usual.get(name) != 0}
     elif one.kind == SIGNAL:

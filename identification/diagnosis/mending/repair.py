@@ -27,6 +27,7 @@ from identification.diagnosis.columns.hypothesis import (
     EFFECT,
     ELASTIC,
     LOAD,
+    SHAPE,
     SIGNAL,
     VALUE,
     on_joints,
@@ -147,11 +148,8 @@ def _comment(robot: Robot, one: Addition) -> str:
 
 
 def _values(effect: Effect, joint: Joint, shape: Mapping[str, float]) -> str:
-    parts = []
-    for name in (each for each in effect.shapes if each.name in shape):
-        unit = name.unit_on(joint)
-        parts.append(f"{name.name}: {_number(shape[name.name])}{'' if unit == '1' else f' {unit}'}")
-    return ", ".join(parts)
+    there = [each for each in effect.shapes if each.name in shape]
+    return ", ".join(f"{one.name}: {_with_unit(shape[one.name], one.unit_on(joint))}" for one in there)
 
 
 def _add_signal(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -169,8 +167,8 @@ def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequen
         if joint.number in joints:
             now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
     units = [signal_unit(key, joint, robot.drives is not None) for joint in robot.moving]
-    written = [_number(x) if unit == "1" else f"{_number(x)} {unit}" for x, unit in zip(now, units, strict=True)]
-    return with_value(text, ("signals", key), f"[{', '.join(written)}]")
+    written = ", ".join(map(_with_unit, now, units))
+    return with_value(text, ("signals", key), f"[{written}]")
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -223,6 +221,25 @@ def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     return with_value(text, ("base", "rotation"), f"[{angles}]"), [
         "the tilt of the base is in section base of the robot file"
     ]
+
+
+def _add_shape(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    """Into the entry that one joint has; from an entry of several joints into one of its own."""
+    (number,) = one.joints
+    use = robot.use(one.effect, number)
+    k = robot.effects.index(use)
+    note = f"{one.effect} of joint {number} has another shape in the robot file than before"
+    if use.joints != (number,):
+        others = ", ".join(str(joint) for joint in use.joints if joint != number)
+        text = with_value(text, ("effects", k, "joints"), f"[{others}]")
+        text, _ = _add_effect(text, robot_of(text, robot.place.file), replace(one, kind=EFFECT))
+        return text, [note]
+    joint = robot.joints[number - 1]
+    for shape in (each for each in library()[one.effect].shapes if each.name in one.values):
+        if not (shape.name in use.values and float(use.values[shape.name].value) == one.values[shape.name]):
+            value = _with_unit(one.values[shape.name], shape.unit_on(joint))
+            text = with_value(text, ("effects", k, "values", shape.name), value)
+    return text, [note]
 
 
 def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -279,6 +296,7 @@ _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] =
     DRIVE: _add_drive,
     BASE: _add_base,
     ELASTIC: _add_elastic,
+    SHAPE: _add_shape,
     BODY: _add_body,
     VALUE: _keep,
     LOAD: _of_sidecars,
@@ -289,6 +307,10 @@ def _number(value: float) -> str:
     """Six significant digits."""
     mantissa, _, exponent = f"{value:.6g}".partition("e")
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return _number(value) if unit == "1" else f"{_number(value)} {unit}"
 
 
 def _plain(text: str) -> str:

@@ -6,9 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from identification.diagnosis.columns.hypothesis import VALUE, Hypothesis, Key
+from identification.diagnosis.columns.hypothesis import SHAPE, VALUE, Hypothesis, Key
 from identification.diagnosis.search.weighing import Weighing
 
+#: Other values of what the file has: of those there is nothing to be shown.
+_OF_FILE = (SHAPE, VALUE)
 #: What shows an effect that makes no torque along the runs.
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 
@@ -21,12 +23,15 @@ def invisible(weighing: Weighing) -> list[Hypothesis]:
     whose: dict[Key, Hypothesis] = {}
     for variant in weighing.bank.variants:
         key = variant.key
-        # Of a value that the fit tells there is nothing to be shown.
-        if variant.hypothesis.kind != VALUE:
+        if variant.hypothesis.kind not in _OF_FILE:
             hidden.setdefault(key, []).append(not weighing.visible(variant))
             whose[key] = variant.hypothesis
     taken_up = [whose[key] for key, shapes in hidden.items() if np.mean(shapes) > 0.5]
-    nowhere = [one for key, one in weighing.bank.nowhere.items() if key not in hidden and not one.measured]
+    nowhere = [
+        one
+        for key, one in weighing.bank.nowhere.items()
+        if key not in hidden and not one.measured and one.kind not in _OF_FILE
+    ]
     found = [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
     of_one = {effect for effect, joint in (*hidden, *weighing.bank.nowhere) if joint}
     return [one for one in found if one.joint or one.effect not in of_one]

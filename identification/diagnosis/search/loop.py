@@ -11,7 +11,7 @@ from identification.arrays import Array
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.columns.acting import Acting
 from identification.diagnosis.columns.bank import Bank, Lasting, Variant, columns_of
-from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis
 from identification.diagnosis.columns.maps import maps
 from identification.diagnosis.columns.normal_equations import Normal, Prior
 from identification.diagnosis.columns.whitening import Colour, colour, stretches
@@ -25,7 +25,7 @@ from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search import doubling
-from identification.diagnosis.search.load_or_gains import searched
+from identification.diagnosis.search.other_shapes import searched
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.weighing import Weighing
@@ -118,14 +118,14 @@ def search(
         near = free or turn + 1 >= _PASSES
         scenes = [Scene(run.sampled, regressors, values, acting, near) for run in clear]
         bank = Bank(clear, scenes, lasting)
-        offered = _offered(bank, train)
-        chosen = [again for old in chosen if (again := _again(bank, offered, old)) is not None]
+        offered, later = _offered(bank, train)
+        chosen = [again for old in chosen if (again := _again(bank, [*offered, *later], old)) is not None]
         progress("measuring the noise")
         rounded, noisy, may_follow = _rounded(clear, scenes), redrawn(clear, scenes), maps(clear, scenes)
         bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy, free)
         progress("weighing the evidence")
-        choices = [] if dry else searched(weighing, chosen)
+        choices = [] if dry else searched(weighing, chosen, later)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
         before, acting, old = acting, Acting.found(bank, chosen, solution), values
@@ -175,11 +175,14 @@ def _with_drive_trains(prior: Prior | None, regressors: Regressors) -> Prior | N
     return (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
 
 
-def _offered(bank: Bank, train: Sequence[int]) -> Sequence[Hypothesis]:
-    """What the runs number ``train`` may show, its columns now in the bank."""
-    offered = hypotheses([bank.scenes[r] for r in train])
+def _offered(bank: Bank, train: Sequence[int]) -> tuple[Sequence[Hypothesis], Sequence[Hypothesis]]:
+    """What the runs number ``train`` may show, its columns now in the bank; and other shapes of what the file has,
+    which are looked for where that does not do.
+    """
+    every = hypotheses([bank.scenes[r] for r in train])
+    offered, later = ([one for one in every if (one.kind == SHAPE) is last] for last in (False, True))
     bank.offer(offered)
-    return offered
+    return offered, later
 
 
 def _rounded(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> tuple[Array, ...]:

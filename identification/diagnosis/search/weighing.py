@@ -81,7 +81,7 @@ class Weighing:
     ) -> None:
         self.bank, self.train, self.validate, self._prior = bank, tuple(train), tuple(validate), prior
         self.free = free or prior is None
-        self._tried = len({one.key for one in bank.variants})
+        self._tried = _keys(bank)
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
         self._pretence = self._pretence_along(self.train)
@@ -102,6 +102,7 @@ class Weighing:
         if self._seen < self.bank.count:
             self.normal = self.normal.grown(self._gram(self.train))
             self._seen = self.bank.count
+            self._tried = _keys(self.bank)
 
     @property
     def all(self) -> Normal:
@@ -374,6 +375,11 @@ class Weighing:
     def visible(self, variant: Variant) -> bool:
         """Whether the model leaves a part of the torque that it would make."""
         return not all(map(self.normal.hides, variant.columns))
+
+
+def _keys(bank: Bank) -> int:
+    """How many hypotheses its variants are of."""
+    return len({one.key for one in bank.variants})
 
 
 def _beyond(drop: float, less: float, count: int) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, LOAD, SINCE_REVERSAL, VALUE
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, LOAD, SHAPE, SINCE_REVERSAL, VALUE
 from identification.diagnosis.search.likely import balances, misplaces, pulls
 from identification.diagnosis.verdict.alternatives import (
     OTHER_BODY,
@@ -68,9 +68,9 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         poses = "measured poses of the tool, and other sources of what is known"
         other = outside(OTHER_GEOMETRY, "another fault of what is known", one.joints, one.evidence, poses)
         return one.doubted(_SMALL, alternatives=[other])
-    if kind == EFFECT and not one.determined and one.variable == SINCE_REVERSAL:
+    if kind in (EFFECT, SHAPE) and not one.determined and one.variable == SINCE_REVERSAL:
         return one.doubted(_UNDETERMINED)
-    if kind in (EFFECT, ELASTIC) and not one.determined and not repeats:
+    if kind in (EFFECT, ELASTIC, SHAPE) and not one.determined and not repeats:
         return one.doubted(f"{_UNDETERMINED}, and no motion repeats")
     if remains > _LEFT:
         return one.doubted("it leaves more on its joint than it explains there")
@@ -134,7 +134,7 @@ def beside_warming(told: Sequence[Finding]) -> list[Finding]:
     why = "friction on its joint that warms up a little otherwise makes as much"
     return [
         one.doubted(why)
-        if one.hypothesis.kind == EFFECT
+        if one.hypothesis.kind in (EFFECT, SHAPE)
         and one.variable in _OF_FRICTION
         and any(one.evidence.drop < _WARMED * warming[j].evidence.drop for j in one.joints if j in warming)
         else one

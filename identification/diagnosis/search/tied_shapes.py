@@ -1,0 +1,109 @@
+"""Other shapes that all of an effect has: how much has the shape that was found is as much as there is of the effect.
+
+The columns of another shape are what it makes beyond the file's. A part of the effect with another shape than the rest
+would be another law: with its coefficients tied to the file's own, all of it changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+import numpy as np
+from scipy.optimize import minimize
+
+from identification.arrays import Array
+from identification.diagnosis.columns.bank import Variant, columns_of
+from identification.diagnosis.columns.hypothesis import SHAPE, reshaped
+from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.search.weighing import Weighing
+
+#: How far the part of an effect that has another shape may be from all of it, and the same in standard deviations.
+_WHOLE, _CHANCE = 0.25, 3.0
+#: Shapes that are tried for each value that is searched, and the first steps between them, in usual ones.
+_TRIED, _STEP = 40, 0.5
+
+
+def tied(weighing: Weighing, chosen: Sequence[Variant]) -> list[Variant] | None:
+    """What was ``chosen``, with the shapes that explain most where all of an effect has them; None without any other
+    shape, and where not all of the effect has the one that is found.
+    """
+    result = list(chosen)
+    others = [i for i, one in enumerate(result) if one.hypothesis.kind == SHAPE]
+    for i in others:
+        if not _whole(weighing, result[i], result):
+            result[i] = _refined(weighing, i, result)
+    return result if others and all(_whole(weighing, result[i], result) for i in others) else None
+
+
+def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
+    """``Weighing.cost`` of what was ``chosen`` with the coefficients of other shapes tied to the file's, which then are
+    no values of their own.
+    """
+    normal, base = weighing.normal, weighing.bank.base
+    at = np.array([*range(len(base)), *columns_of(chosen), len(normal.whole) - 1])
+    G = normal.whole[np.ix_(at, at)]
+    T = np.eye(len(at))
+    ties = _ties(weighing, chosen)
+    for i, place in ties:
+        T[i, place] = 1.0
+        T[i, i] = 0.0
+    A = T.T @ G @ T
+    left = A[-1, -1] - A[-1, :-1] @ inverse(A[:-1, :-1]) @ A[:-1, -1]
+    return float(left) + sum(map(weighing.price, chosen)) - len(ties) * float(np.log(normal.rows))
+
+
+def _refined(weighing: Weighing, i: int, chosen: Sequence[Variant]) -> Variant:
+    """The variant number i of those ``chosen`` with the shape that costs least where it is tied."""
+    start = chosen[i]
+    free = [shape for shape in start.hypothesis.shapes if shape.free]
+    best = [start]
+
+    def cost(steps: Array) -> float:
+        pairs = zip(free, steps.tolist(), strict=True)
+        values = {shape.name: shape.moved(start.shape[shape.name], x) for shape, x in pairs}
+        moved = weighing.bank.add(start.hypothesis, {**start.shape, **values}, offered=False)
+        if moved is None:
+            return inf
+        weighing.refresh()
+        best[0] = moved.only(start.used)
+        return tied_cost(weighing, [*chosen[:i], best[0], *chosen[i + 1 :]])
+
+    if free:
+        zero = np.zeros(len(free))
+        simplex = np.vstack([zero, _STEP * np.eye(len(free))])
+        options = {"maxfev": _TRIED * len(free), "initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.1}
+        cost(minimize(cost, zero, method="Nelder-Mead", options=options).x)
+    return best[0]
+
+
+def _whole(weighing: Weighing, one: Variant, chosen: Sequence[Variant]) -> bool:
+    """Whether ``one`` of those that are ``chosen`` is of all of its effect."""
+    solution, covariance = weighing.fitted(chosen)
+    pairs = [(i, place) for i, place in _ties(weighing, chosen) if _column(weighing, chosen, i) in one.columns]
+    most = max((abs(solution[i]) for i, _ in pairs), default=0.0)
+    for i, place in pairs:
+        variance = covariance[i, i] + covariance[place, place] - 2 * covariance[i, place]
+        if abs(solution[i] - solution[place]) > _WHOLE * most + _CHANCE * float(np.sqrt(max(variance, 0.0))):
+            return False
+    return True
+
+
+def _ties(weighing: Weighing, chosen: Sequence[Variant]) -> list[tuple[int, int]]:
+    """Places, among the base and the columns of those ``chosen``, of coefficients of another shape, and of the base
+    parameters that they are to be as large as.
+    """
+    base = weighing.bank.base
+    place = {reshaped(name): k for k, name in enumerate(base)}
+    shaped = [one.hypothesis.kind == SHAPE for one in chosen for _ in one.columns]
+    names = [each.name for one in chosen for each in one.coefficients]
+    return [
+        (len(base) + k, place[name])
+        for k, (name, is_shape) in enumerate(zip(names, shaped, strict=True))
+        if is_shape and name in place
+    ]
+
+
+def _column(weighing: Weighing, chosen: Sequence[Variant], i: int) -> int:
+    """The number of the column at a place after the base."""
+    return columns_of(chosen)[i - len(weighing.bank.base)]
