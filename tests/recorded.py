@@ -77,6 +77,7 @@ UNITS = {
     "Ia": "kg m2",
     "Fv": "N m s/rad",
     "Fc": "N m",
+    "Fs": "N m",
     "Of": "N m",
     "k1": "N m/rad",
     "k2": "N m/rad",

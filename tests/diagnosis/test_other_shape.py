@@ -1,0 +1,107 @@
+"""Effects that the robot's file states with a wrong shape: the right one is found, and the repaired file has it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from generator.robot.readers import read
+from identification.diagnosis.columns.hypothesis import EFFECT, SHAPE
+from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
+from identification.diagnosis.mending.addition import Addition, addition
+from identification.diagnosis.mending.repair import repaired
+from identification.diagnosis.verdict.finding import FIRM
+from identification.observation import Regressors
+from tests.diagnosis.diagnosed_arm import diagnosis_of
+from tests.recorded import TRUTH, TWO_LINKS, Array, Recorded, fourier, parameters_text
+
+#: Torque [N m] of joint 2 over its position and speed.
+Law = Callable[[Array, Array], Array]
+
+
+def stribeck(q: Array, qd: Array) -> Array:
+    del q
+    return 5.0 * np.sign(qd) * np.exp(-((qd / 0.15) ** 2))
+
+
+def ripple(q: Array, qd: Array) -> Array:
+    del qd
+    return 2.0 * np.cos(31 * q) - 1.5 * np.sin(31 * q)
+
+
+def two_ripples(q: Array, qd: Array) -> Array:
+    return ripple(q, qd) + 2.5 * np.sin(33 * q)
+
+
+def stating(effects: str, known: dict[str, float]) -> str:
+    text = TWO_LINKS.replace("effects:\n", f"effects:\n{effects}")
+    return text + parameters_text({"known": TRUTH | known})
+
+
+def diagnosed(folder: Path, law: Law, effects: str, known: dict[str, float] | None = None) -> tuple[str, Diagnosis]:
+    """The robot file with ``effects``, and what comes of three runs with the ``law`` on joint 2; in a free fit where
+    nothing is ``known`` of it.
+    """
+    path, draw, sources = folder / "true.yaml", np.random.default_rng(7), []
+    path.write_text(TWO_LINKS)
+    regressors = Regressors(read(path))
+    for seed in range(1, 4):
+        t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
+        tau = regressors.torques(TRUTH, motion) + 0.4 * draw.normal(size=motion.q.shape)
+        tau[1] += law(motion.q[1], motion.qd[1])
+        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
+        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+    text = stating(effects, known or {})
+    path = folder / "two_links.yaml"
+    path.write_text(text)
+    return text, diagnosis_of(sources, Regressors(read(path)), "known" if known else None)
+
+
+@pytest.mark.parametrize("known", [None, {"Fst2": 5.0}])
+@pytest.mark.parametrize("joints", ["2", "1, 2"])
+def test_another_stribeck_speed_is_found_and_written(
+    joints: str, known: dict[str, float] | None, tmp_path: Path
+) -> None:
+    effects = f"  - {{effect: stribeck_friction, joints: [{joints}], values: {{vs: 0.6 rad/s}}}}\n"
+    more = {"Fst1": 0.0} if known and "1" in joints else {}
+    text, found = diagnosed(tmp_path, stribeck, effects, known and {**known, **more})
+    assert found.verdict == NAMED
+    (one,) = found.findings
+    assert (one.hypothesis.kind, one.hypothesis.key, one.status) == (SHAPE, ("stribeck_friction", 2), FIRM)
+    assert one.shape["vs"] == pytest.approx(0.15, abs=3 * one.shape_std["vs"])
+    amount = one.parameters["Fst2_reshaped"]
+    assert amount.value == pytest.approx(5.0, abs=3 * amount.std)
+    robot = repaired(text, "x", [addition(one.hypothesis, one.shape, one.known)]).robot
+    assert float(robot.use("stribeck_friction", 2).values["vs"].value) == pytest.approx(one.shape["vs"], rel=1e-5)
+    if "1" in joints:
+        assert float(robot.use("stribeck_friction", 1).values["vs"].value) == 0.6
+
+
+def test_another_order_of_a_ripple_is_found(tmp_path: Path) -> None:
+    effects = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
+    _, found = diagnosed(tmp_path, ripple, effects)
+    (one,) = found.findings
+    assert (one.hypothesis.kind, one.shape["order"]) == (SHAPE, 31.0)
+
+
+def test_a_shape_that_is_right_is_not_found_again(tmp_path: Path) -> None:
+    effects = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
+    assert diagnosed(tmp_path, stribeck, effects)[1].verdict == NOTHING
+
+
+def test_more_of_an_effect_is_no_other_shape_of_it(tmp_path: Path) -> None:
+    """The ripple of the file is right, and there is another one."""
+    effects = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
+    _, found = diagnosed(tmp_path, two_ripples, effects)
+    assert found.verdict == UNEXPLAINED
+    assert all(one.hypothesis.kind == EFFECT for one in found.findings)
+
+
+def test_values_that_stay_are_written_as_they_were() -> None:
+    effects = "  - {effect: stribeck_friction, joint: 2, values: {vs: 1/8 rad/s, exponent: 2}}\n"
+    found = Addition(SHAPE, "stribeck_friction", (2,), values={"vs": 0.125, "exponent": 1.0})
+    text = repaired(stating(effects, {}), "x", [found]).text
+    assert "values: {vs: 1/8 rad/s, exponent: 1}" in text
