@@ -12,6 +12,7 @@ from identification.diagnosis.columns.hypothesis import BODY
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.results import document
+from identification.diagnosis.verdict.alternatives import OTHER_FRICTION
 from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, doubted, pulled
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.diagnosis.verdict.unexplained import VALUES
@@ -61,8 +62,24 @@ def test_what_is_named_beside_friction_that_is_contradicted_is_not_firm(tmp_path
         assert finding.status == status
         said = ["the runs contradict Fv1, which another law may leave as known"]
         assert list(finding.doubts) == (said if status == TENTATIVE else [])
+        assert [each.effect for each in finding.alternatives] == ([OTHER_FRICTION] if status == TENTATIVE else [])
     of_all = replace(found.findings[0], hypothesis=replace(found.findings[0].hypothesis, effect="payload", kind=BODY))
     assert doubted(found.search, [of_all], [one]) == (of_all,)
+
+
+def test_friction_that_takes_the_place_of_what_is_known_does_not_contradict_it(tmp_path: Path) -> None:
+    """The friction is as much as is known, and rises from rest."""
+
+    def gradual(q: Array, qd: Array) -> Array:
+        del q
+        return TRUTH["Fc1"] * (np.tanh(qd / 0.1) - np.sign(qd))
+
+    regressors, sources = recorded(tmp_path, [gradual] * 3, ARM + parameters_text({"known": TRUTH}))
+    found = diagnosis_of(sources, regressors, "known")
+    assert [one.name for one in found.contradicted] == ["Fc1"]
+    assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("gradual_friction", FIRM)]
+    less = replace(found.contradicted[0], found=found.contradicted[0].found - 0.5 * TRUTH["Fc1"])
+    assert doubted(found.search, found.findings, [less])[0].status == TENTATIVE
 
 
 def test_what_known_bodies_stand_for_is_on_the_joint_whose_torque_they_change(tmp_path: Path) -> None:

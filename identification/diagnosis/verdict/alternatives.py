@@ -12,8 +12,8 @@ from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.whole_orders import UNSURE
 from identification.diagnosis.verdict.finding import Alternative
 
-#: Stand for whatever makes a ripple, a torque of the position, or friction that changes along the range, or places the
-#: links elsewhere, that is none of the library's; and for a body that has another value than the known one.
+#: Stand for whatever makes a ripple, a torque of the position, or friction, or places the links elsewhere, that is none
+#: of the library's; and for a body that has another value than the known one.
 OTHER_RIPPLE, OTHER_TORQUE, OTHER_FRICTION = "other_ripple", "other_torque", "other_friction"
 OTHER_GEOMETRY, OTHER_BODY = "other_geometry", "other_body"
 

@@ -17,6 +17,7 @@ from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.alternatives import OTHER_FRICTION, outside
 from identification.diagnosis.verdict.finding import Finding
 
 #: How many values are told by name.
@@ -38,6 +39,10 @@ class Contradicted:
     std: float
     body: bool
     rubs: int
+
+    def agrees(self, value: float) -> bool:
+        """Whether a value is what is known."""
+        return abs(value - self.known) <= FAR * self.std
 
     @property
     def text(self) -> str:
@@ -74,13 +79,19 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
 
 def doubted(found: Search, named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
     """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
-    as it is known, unless it is the same law, told by directions.
+    as it is known, unless it is the same law, told by directions, or takes its place: both together are then as much.
     """
-    return tuple(one.doubted(*_other_law(_instead_of(found, one, ones))) for one in named)
+    return tuple(_of_another_law(one, _instead_of(found, one, ones)) for one in named)
 
 
-def _other_law(names: Sequence[str]) -> list[str]:
-    return [f"the runs contradict {listed(names)}, which another law may leave as known"] if names else []
+def _of_another_law(one: Finding, names: Sequence[str]) -> Finding:
+    """Tentative where a law of another form would leave known values, by their ``names``, as they are."""
+    if not names:
+        return one
+    speeds = "constant speeds both ways, from creeping to fast: they show friction over the speed, whatever its law"
+    other = outside(OTHER_FRICTION, "friction by another law", one.joints, one.evidence, speeds)
+    why = f"the runs contradict {listed(names)}, which another law may leave as known"
+    return one.doubted(why, alternatives=[other])
 
 
 def _instead_of(found: Search, one: Finding, ones: Sequence[Contradicted]) -> list[str]:
@@ -90,9 +101,17 @@ def _instead_of(found: Search, one: Finding, ones: Sequence[Contradicted]) -> li
         return []
     there = [each for each in ones if each.rubs and each.rubs == one.hypothesis.joint]
     every = found.bank.add(one.hypothesis, one.shape)
-    places = np.array([each.place for each in there], dtype=int)
-    alike = [] if every is None else known_friction.alike(found.weighing.normal, every.columns, places).tolist()
-    return [each.name for each in there if each.place not in alike]
+    if every is None or not there:
+        return []
+    normal = found.weighing.normal
+    alike = known_friction.alike(normal, every.columns, np.array([each.place for each in there])).tolist()
+    values = np.array([one.parameters[each.name].value or 0.0 for each in every.coefficients])
+    return [
+        each.name
+        for each in there
+        if each.place not in alike
+        and not each.agrees(each.found + known_friction.likeness(normal, every.columns, values, each.place))
+    ]
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
