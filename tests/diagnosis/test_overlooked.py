@@ -12,8 +12,11 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
-from identification.diagnosis.verdict.overlooked import untold
+from identification.diagnosis.verdict.overlooked import untested, untold
+from identification.diagnosis.verdict.trial import along
+from identification.diagnosis.verdict.unexplained import unexplained
 from identification.observation import Motion
+from tests.diagnosis.diagnosed_arm import ready
 from tests.matrices import bank, run
 from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
@@ -23,9 +26,11 @@ Array = NDArray[np.float64]
 NOISE, SECONDS = 0.3, 20.0
 
 
-def diagnosis(folder: Path, changed: Callable[[int, Array, Motion, Array], Array], turning: bool = True) -> Diagnosis:
+def diagnosis(
+    folder: Path, changed: Callable[[int, Array, Motion, Array], Array], turning: bool = True, slows: bool = False
+) -> Diagnosis:
     """Of three runs and one that tests; torques of joint 2 are ``changed`` from what they are by the run's number, the
-    time and the motion. It turns round in all runs, or in the last one alone.
+    time and the motion. It turns round in all runs, or in the last one alone, which ``slows`` down to a crawl or not.
     """
     regressors, draw, sources = two_links(folder), np.random.default_rng(17), []
     for number in range(4):
@@ -34,12 +39,23 @@ def diagnosis(folder: Path, changed: Callable[[int, Array, Motion, Array], Array
             q, qd, qdd = (np.copy(x) for x in (motion.q, motion.qd, motion.qdd))
             q[1], qd[1], qdd[1] = 0.2 * t + 0.1 * np.sin(t) - 2, 0.2 + 0.1 * np.cos(t), -0.1 * np.sin(t)
             motion = Motion(q, qd, qdd)
+        if slows and number == 3:
+            motion = slowing(t, motion)
         tau = regressors.torques(TRUTH, motion)
         tau[1] = changed(number, t, motion, tau[1])
         tau += NOISE * draw.normal(size=tau.shape)
         sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{number}.csv")))
     request = Request(sources[:3], test=sources[3:])
     return diagnosed(folder / "two_links.yaml", regressors.model.robot, request, folder / "out", lambda *about: {})[0]
+
+
+def slowing(t: Array, motion: Motion) -> Motion:
+    """Joint 2 swings, and creeps in the second half."""
+    q, qd, qdd = (np.copy(x) for x in (motion.q, motion.qd, motion.qdd))
+    swings = (1 - np.tanh(4 * (t - SECONDS / 2))) / 2
+    qd[1] = swings * np.cos(2 * t) + 0.06 * (1 - swings)
+    q[1], qdd[1] = np.cumsum(qd[1]) * (t[1] - t[0]), np.gradient(qd[1], t)
+    return Motion(q, qd, qdd)
 
 
 def same(number: int, t: Array, motion: Motion, tau: Array) -> Array:
@@ -73,6 +89,29 @@ def test_most_of_a_torque_is_no_noise(size: float, slow: bool, told: dict[int, f
     rest = np.sqrt(2) * np.sin(np.arange(4000) / 100) if slow else draw.normal(size=4000)
     one = bank([run(W, W[0] + size * rest)])
     assert untold(SimpleNamespace(bank=one), {0: 1.0}) == told  # type: ignore[arg-type]
+
+
+def creeping(number: int, t: Array, motion: Motion, tau: Array) -> Array:
+    """Friction close to standstill alone, in the run that tests."""
+    return np.asarray(tau + 2.0 * np.sign(motion.qd[1]) * (np.abs(motion.qd[1]) < 0.065) * (number == 3))
+
+
+def test_what_is_close_to_standstill_counts_where_something_was_taken_back(tmp_path: Path) -> None:
+    found = diagnosis(tmp_path, creeping, slows=True)
+    assert (found.verdict, found.findings) == (NOTHING, ())
+    trial = along(found.search, [ready(str(tmp_path / "3.csv"), found.search.bank.scenes[0].regressors)])
+    assert trial is not None
+    assert untested(found.search, trial) == {}
+    assert untested(found.search, trial, [0]) == {}
+    assert untested(found.search, trial, [0, 1])[1] > 2
+    hypothesis = SimpleNamespace(title="Stribeck friction")
+    gone = SimpleNamespace(evidence=SimpleNamespace(variant=SimpleNamespace(hypothesis=hypothesis, coordinates=(1,))))
+    rest = unexplained(found.search, [gone], trial, found.after, (), ())  # type: ignore[list-item]
+    assert rest.missing
+    assert rest.where is not None
+    assert (rest.where.joint, rest.where.variable, rest.where.region) == (2, "qd", "close to standstill")
+    (note,) = rest.notes
+    assert "times the noise on joint 2, most of it close to standstill: Stribeck friction of the values" in note
 
 
 def louder(number: int, t: Array, motion: Motion, tau: Array) -> Array:

@@ -109,6 +109,19 @@ def test_noise_that_stays_for_a_time_does_not_pass(seconds: float) -> None:
         assert passing([run], [lfilter([1], [1, -stays], draw.normal(size=(1, 3000)))[:, 1500:]]) == ()
 
 
+@pytest.mark.parametrize("left_out", [(), (595, 608, 625, 631, 650, 665)])
+def test_reversals_on_both_sides_and_within_do_not_hide_a_push(left_out: tuple[int, ...]) -> None:
+    """Along the same run, whose rows near reversals do not count."""
+    draw, t, kept = np.random.default_rng(3), np.arange(1500) / 50, np.ones((1, 1500), dtype=bool)
+    for begin, end in zip(left_out[::2], left_out[1::2], strict=True):
+        kept[0, begin:end] = False
+    sampled = SimpleNamespace(run=SimpleNamespace(name="1.csv"))
+    run: Any = SimpleNamespace(period=500, rate=50.0, kept=kept, t=t, sampled=sampled)
+    push = 100 * ((t > 12.1) & (t < 13.05))
+    (one,) = passing([run], [draw.normal(size=(1, 1500)) + push])
+    assert one.begins < 12.5 < one.ends
+
+
 def test_a_push_of_some_times_the_noise_passes(tmp_path: Path) -> None:
     (one,) = diagnosed(tmp_path, lambda t, q, qd: 0.5 * touch(FROM + (t - FROM) / 3, q, qd)).search.passing
     assert one.begins < FROM < one.ends

@@ -152,9 +152,10 @@ def _stretches(one: _Compared, far: float, run: Prepared) -> list[slice]:
     places = np.flatnonzero(np.nan_to_num(one.power) > np.maximum(far, _ALONE * one.elsewhere))
     parts = np.split(places, np.flatnonzero(np.diff(places) > _APART * run.rate) + 1)
     first = one.begins + _BEGINNING * run.rate
-    # A single moment fills one window.
+    # A single moment fills one window. Rows between that do not count are of the same stretch.
     least = (_SHORTEST + _WINDOW) * run.rate
-    return [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) >= least and part[0] > first]
+    there = [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part)]
+    return [one for one in there if one.stop - one.start >= least and one.start > first]
 
 
 def _elsewhere(power: Array, run: Prepared) -> Array:

@@ -6,7 +6,7 @@ slow, it is none; and runs that test tell more: a model that lacks nothing leave
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -39,9 +39,10 @@ def untold(found: Search, weights: Mapping[int, float]) -> dict[int, float]:
     return result
 
 
-def untested(found: Search, trial: Trial) -> dict[int, float]:
+def untested(found: Search, trial: Trial, standing: Collection[int] = ()) -> dict[int, float]:
     """By coordinate, how often the rms of noise the testing runs keep of what the model predicts, where that is far
-    more and slow, with what the other runs leave open of its values counted as noise.
+    more and slow, with what the other runs leave open of its values counted as noise. Rows close to standstill count
+    on ``standing`` coordinates alone.
 
     Of elastic drive trains that the file states nothing is told: what is linear about stiffnesses that are not known
     does not carry over.
@@ -55,7 +56,7 @@ def untested(found: Search, trial: Trial) -> dict[int, float]:
     rate = float(np.median([run.rate for run in trial.bank.runs]))
     result = {}
     for k in trial.shown:
-        columns, torque = _settled(trial.bank, k)
+        columns, torque = _rows(trial.bank, k, k in standing)
         scaled = columns / size[:, None]
         predicted = np.linalg.norm(unseen @ scaled, axis=0) < _BEYOND * np.linalg.norm(scaled, axis=0)
         X = columns[:, predicted]
@@ -68,12 +69,14 @@ def untested(found: Search, trial: Trial) -> dict[int, float]:
     return result
 
 
-def _settled(bank: Bank, k: int) -> tuple[Array, Array]:
-    """Base columns (p x N) and torque (N) [N m, N] of a coordinate, as recorded, without rows close to standstill."""
+def _rows(bank: Bank, k: int, standing: bool) -> tuple[Array, Array]:
+    """Base columns (p x N) and torque (N) [N m, N] of a coordinate, as recorded, without rows close to standstill
+    unless ``standing``.
+    """
     p, parts = len(bank.base), []
     for r, run in enumerate(bank.runs):
         numbers, columns, torque, kept = bank.raw(r, k)
-        rows = kept & ~run.unsettled[k]
+        rows = kept if standing else kept & ~run.unsettled[k]
         part = np.zeros((p + 1, int(rows.sum())))
         own = [i for i, number in enumerate(numbers) if number < p]
         part[[numbers[i] for i in own]], part[p] = columns[own][:, rows], torque[rows]

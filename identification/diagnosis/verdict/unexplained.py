@@ -72,7 +72,8 @@ def unexplained(
     In this order: large residuals, which beside what was found may be small, but not on joints of what was found and is
     ``gone``; what passes by; torques that drift or sway by themselves; findings, by effect and joint, on whose
     amplitude the runs are ``disagreeing``; where nothing was found what noise may hide, friction of two variables, and
-    ripples, which are told beside large residuals too; and parameters that have ``other`` values than are known.
+    ripples, which are told beside large residuals too; what is ``gone`` of which the runs that test keep far more than
+    noise; and parameters that have ``other`` values than are known.
     """
     bounces, loose, explained = _bounces(found), _loose(found), _explained(found) | _taken_back(found, gone)
     stays = {one.joint: _PART * float(np.hypot(explained[one.joint], bounces.get(one.joint, 0.0))) for one in last.lack}
@@ -87,7 +88,8 @@ def unexplained(
     rippling = {} if passed or overlooked or doubtful else _rippling(found)
     crossing = _crossing(found) if nothing and not overlooked else {}
     unseen = crossing or rippling if nothing else {}
-    lacks = large or doubtful or [last.lack[k] for k in passed or overlooked or unseen]
+    contradicting = {} if not nothing or overlooked or unseen else _contradicting(found, trial, gone)
+    lacks = large or doubtful or [last.lack[k] for k in passed or overlooked or unseen or contradicting]
     where = located(last, lacks)
     if passed:
         where = _told_by(passed, where, "time", passed[next(iter(passed))])
@@ -95,13 +97,15 @@ def unexplained(
         where = _told_by(overlooked, where, "time", "changes with time or from run to run")
     elif unseen:
         where = _told_by(unseen, where, "q", "where no mean shows it")
+    elif contradicting:
+        where = _told_by(contradicting, where, "qd", "close to standstill")
     reason = AMPLITUDES if doubtful else ""
     pulling = None if lacks or found.choices else pulled(found, other)
     if pulling is not None:
         where = replace(where, joint=last.lack[pulling].joint, region="by other values than are known")
         reason = VALUES
     passing = (one.told(found.bank.robot) for one in found.passing)
-    told = (*passing, *overlooked.values(), *crossing.values(), *rippling.values())
+    told = (*passing, *overlooked.values(), *crossing.values(), *rippling.values(), *contradicting.values())
     return Unexplained(tuple(lacks), where, reason, (*bounces, *loose), told)
 
 
@@ -172,6 +176,22 @@ def _overlooked(found: Search, trial: Trial | None) -> dict[int, str]:
         "missing there changes from run to run, or with time"
         for k in _worst_first(tested)
         if k not in most
+    }
+
+
+def _contradicting(found: Search, trial: Trial | None, gone: Sequence[Choice]) -> dict[int, str]:
+    """By coordinate, the worst first, on which findings are ``gone`` though the runs that test keep far more than noise
+    close to standstill, where else nothing is asked of them; in words.
+    """
+    if trial is None:
+        return {}
+    named = {k: one.evidence.variant.hypothesis.title for one in gone for k in one.evidence.variant.coordinates}
+    kept, numbers = untested(found, trial, named), found.bank.robot.numbers
+    return {
+        k: f"the runs that test keep {kept[k]:.2g} times the noise on joint {numbers[k]}, most of it close to "
+        f"standstill: {named[k]} of the values that were found does not explain it, but something there is missing"
+        for k in _worst_first(kept)
+        if k in named
     }
 
 
