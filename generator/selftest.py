@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from generator.reference import sample
+from generator.reference.flexible import MOTOR_SIDE
 from generator.reference.joint_effects import LAWS
 from generator.reference.quantities import NAMES, Reference
 from generator.reference.sample import payload, physical_parameters, signal
@@ -78,6 +79,9 @@ def _known_states(model: Model, known: Robot) -> list[int]:
 def _skipped(model: Model, known: Robot, states: Sequence[int]) -> list[str]:
     """Parts of the names of functions whose outputs would lack those of an effect without a law."""
     regressors = ["regressor"] if len(known.effects) < len(model.robot.effects) else []
+    sides = {f"{stem}{j}" for stem in MOTOR_SIDE for j in model.robot.flexible}
+    if any(parameter.name not in sides for parameter in model.motor_parameters):
+        regressors.append("flexible_regressor")
     return regressors + (["effect_rates"] if len(states) < len(model.effect_states) else [])
 
 
