@@ -12,7 +12,7 @@ from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare
 from generator.backends.printing.selftest import self_tests
-from generator.backends.printing.signals import listed, paragraph, safe
+from generator.backends.printing.signals import headline, listed, paragraph, safe
 from generator.backends.printing.stated_model import stated_model
 from generator.backends.printing.straight_line import Block
 from generator.backends.printing.templates import render
@@ -78,7 +78,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "robot": model.robot,
         "version": VERSION,
         "width": len(model.base_parameters),
-        "title": paragraph(f"{prefix}: {model.robot.description}", LINE - 3),
+        "title": paragraph(headline(prefix, model.robot.description), LINE - 3),
         "constants": constants,
         "standard_constants": _constants(model.standard_parameters, f"{macro}_STD_", names),
         "stated": stated_model(model),
