@@ -10,10 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from generator.reference import sample
+from generator.reference.flexible import MOTOR_SIDE
 from generator.reference.joint_effects import LAWS
 from generator.reference.quantities import NAMES, Reference
 from generator.reference.sample import payload, physical_parameters, signal
 from generator.robot.description import ParameterValue, Robot
+from generator.symbolic.effect_torques import STATES
 from generator.symbolic.function import Function, Signal
 from generator.symbolic.model import STANDARD, Model
 from generator.symbolic.parameter_sets import parameter_vector
@@ -43,10 +45,12 @@ class Case:
 def cases(model: Model) -> tuple[Case, ...]:
     """Cases for every function that the independent implementation knows.
 
-    An effect without a law there has zero parameters in every case, and a robot with one no cases for its regressors.
+    An effect without a law there has zero parameters in every case, and a robot with one no cases for its regressors,
+    nor for the rates of its states if that effect has some.
     """
     known = replace(model.robot, effects=tuple(use for use in model.robot.effects if use.effect in LAWS))
-    complete = len(known.effects) == len(model.robot.effects)
+    states = _known_states(model, known)
+    skipped = _skipped(model, known, states)
     values = {parameter.name: 0.0 for parameter in model.standard_parameters}
     values |= _constants(model) if model.constants else _physical(model, known)
     given = {name: ParameterValue(value, "") for name, value in values.items()}
@@ -56,14 +60,34 @@ def cases(model: Model) -> tuple[Case, ...]:
     positions = [_positions(model, state) for state in range(_STATES)]
     result = []
     for function in model.functions.values():
-        if function.name.removesuffix(_PACKED) not in NAMES or ("regressor" in function.name and not complete):
+        if function.name.removesuffix(_PACKED) not in NAMES or any(word in function.name for word in skipped):
             continue
         for state in range(_STATES):
             inputs = {s.name: _input(s, state, positions[state], standard) for s in function.inputs}
             tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
-            outputs = _outputs(model, reference, function, inputs)
+            outputs = _outputs(model, reference, function, inputs | _of_known(inputs, states))
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)
+
+
+def _known_states(model: Model, known: Robot) -> list[int]:
+    """Places, in the signal ``states``, of the states of effects with a law."""
+    names = {f"{stem}{j}" for use in known.effects for stem in LAWS[use.effect].states for j in use.joints}
+    return [place for place, state in enumerate(model.effect_states) if state.name in names]
+
+
+def _skipped(model: Model, known: Robot, states: Sequence[int]) -> list[str]:
+    """Parts of the names of functions whose outputs would lack those of an effect without a law."""
+    regressors = ["regressor"] if len(known.effects) < len(model.robot.effects) else []
+    sides = {f"{stem}{j}" for stem in MOTOR_SIDE for j in model.robot.flexible}
+    if any(parameter.name not in sides for parameter in model.motor_parameters):
+        regressors.append("flexible_regressor")
+    return regressors + (["effect_rates"] if len(states) < len(model.effect_states) else [])
+
+
+def _of_known(inputs: Mapping[str, Sequence[float]], states: Sequence[int]) -> dict[str, tuple[float, ...]]:
+    """The signal ``states``, where there is one, without the states of effects without a law."""
+    return {STATES: tuple(inputs[STATES][place] for place in states)} if STATES in inputs else {}
 
 
 def _physical(model: Model, known: Robot) -> dict[str, float]:

@@ -202,7 +202,16 @@ def test_a_wrong_option_is_one_line(
 
 def test_limits_that_no_motion_can_keep(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for old, new, problem in (
-        ("torque_limit: 125 N m", "torque_limit: 1 N m", "the weight alone is beyond the torque limits"),
+        (
+            "torque_limit: 125 N m",
+            "torque_limit: 1 N m",
+            "1:1: weight and dry friction alone are beyond the torque limit of joint 1, expected a limit",
+        ),
+        (
+            "\neffects:",
+            "\nsignals: {current_limit: [0.001 A, 900 A]}\neffects:",
+            "weight and dry friction alone are beyond the current limit of motor 1",
+        ),
         ("speed_limit: 70 deg/s", "speed_limit: 0 deg/s", "speed_limit of joint 1 is 0"),
     ):
         path = tmp_path / "two_links.yaml"

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
+from generator.backends import batch, c, casadi, simulation
+from generator.backends.printing.c_names import taken
+from generator.derivation import derive
 from generator.generation import generate
 from generator.python_library import build_library, load_library
+from generator.robot.readers import read
 
 ARM = """\
 name: names
@@ -23,6 +28,18 @@ effects:
   - {effect: viscous_friction, joints: all}
   - {effect: coulomb_friction, joints: all}
 """
+
+CAPITALS = (
+    ARM.replace("name: names", "name: R2")
+    + """\
+  - {effect: stribeck_friction, joints: all, values: {vs: 0.1 rad/s}}
+drives: {gear_ratios: [100, 100, 100]}
+flexible: [2]
+parameters:
+  first:
+    values: {Fv1: 1 N m s/rad}
+"""
+)
 
 
 @pytest.mark.parametrize(
@@ -40,6 +57,40 @@ def test_a_length_called_like_a_macro_compiles(names: tuple[str, str], tmp_path:
     folder, _ = generate(path, tmp_path)
     build_library(folder, "names")
     assert load_library(folder, "names")
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("real", "gravity"),
+        pytest.param(("prepared", "params_first"), marks=pytest.mark.long),
+        pytest.param(("lanes", "rigid_state"), marks=pytest.mark.long),
+    ],
+)
+def test_of_a_robot_in_capitals_a_length_called_like_a_type_or_function_compiles(
+    names: tuple[str, str], tmp_path: Path
+) -> None:
+    path = tmp_path / "capitals.yaml"
+    path.write_text(CAPITALS.replace("FIRST", names[0]).replace("SECOND", names[1]))
+    folder, _ = generate(path, tmp_path)
+    build_library(folder, "R2")
+    assert load_library(folder, "R2")
+
+
+def test_names_taken_by_the_c_sources_are_all_that_they_define(tmp_path: Path) -> None:
+    path = tmp_path / "capitals.yaml"
+    path.write_text(CAPITALS)
+    model = derive(read(path))
+    texts = [
+        text
+        for backend in (c, batch, simulation, casadi)
+        for file, text in backend.emit(model).items()
+        if file.endswith((".c", ".h")) and isinstance(text, str)
+    ]
+    code = re.sub(r'/\*.*?\*/|"[^"\n]*"', "", "\n".join(texts), flags=re.DOTALL)
+    constants = {f"R2_{prefix}{one.name}" for one in model.parameters for prefix in ("", "STD_")}
+    constants |= {f"R2_STD_{one.name}" for one in model.standard_parameters}
+    assert set(re.findall(r"\bR2_\w+", code)) - constants <= set(taken(model))
 
 
 def test_what_an_older_generation_had_and_a_new_one_has_not_is_gone(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import importlib.util
 import subprocess
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -296,6 +296,12 @@ def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
         (TypeError, "^out is a list", lambda: robot.observation_matrix(q, qd, qdd, out=[0.0], layout="columns")),
         (TypeError, "^qd has elements of float32", lambda: robot.inverse_dynamics(q, qd.astype(np.float32), qdd)),
         (TypeError, "^qd is a list", lambda: robot.inverse_dynamics(q, qd.tolist(), qdd)),
+        (
+            ValueError,
+            rf"^q has shape \(100, {n}\), expected \({n},\), or numpy arrays of shape \(n, {n}\) for n samples$",
+            lambda: robot.inverse_dynamics(q.tolist(), qd.tolist(), qdd.tolist()),
+        ),
+        (ValueError, rf"^q has shape .*, expected \({n},\)$", lambda: robot.gravity(q.tolist())),
         (ValueError, "^qdd has shape", lambda: robot.inverse_dynamics(q, qd, huge)),
         (ValueError, "^qdd has 50 samples, q has 100", lambda: robot.inverse_dynamics(q, qd, qdd[:50])),
         (ValueError, "^out shares memory with q", lambda: robot.inverse_dynamics(q, qd, qdd, out=q)),
@@ -310,6 +316,19 @@ def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
     for kind, message, call in mistakes:
         with pytest.raises(kind, match=message):
             call()
+
+
+def test_a_set_that_there_is_not(made: Made) -> None:
+    with pytest.raises(ValueError, match=f"no set 'mine', expected one of {', '.join(made.arm.robot.parameter_sets)}$"):
+        made.module.Robot("mine")
+
+
+def test_a_robot_without_sets_says_so(tmp_path: Path) -> None:
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    bare = replace(read(tmp_path / "pendulum.yaml"), parameter_sets={})
+    build_library(folder_of(subject(bare), tmp_path), "pendulum")
+    with pytest.raises(ValueError, match=r"no set 'mine', the robot has none, expected values by name$"):
+        load(tmp_path / "python" / "pendulum.py").Robot("mine")
 
 
 def test_an_input_that_is_not_contiguous_is_copied_for_one_state(made: Made, robot: Any) -> None:

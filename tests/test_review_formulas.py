@@ -27,6 +27,8 @@ from tests.reviewed import value
 from tests.subject import Subject
 
 x, d2, d3, d10, rl4, phi, q2, fc = sympy.symbols("x d2 d3 d10 rl4 phi q2 Fc2", real=True)
+#: What is left of irrational numbers, carried to sixty digits, that are one together.
+NOTHING = sympy.Rational(37, 10**59)
 ROOT = sympy.sqrt(d2**2 + d3**2 + 2 * d2 * d3 * sympy.cos(phi + q2))
 
 
@@ -51,6 +53,9 @@ ROOT = sympy.sqrt(d2**2 + d3**2 + 2 * d2 * d3 * sympy.cos(phi + q2))
         ((d2 / d3) ** sympy.Rational(13, 10), "(d2/d3)^1.3", r"\left(\frac{d_{2}}{d_{3}}\right)^{1.3}"),
         ((d2 + d3) ** 2, "(d2 + d3)^2", r"\left(d_{2} + d_{3}\right)^{2}"),
         (sympy.Integer(0), "0", "0"),
+        ((1 + NOTHING) * d2 + d3 / 2, "d2 + d3/2", r"d_{2} + \frac{d_{3}}{2}"),
+        (d2 - (1 - NOTHING) * d3, "d2 - d3", "d_{2} - d_{3}"),
+        (1 + NOTHING, "1", "1"),
     ],
 )
 def test_a_formula_reads_as_on_paper(expression: sympy.Expr, text: str, latex: str) -> None:

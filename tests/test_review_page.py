@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import generator.review.sections
+from generator.backends import batch, c, simulation
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.review.markup import Markup, element
@@ -54,6 +55,21 @@ def test_words_of_the_robot_file_are_text_not_markup() -> None:
     root = ElementTree.fromstring(made["review.html"].removeprefix("<!DOCTYPE html>\n"))
     assert root.findtext(f"{XHTML}body/{XHTML}header/{XHTML}p") == robot.description
     assert "<script" not in made["review.html"]
+
+
+def test_a_robot_without_a_description_has_no_empty_words() -> None:
+    model = derive(replace(read(find_robot("scara")), description=""))
+    review = files(model)
+    assert review["groupings.md"].startswith("# Groupings of scara\n\nInertial parameters of body j")
+    root = ElementTree.fromstring(review["review.html"].removeprefix("<!DOCTYPE html>\n"))
+    assert root.find(f"{XHTML}body/{XHTML}header/{XHTML}p") is None
+    sources = c.library(model, ()) | batch.emit(model) | simulation.emit(model)
+    titles = {name: str(text).splitlines()[1] for name, text in sources.items() if name.endswith(".h")}
+    assert titles == {
+        "scara.h": " * scara",
+        "scara_batch.h": " * scara",
+        "scara_simulation.h": " * scara: simulation.",
+    }
 
 
 def test_elements_escape_text_and_keep_markup() -> None:

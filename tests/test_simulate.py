@@ -353,6 +353,25 @@ def test_a_robot_without_elastic_drive_trains_is_not_flexible() -> None:
         check(Settings(flexible=True), read(find_robot("puma560")))
 
 
+@pytest.mark.parametrize(
+    ("effect", "what"),
+    [
+        ("dahl_friction, joint: 2, values: {xs: 1 mrad}", "effect dahl_friction reads a state of its own"),
+        ("warm_friction, joint: 2", "effect warm_friction reads the drive's warmth"),
+    ],
+)
+def test_an_effect_that_is_not_simulated_is_named_in_its_line(
+    effect: str, what: str, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "two_links.yaml"
+    path.write_text(file.read_text().replace("effects:\n", f"effects:\n  - {{effect: {effect}}}\n"))
+    line = path.read_text().splitlines().index(f"  - {{effect: {effect}}}") + 1
+    done = command("simulate", path, "--parameters", "twin", "--out", tmp_path / "run.csv", capsys=capsys)
+    expected = f"two_links.yaml:{line}:14: {what}, which is not simulated, expected effects of q, qd and qdd alone"
+    assert done.status == 2
+    assert done.err.splitlines()[-1].endswith(expected)
+
+
 def test_a_saturated_current_stays_at_its_limit(machine: Machine) -> None:
     run = simulate(machine, replace(SHORT, largest=(1.0, 0.5)))
     current = np.abs(columns(run, "i")).max(axis=0)

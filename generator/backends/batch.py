@@ -12,7 +12,7 @@ from generator.backends.printing.language import LINE, Language
 from generator.backends.printing.many_samples import DYNAMICS, INPUTS, REGRESSOR, of_many_samples
 from generator.backends.printing.observation import layout
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare, signal_of
-from generator.backends.printing.signals import paragraph
+from generator.backends.printing.signals import headline, paragraph
 from generator.backends.printing.straight_line import straight_line
 from generator.backends.printing.templates import render
 from generator.symbolic.function import Function
@@ -65,7 +65,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "macro": prefix.upper(),
         "robot": model.robot,
         "version": VERSION,
-        "title": paragraph(f"{prefix}: {model.robot.description}", LINE - 3),
+        "title": paragraph(headline(prefix, model.robot.description), LINE - 3),
         "layout": layout(regressor.sparsity),
         "dynamics": lane_function(dynamics, prepared),
         "regressor": lane_function(regressor, prepared),

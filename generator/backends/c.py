@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from generator.backends.printing.c_functions import BLOCK, MATHEMATICS, CFunction, c_function, c_language
+from generator.backends.printing.c_names import taken
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare
 from generator.backends.printing.selftest import self_tests
-from generator.backends.printing.signals import listed, paragraph, safe
+from generator.backends.printing.signals import headline, listed, paragraph, safe
 from generator.backends.printing.stated_model import stated_model
 from generator.backends.printing.straight_line import Block
 from generator.backends.printing.templates import render
@@ -23,12 +24,6 @@ from generator.symbolic.statements import Node
 from generator.version import VERSION
 
 NAME = "c"
-
-#: Macros and constants of the headers: no parameter's constant may be called like one of them.
-_OF_HEADERS = """
-    H NQ NPARAMETERS NSTANDARD USE_FLOAT USE_LIBM LANES STATIC_ASSERT BATCH_H BATCH_SCALAR NBASE NGRAM OBSERVATION_WORK
-    STREAM_BYTES SIMULATION_H RIGID_SIZE FLEXIBLE_SIZE METHOD_RK4 METHOD_DP8 CONTACT_FREE CONTACT_SLIDING CONTACT_STUCK
-"""
 
 #: Of a set of drive constants, which a robot file may hold beside whole ones.
 _NO_MODEL = "All base parameters are 0 here, with which nothing moves: take them from another set"
@@ -73,7 +68,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
     prepared = prepare(model.functions.values(), model.parameters, c_language(prefix).reserved)
     functions = [c_function(function, prepared, prefix) for function in model.functions.values()]
     tests, parameter_sets = self_tests(functions, reference)
-    names = Identifiers(f"{macro}_{word}" for word in _OF_HEADERS.split())
+    names = Identifiers(taken(model))
     constants = _constants(model.parameters, f"{macro}_", names)
     moving = _operations(function.called for function in model.functions.values())
     angles = bool(moving & {"sin", "cos"})
@@ -83,7 +78,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "robot": model.robot,
         "version": VERSION,
         "width": len(model.base_parameters),
-        "title": paragraph(f"{prefix}: {model.robot.description}", LINE - 3),
+        "title": paragraph(headline(prefix, model.robot.description), LINE - 3),
         "constants": constants,
         "standard_constants": _constants(model.standard_parameters, f"{macro}_STD_", names),
         "stated": stated_model(model),

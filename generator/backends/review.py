@@ -24,7 +24,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
     page = {
         "title": element("title", f"{robot.name}: model review"),
         "heading": element("h1", robot.name),
-        "description": element("p", robot.description, class_="lead"),
+        "description": element("p", robot.description, class_="lead") if robot.description else Markup(""),
         "sections": sections(generator.review.sections, model),
         "style": Markup(render("review/style.css")),
         "digest": robot.digest,

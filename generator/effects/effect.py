@@ -19,6 +19,9 @@ EVERYWHERE, OFTEN = "everywhere", "often"
 #: What an effect does beside friction and inertia: hold an arm up, or pull a link to where it rests in another way.
 BALANCER, SPRING = "balancer", "spring"
 
+#: What effects on the motor side of an elastic joint may need.
+OF_MOTOR_SIDE = ("q", "qd", "qdd", "qe")
+
 #: Torque per unit parameter on each joint, by joint number.
 Column = Mapping[int, sympy.Expr]
 
@@ -198,6 +201,13 @@ class Effect:
     occurs: str = ""
     role: str = ""
     resembles: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for a drive train's effect that needs what the motor of an elastic joint does not have."""
+        absent = [need for need in self.needs if need not in OF_MOTOR_SIDE]
+        if self.drive_train and absent:
+            known = ", ".join(OF_MOTOR_SIDE)
+            raise ValueError(f"drive-train effect {self.id} needs {', '.join(absent)}, expected some of {known}")
 
     @property
     def loads(self) -> bool:

@@ -166,11 +166,14 @@ def _check_names(robot: Robot, instances: list[Instance]) -> None:
 
 
 def motor_side(robot: Robot) -> tuple[Instance, ...]:
-    """The drive-train effects of the elastic joints on the motor side: Iam, Fvm, Fcm, Offm, k (report eq. 12)."""
+    """The drive-train effects of the elastic joints on the motor side: Iam, Fvm, Fcm, Offm, k (report eq. 12).
+
+    Those with a value that only the file can tell are there where the file asks for them.
+    """
     sides = []
     for number in robot.flexible:
         for effect in library().values():
-            if effect.drive_train:
+            if effect.drive_train and (_by_default(effect) or robot.has(effect.id, number)):
                 suffix = "" if "qe" in effect.needs else "m"
                 joint = robot.joints[number - 1]
                 sides.append(Instance(effect, Site(joint, _motor_values(robot, effect, joint)), suffix))
@@ -190,6 +193,11 @@ def lacking(robot: Robot, name: str) -> str | None:
             if stem in stems and not elastic:
                 return f"the effect {effect.id} on joint {joint.number}"
     return None
+
+
+def _by_default(effect: Effect) -> bool:
+    """Whether an effect needs no value of the file."""
+    return all(shape.default is not None for shape in effect.shapes)
 
 
 def _motor_values(robot: Robot, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:

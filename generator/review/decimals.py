@@ -8,7 +8,6 @@ from fractions import Fraction
 import sympy
 
 from generator.constants import exact_constant
-from generator.review.formula import terminates
 
 #: Digits that keep products of two lengths given to the millimetre exact in print.
 DIGITS = 7
@@ -42,6 +41,15 @@ def scientific(value: float, digits: int = 4) -> str:
 def constant(expression: sympy.Expr) -> Fraction:
     """The exact value of a constant expression (an irrational one to sixty digits)."""
     return exact_constant(expression)
+
+
+def terminates(value: Fraction) -> bool:
+    """Whether the decimal expansion of a fraction ends."""
+    below = value.denominator
+    for prime in (2, 5):
+        while below % prime == 0:
+            below //= prime
+    return below == 1
 
 
 def _round(value: Fraction, digits: int) -> Decimal:

@@ -14,6 +14,7 @@ from typing import TypeAlias
 
 import sympy
 
+from generator.review.decimals import decimal, terminates
 from generator.review.trigonometry import without_half_angles
 
 #: Stems that are printed as letters of another alphabet, in every notation that has them.
@@ -180,17 +181,13 @@ def natural(text: str) -> tuple[tuple[int, int, str], ...]:
     return tuple((1, int(part), "") if part.isdigit() else (0, 0, part) for part in re.split(r"(\d+)", text) if part)
 
 
-def terminates(value: Fraction) -> bool:
-    """Whether the decimal expansion of a fraction ends."""
-    below = value.denominator
-    for prime in (2, 5):
-        while below % prime == 0:
-            below //= prime
-    return below == 1
-
-
 def _number(value: Fraction) -> Formula:
-    """A non-negative number: decimal when it ends and is not a half or a quarter, else a fraction."""
+    """A non-negative number: decimal when it ends and is not a half or a quarter, else a fraction.
+
+    What would be shown as 1 is one: irrational numbers, carried to sixty digits, make it up to the last of them.
+    """
+    if decimal(value) == "1":
+        return ONE
     if value.denominator == 1 or (terminates(value) and value.denominator > 4):
         return Number(value)
     return Quotient(Number(Fraction(value.numerator)), Number(Fraction(value.denominator)))

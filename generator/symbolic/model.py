@@ -15,6 +15,7 @@ from generator.effects.effect import accelerates
 from generator.effects.library import Instance, effects_of, motor_side, states_of, undefined
 from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping
+from generator.grouping.observability import STEMS
 from generator.grouping.special_lengths import elsewhere, general_grouping
 from generator.robot.description import FIXED, Robot
 from generator.robot.parameters import Parameter, inertial_parameters
@@ -76,7 +77,7 @@ class Model:
         """The exact groupings, with effects that repeat other parameters' torques grouped with them."""
         names = [parameter.name for parameter in self.standard_parameters]
         exact = general_grouping(self.robot, tuple(names))
-        others = [name for instance in self.effects if not instance.effect.drive_train for name in instance.names]
+        others = self._beside_the_bodies
         if not others:
             return exact
         try:
@@ -91,6 +92,15 @@ class Model:
                     problem = f"{name} is grouped with other parameters by symbolic lengths"
                     raise InputError(self._place(name), problem, "lengths that are numbers")
         return nominal
+
+    @property
+    def _beside_the_bodies(self) -> list[str]:
+        """Parameters of effects that the exact groupings do not know; those of drive trains, which keep their names
+        where others make the same torque, come first.
+        """
+        first = sorted(self.effects, key=lambda one: not one.effect.drive_train)
+        pairs = (pair for one in first for pair in zip(one.names, one.effect.parameters, strict=True))
+        return [name for name, parameter in pairs if parameter.stem not in STEMS]
 
     def _place(self, name: str) -> Place:
         """Where the file asks for the effect of a parameter."""

@@ -47,8 +47,8 @@ def designed(
 ) -> Design:
     """The best of so many ``evaluations``, DRAWN at least; the same for the same seed.
 
-    Raises InputError where no joint may be faster than its standstill threshold, and where the robot's weight alone is
-    beyond the torques at the best motion's centre.
+    Raises InputError where no joint may be faster than its standstill threshold, and where the robot's weight
+    and dry friction alone are beyond a limit of torques or currents at the best motion's centre.
     """
     draw = np.random.default_rng(seed)
     x = shapes.drawn(DRAWN, draw)
@@ -115,9 +115,18 @@ def _allowed(series: FourierSeries, criterion: Criterion, shapes: Shapes) -> tup
         middle = (low + high) / 2
         low, high = (middle, high) if load(middle) <= 1 - BETWEEN else (low, middle)
     if not low:
-        robot = criterion.regressors.model.robot
-        raise InputError(robot.place, "the weight alone is beyond the torque limits", "limits that hold the arm")
+        raise _beyond_limits(series.resized(0.5**_HALVINGS).motion(instants), criterion)
     return series.resized(low), load(low)
+
+
+def _beyond_limits(motion: Motion, criterion: Criterion) -> InputError:
+    """The error of the limit that a motion too small for anything but weight and dry friction exceeds most."""
+    robot, loads = criterion.regressors.model.robot, criterion.limits.loads
+    row = int(np.argmax(np.abs(loads @ criterion.regressors.torques(criterion.values, motion)).max(axis=1)))
+    limited = [joint.number for joint in robot.moving if joint.torque_limit is not None]
+    names = [*(f"torque limit of joint {j}" for j in limited), *(f"current limit of motor {j}" for j in robot.numbers)]
+    problem = f"weight and dry friction alone are beyond the {names[row]}"
+    return InputError(robot.place, problem, "a limit that leaves room to move the arm")
 
 
 def usual_torques(shapes: Shapes, regressors: Regressors, values: Mapping[str, float], seed: int) -> Array:

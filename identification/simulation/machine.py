@@ -11,6 +11,7 @@ from typing import Any
 
 from generator.backends import batch, c, python, simulation
 from generator.derivation import derive
+from generator.effects.library import library
 from generator.errors import InputError
 from generator.python_library import build_library, load_library
 from generator.robot.description import Robot
@@ -55,7 +56,7 @@ class Machine:
 def compiled(robot: Robot) -> Iterator[Machine]:
     """The robot's machine, in a temporary folder that lasts as long as the body.
 
-    Raises InputError where there is no C compiler and for a robot that cannot be simulated.
+    Raises InputError where there is no C compiler, and for an effect that cannot be simulated, at its place.
     """
     model = derive(robot, names=_QUANTITIES, check=False)
     with tempfile.TemporaryDirectory(prefix="counterpoise-") as temporary:
@@ -71,5 +72,16 @@ def compiled(robot: Robot) -> Iterator[Machine]:
         build_library(folder, robot.name)
         module = load_library(folder, robot.name)
         if not hasattr(module, "PLANTS"):
-            raise InputError(robot.place, "an effect of this robot cannot be simulated", "effects of q and qd")
+            raise _not_simulated(robot)
         yield Machine(model, module)
+
+
+def _not_simulated(robot: Robot) -> InputError:
+    """The error of the first effect that reads more than the motion."""
+    for use in robot.effects:
+        effect = library()[use.effect]
+        more = "a state of its own" if effect.states else "the drive's warmth" if "warmth" in effect.needs else ""
+        if more:
+            problem = f"effect {effect.id} reads {more}, which is not simulated"
+            return InputError(use.place, problem, "effects of q, qd and qdd alone")
+    return InputError(robot.place, "this robot cannot be simulated", "effects of q, qd and qdd alone")

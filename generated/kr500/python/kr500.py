@@ -318,8 +318,12 @@ _c_wrench_torque = _lib.kr500_wrench_torque
 _WORK = 305168
 
 
-def _signal(value, shape, name):
-    """An input of one state as a buffer."""
+#: What a function of one state takes as well, where it is one of many samples too.
+_SAMPLES = f", or numpy arrays of shape (n, {NQ}) for n samples"
+
+
+def _signal(value, shape, name, also=""):
+    """An input of one state as a buffer; ``also`` says what else would do."""
     if type(value) is _array and value.dtype is _double and value.shape == shape and value.flags.aligned:
         try:
             return _buffer(value)
@@ -330,7 +334,7 @@ def _signal(value, shape, name):
     except (TypeError, ValueError):
         raise TypeError(f"{name} is no array of numbers, expected {shape}") from None
     if array.shape != shape:
-        raise ValueError(f"{name} has shape {array.shape}, expected {shape}")
+        raise ValueError(f"{name} has shape {array.shape}, expected {shape}{also}")
     return _buffer(array)
 
 
@@ -815,9 +819,9 @@ class Robot:
         tau = _new(out, (6,))
         _c_inverse_dynamics(
             self._prepared,
-            _signal(q, (6,), "q"),
-            _signal(qd, (6,), "qd"),
-            _signal(qdd, (6,), "qdd"),
+            _signal(q, (6,), "q", _SAMPLES),
+            _signal(qd, (6,), "qd", _SAMPLES),
+            _signal(qdd, (6,), "qdd", _SAMPLES),
             _buffer(tau),
         )
         return tau

@@ -41,6 +41,11 @@ def safe(text: str) -> str:
     return " ".join(text.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace('"', "'").split())
 
 
+def headline(name: str, description: str) -> str:
+    """The title of a robot's sources: its name and, where there is one, its description."""
+    return f"{name}: {description}" if description else name
+
+
 def paragraph(text: str, width: int, hanging: int = 0) -> list[str]:
     """``text`` in lines of at most ``width`` columns, those after the first indented by ``hanging``."""
     return textwrap.wrap(safe(text), width, subsequent_indent=" " * hanging, break_on_hyphens=False)
