@@ -10,9 +10,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, SIGNAL, Coefficient, Hypothesis, ShapeRange
-from identification.diagnosis.verdict.doubts import beside_drive_trains, beside_warming
-from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
+from identification.diagnosis.columns.hypothesis import (
+    BODY,
+    EFFECT,
+    ELASTIC,
+    SIGNAL,
+    Coefficient,
+    Hypothesis,
+    ShapeRange,
+)
+from identification.diagnosis.columns.payload_body import COEFFICIENTS as PAYLOAD
+from identification.diagnosis.verdict.alternatives import OTHER_BODY
+from identification.diagnosis.verdict.doubts import beside_drive_trains, beside_warming, doubted
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
+from identification.outcome import Value
 from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
 from tests.matrices import Array
 
@@ -60,6 +71,23 @@ def test_orders_that_do_as_well_are_not_apart(way: float, apart: bool) -> None:
     assert found.apart == apart
     if apart:
         assert found.evidence.variant.shape["order"] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("mass", "std", "status", "other"),
+    [(2.0, 0.1, FIRM, []), (2.0, 1.5, TENTATIVE, []), (0.0, 0.0, TENTATIVE, [OTHER_BODY])],
+)
+def test_a_payload_without_mass_may_be_less_of_a_known_body(
+    mass: float, std: float, status: str, other: list[str]
+) -> None:
+    data = Data(54)
+    there = data.column()
+    (choice,) = search(data.bank(0.9 * there, [fixed("payload", there)]))
+    hypothesis = Hypothesis("payload", "payload", 0, PAYLOAD, lambda *_: there, kind=BODY, joints=(1, 2))
+    values = {one.name: Value(0.0, 0.0, one.unit) for one in PAYLOAD}
+    values |= {"M": Value(mass, std, "kg"), "MX": Value(2.0, 0.1, "kg m")}
+    one = doubted(Finding(hypothesis, (1, 2), {}, values, choice.evidence, (), {}, {}), 0.0, (), True)
+    assert (one.status, [each.effect for each in one.alternatives]) == (status, other)
 
 
 @pytest.mark.parametrize(

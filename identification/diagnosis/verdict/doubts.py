@@ -81,10 +81,20 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
         more = [] if "torque_gain" in there else [other]
         return one.doubted("a free fit scales all parameters with the payload's", alternatives=more)
     if kind == BODY and vague(one.main[0]):
-        return one.doubted("the runs do not determine its mass")
+        return _of_no_mass(one)
     if all(map(vague, one.main)):
         return one.doubted("the standard deviations of its values are more than half of them")
     return one
+
+
+def _of_no_mass(one: Finding) -> Finding:
+    """A payload whose mass is not determined; without any it may be too much of a body that is known."""
+    if one.main[0].value:
+        return one.doubted("the runs do not determine its mass")
+    told = "the tool on a scale, or another source of what is known of the last bodies"
+    title = "less of a body than is known"
+    other = outside(OTHER_BODY, title, one.joints, one.evidence, told)
+    return one.doubted("without mass it is no payload", alternatives=[other])
 
 
 def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[str]:
