@@ -13,6 +13,7 @@ import numpy as np
 from generator.effects.library import effects_of, library, names_of_effects
 from generator.review.decimals import scientific
 from generator.review.words import listed
+from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search import known_friction
@@ -79,9 +80,13 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
 
 def doubted(found: Search, named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
     """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
-    as it is known, unless it is the same law, told by directions, or takes its place: both together are then as much.
+    as it is known, unless it is the same law, told by directions, or what was found on the joint takes its place: all
+    together is then as much.
     """
-    return tuple(_of_another_law(one, _instead_of(found, one, ones)) for one in named)
+    rubbing = [(one, every) for one in named if (every := _friction(found, one)) is not None]
+    staying = [each for each in ones if each.rubs and not each.agrees(each.found + _likeness(found, rubbing, each))]
+    of_friction = {id(one): _instead_of(found, one, every, staying) for one, every in rubbing}
+    return tuple(_of_another_law(one, of_friction.get(id(one), ())) for one in named)
 
 
 def _of_another_law(one: Finding, names: Sequence[str]) -> Finding:
@@ -94,24 +99,32 @@ def _of_another_law(one: Finding, names: Sequence[str]) -> Finding:
     return one.doubted(why, alternatives=[other])
 
 
-def _instead_of(found: Search, one: Finding, ones: Sequence[Contradicted]) -> list[str]:
-    """Names of contradicted friction in whose place a friction may stand that was found."""
+def _friction(found: Search, one: Finding) -> Variant | None:
+    """A finding with all its columns, if it is friction."""
     effect = library().get(one.hypothesis.effect) if one.hypothesis.kind == EFFECT else None
-    if effect is None or not effect.dissipates:
-        return []
-    there = [each for each in ones if each.rubs and each.rubs == one.hypothesis.joint]
-    every = found.bank.add(one.hypothesis, one.shape)
-    if every is None or not there:
-        return []
-    normal = found.weighing.normal
-    alike = known_friction.alike(normal, every.columns, np.array([each.place for each in there])).tolist()
-    values = np.array([one.parameters[each.name].value or 0.0 for each in every.coefficients])
-    return [
-        each.name
-        for each in there
-        if each.place not in alike
-        and not each.agrees(each.found + known_friction.likeness(normal, every.columns, values, each.place))
-    ]
+    return found.bank.add(one.hypothesis, one.shape) if effect is not None and effect.dissipates else None
+
+
+def _instead_of(found: Search, one: Finding, every: Variant, ones: Sequence[Contradicted]) -> list[str]:
+    """Names of contradicted friction in whose place a friction may stand that was found, with ``every`` column."""
+    there = [each for each in ones if each.rubs == one.hypothesis.joint]
+    places = np.array([each.place for each in there], dtype=int)
+    alike = known_friction.alike(found.weighing.normal, every.columns, places).tolist()
+    return [each.name for each in there if each.place not in alike]
+
+
+def _likeness(found: Search, rubbing: Sequence[tuple[Finding, Variant]], one: Contradicted) -> float:
+    """How much of a friction what was found on its joint looks like, in its unit."""
+    return sum(
+        known_friction.likeness(
+            found.weighing.normal,
+            every.columns,
+            np.array([each.parameters[c.name].value or 0.0 for c in every.coefficients]),
+            one.place,
+        )
+        for each, every in rubbing
+        if each.hypothesis.joint == one.rubs
+    )
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
