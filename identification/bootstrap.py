@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from identification.arrays import Array
-from identification.least_squares import RANK, Problem, Solution
+from identification.least_squares import Problem, Solution
 from identification.observed import Observed
+from identification.rank import nonzero
 from identification.sampling import Rows
 
 #: Blocks that the runs are cut into at least, and their usual length [s].
@@ -64,7 +65,7 @@ def _whitening(problem: Problem, solution: Solution) -> Array:
     size = np.linalg.norm(R, axis=0)
     scale = np.where(size > 0, size, 1.0)
     _, s, Vt = np.linalg.svd(R / scale, full_matrices=False)
-    rank = int((s > RANK * s[0]).sum())
+    rank = int(nonzero(s).sum())
     return np.asarray(Vt[:rank].T / s[:rank] / scale[:, None])
 
 

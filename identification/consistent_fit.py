@@ -149,11 +149,13 @@ def _ball(found: Identification) -> Array:
     robot, values = found.robot, found.full.solution.values
     lengths = [abs(float(length.value)) for length in robot.lengths if length.unit == "m"]
     size = max(lengths, default=0.0) or _LENGTH
-    arms = {"kg": 1.0, "kg m": size}
+    arms = {"M": 1.0, "MX": size, "MY": size, "MZ": size}
     masses = [
-        abs(values[p.name]) / arms[p.unit]
+        abs(values[p.name]) / arms[stem]
         for p in found.regressors.model.base_parameters
-        if p.unit in arms and p.name in values and p.name not in found.full.solution.hidden
+        for stem in arms
+        if p.name in (f"{stem}{p.joint}", f"{stem}{p.joint}R")
+        if p.name in values and p.name not in found.full.solution.hidden
     ]
     some = [one for one in masses if one > _NONE * max(masses)]
     mass = float(np.median(some)) if some else _MASS

@@ -23,6 +23,7 @@ from identification.drive_train import coupling, stated_constants
 from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.outcome import LIMIT
+from identification.own_load import settled
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of
@@ -123,42 +124,80 @@ def drive_gains(
     _check_carried(carrying, payload)
     runs = [*unloaded, *carrying]
     unshared({"fit": runs})
-    regressors = regressors or Regressors(robot)
-    seen = [sampled(run, recipe, regressors) for run in runs]
-    names = _names(regressors, runs)
-    rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
-    fit, refused, parts, from_payload = _observable(rows, names, len(N), robot, carrying[0], stds)
-    variance = np.diag(fit.covariance) + from_payload**2
-    n = len(N)
-    constants = {m: (float(fit.k[m]), float(np.sqrt(variance[m]))) for m in range(n) if m not in refused}
-    sought = _sought(names, runs)
-    parameters = {}
-    for k, name in enumerate(names):
-        if name in sought:
-            std = np.inf if fit.hidden[k] else float(np.sqrt(variance[n + k]))
-            parameters[name] = (float(fit.chi[k]), std)
-    share = {m: abs(from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
-    residuals = _residuals(fit, parts)
-    notes = [note for run in runs for note in run.notes] + _doubts(residuals, constants, robot)
+    given = regressors or Regressors(robot)
+    seen = [sampled(run, recipe, given) for run in runs]
+    regressors, told = settled(given, lambda with_load: _found(seen, with_load, carrying[0], stds))
+    found = _found(seen, regressors, carrying[0], stds)
+    constants = {m: (float(found.fit.k[m]), found.gain_std(m)) for m in range(len(N)) if m not in found.refused}
+    share = {m: abs(found.from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
+    residuals = _residuals(found.fit, found.parts)
+    notes = [*(note for run in runs for note in run.notes), *told, *_doubts(residuals, constants, robot)]
     return DriveGains(
         regressors=regressors,
         recipe=recipe,
         empty=tuple(seen[: len(empty)]),
         loaded=tuple(seen[len(empty) :]),
         constants=constants,
-        refused=refused,
+        refused=found.refused,
         payload_share=share,
         payload_std=stds,
-        parameters=parameters,
-        torques=_torques(fit, rows, refused, parts),
+        parameters={name: (found.values[name], found.std(name)) for name in found.names},
+        torques=_torques(found.fit, found.rows, found.refused, found.parts),
         residuals=residuals,
-        separation=fit.separation,
-        condition=fit.condition,
+        separation=found.fit.separation,
+        condition=found.fit.condition,
         notes=tuple(notes),
     )
 
 
 Observations = Sequence[tuple[Sampled, Sequence[MotorRows]]]
+
+
+@dataclass(frozen=True)
+class _Found:
+    """The ``fit`` of the ``rows`` with all parameters ``every`` (p), of which the ``known`` ones [SI] are given.
+
+    ``from_payload`` are standard deviations of [k, chi] that come from the payload's known values; ``refused`` motors
+    have no part in it.
+    """
+
+    rows: Observations
+    every: tuple[str, ...]
+    known: Mapping[str, float]
+    fit: Fit
+    refused: Mapping[int, str]
+    parts: Sequence[Part]
+    from_payload: Array
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(name for name in self.every if name not in self.known)
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        return dict(zip(self.every, self.fit.chi.tolist(), strict=True)) | dict(self.known)
+
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        return tuple(name for name in self.names if self.fit.hidden[self.every.index(name)])
+
+    def std(self, name: str) -> float:
+        return np.inf if name in self.hidden else self._deviation(len(self.fit.k) + self.every.index(name))
+
+    def gain_std(self, motor: int) -> float:
+        return self._deviation(motor)
+
+    def _deviation(self, k: int) -> float:
+        return float(np.sqrt(self.fit.covariance[k, k] + self.from_payload[k] ** 2))
+
+
+def _found(seen: Sequence[Sampled], regressors: Regressors, loaded: Run, stds: Mapping[str, float]) -> _Found:
+    """The fit of all runs with the load that ``regressors`` have; ``loaded`` is the run to tell where there is none."""
+    robot, runs = regressors.model.robot, [one.run for one in seen]
+    N, names = coupling(robot), _names(regressors, runs)
+    rows = [(one, motor_rows(one, regressors, N, names)) for one in seen]
+    fit, refused, parts, from_payload = _observable(rows, names, len(N), robot, loaded, stds)
+    return _Found(rows, names, _known(runs), fit, refused, parts, from_payload)
 
 
 def _run(source: str, robot: Robot, recipe: Recipe) -> Run:
@@ -221,11 +260,6 @@ def _known(runs: Sequence[Run]) -> dict[str, float]:
     """Values [SI] of all payloads' parameters that are known."""
     carried = [run.payload for run in runs if run.payload is not None]
     return {name: value for payload in carried for name, value in payload.fixed.items()}
-
-
-def _sought(names: Sequence[str], runs: Sequence[Run]) -> list[str]:
-    known = _known(runs)
-    return [name for name in names if name not in known]
 
 
 def _parts(

@@ -11,11 +11,8 @@ from numpy.typing import NDArray
 from generator.review.words import listed
 from identification.arrays import Array
 from identification.factors import Factor, triangular
+from identification.rank import nonzero, not_identifiable
 
-#: Singular values of the scaled matrix below this part of the largest are zero.
-RANK = 1e-8
-#: Part of a parameter in a direction that no row shows, from which it is not identifiable.
-_INVOLVED = 1e-4
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
 _ROUNDING, _TINY = 1e-12, 1e-300
 _REWEIGHTINGS = 2
@@ -173,12 +170,11 @@ class _Solved:
             return cls(np.zeros(count), np.zeros((count, count)), silent, np.inf, np.inf, 0)
         U, s, Vt = np.linalg.svd(scaled, full_matrices=True)
         s = np.concatenate([s, np.zeros(count - len(s))])
-        seen = s > RANK * s[0]
-        rank = int(seen.sum())
+        rank = int(nonzero(s).sum())
         V, s_seen = Vt[:rank].T, s[:rank]
         chi = (V @ ((U[:, :rank].T @ z) / s_seen)) / scale
         inverse = ((V / s_seen**2) @ V.T) / np.outer(scale, scale)
-        hidden = silent | (np.abs(Vt[rank:]).max(axis=0, initial=0.0) > _INVOLVED)
+        hidden = silent | not_identifiable(Vt[rank:])
         whole = rank == count
         condition = float(np.linalg.cond(R)) if whole else np.inf
         return cls(chi, inverse, hidden, condition, float(s[0] / s_seen[-1]) if whole else np.inf, rank)
@@ -196,4 +192,4 @@ def _rank(R: Array) -> int:
     if not live.size:
         return 0
     s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)
-    return int((s > RANK * s[0]).sum())
+    return int(nonzero(s).sum())

@@ -6,7 +6,7 @@ The generated NumPy module computes it, block by block: most of the time of a fi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -104,6 +104,11 @@ class Regressors:
         result.values = dict(values)
         return result
 
+    def carrying(self, body: Sequence[float]) -> Regressors:
+        """The same with the load of a body in the tool frame as well: XX XY XZ YY YZ ZZ MX MY MZ M [SI]."""
+        more = dict(zip(self.names, (self._of_body @ np.array(body)).tolist(), strict=True))
+        return self.loaded_by({**self.values, **{name: self.values.get(name, 0.0) + x for name, x in more.items()}})
+
     def described(self, robot: Robot) -> Regressors:
         """The same of a ``robot`` whose file says more of it, or less, that changes no equation."""
         result = copy(self)
@@ -135,20 +140,33 @@ class Regressors:
         """Per joint, the base parameters by name that make the torque ``qdd`` of an inertia which turns with the motor
         of this joint alone, one of each as many times as said [1]; none where they do not hold it.
         """
-        draw = np.random.default_rng(0)
-        q, qd, qdd = draw.uniform(-1.0, 1.0, (3, self.model.dof, _ALL_WAYS))
-        columns = np.zeros((len(self.names), self.model.dof, _ALL_WAYS))
-        for row, (names, torques) in enumerate(zip(self.structure, self.base(Motion(q, qd, qdd)), strict=True)):
-            columns[[self.names.index(name) for name in names], row] = torques
-        own = np.zeros((self.model.dof, *qdd.shape))
-        own[range(self.model.dof), range(self.model.dof)] = qdd
-        flat, wanted = columns.reshape(len(columns), -1).T, own.reshape(len(own), -1).T
-        solution, *_ = np.linalg.lstsq(flat, wanted, rcond=None)
-        exact = np.abs(flat @ solution - wanted).max(axis=0) < _EXACT
+        motion = self._all_ways
+        own = np.zeros((self.model.dof, *motion.qdd.shape))
+        own[range(self.model.dof), range(self.model.dof)] = motion.qdd
+        solution, exact = self._held(motion, own)
         return tuple(
             {name: float(x) for name, x in zip(self.names, each, strict=True) if abs(x) > _EXACT} if held else {}
             for each, held in zip(solution.T, exact, strict=True)
         )
+
+    @cached_property
+    def _of_body(self) -> Array:
+        """The change of the base parameters (p x 10) [SI] that a body in the tool frame makes, by its parameters."""
+        torques = np.stack(self.payload(self._all_ways)).transpose(1, 0, 2)
+        return self._held(self._all_ways, torques)[0]
+
+    @property
+    def _all_ways(self) -> Motion:
+        return Motion(*np.random.default_rng(0).uniform(-1.0, 1.0, (3, self.model.dof, _ALL_WAYS)))
+
+    def _held(self, motion: Motion, torques: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Base parameters (p x k) that make ``torques`` (k x n x N) along a motion, and which of these exactly."""
+        columns = np.zeros((len(self.names), self.model.dof, motion.samples))
+        for row, (names, found) in enumerate(zip(self.structure, self.base(motion), strict=True)):
+            columns[[self.names.index(name) for name in names], row] = found
+        flat, wanted = columns.reshape(len(columns), -1).T, torques.reshape(len(torques), -1).T
+        solution, *_ = np.linalg.lstsq(flat, wanted, rcond=None)
+        return np.asarray(solution, dtype=float), np.asarray(np.abs(flat @ solution - wanted).max(axis=0) < _EXACT)
 
     @cached_property
     def structure(self) -> tuple[tuple[str, ...], ...]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
 
 from identification.factors import Factor, added
-from identification.least_squares import Solution
 from identification.observation import Regressors
 from identification.observed import Observed
 from identification.sampling import Sampled
@@ -14,28 +14,53 @@ from identification.sampling import Sampled
 _REPEATS, _SETTLED = 20, 0.01
 
 
+class Fitted(Protocol):
+    """What a fit found."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """The parameters that were sought."""
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """Of all parameters [SI] by name, payloads' and given ones among them."""
+
+    @property
+    def hidden(self) -> Sequence[str]:
+        """Those of the sought ones that nothing shows."""
+
+    def std(self, name: str) -> float:
+        """Standard deviation of a parameter [SI]."""
+
+
 def under_own_load(
-    runs: Sequence[Sampled], regressors: Regressors, fit: Callable[[tuple[Factor, ...]], Solution]
+    runs: Sequence[Sampled], regressors: Regressors, fit: Callable[[tuple[Factor, ...]], Fitted]
 ) -> tuple[Regressors, list[str]]:
+    """As ``settled``, with a ``fit`` to the factors of all ``runs``."""
+
+    def again(with_load: Regressors) -> Fitted:
+        return fit(added([factor for one in runs for factor in Observed(one, with_load).factors]))
+
+    return settled(regressors, again)
+
+
+def settled(regressors: Regressors, fit: Callable[[Regressors], Fitted]) -> tuple[Regressors, list[str]]:
     """The regressors with the load of the parameters that ``fit`` finds with them, and what is to be told.
 
     They are as they were where no column reads the load.
     """
     if not regressors.reads_load:
         return regressors, []
-    notes = []
-    if any(run.payload is not None for run in (one.run for one in runs)):
-        notes.append("friction by load counts the load of the robot's own bodies, not that of payloads")
-    before: Solution | None = None
+    before: Fitted | None = None
     for _ in range(_REPEATS):
-        after = fit(added([factor for one in runs for factor in Observed(one, regressors).factors]))
+        after = fit(regressors)
         if before is not None and _moved(before, after) < _SETTLED:
-            return regressors, notes
+            return regressors, []
         before, regressors = after, regressors.loaded_by(after.values)
-    return regressors, [*notes, f"friction by load has not settled after {_REPEATS} fits"]
+    return regressors, [f"friction by load has not settled after {_REPEATS} fits"]
 
 
-def _moved(before: Solution, after: Solution) -> float:
+def _moved(before: Fitted, after: Fitted) -> float:
     """By how many standard deviations a parameter moved that both fits show, at most; infinite if one shows more."""
     if before.hidden != after.hidden:
         return float("inf")

@@ -1,4 +1,10 @@
-"""Least squares that outliers do not pull: Huber's weights, row by row, until nothing changes."""
+"""Least squares that outliers do not pull: Huber's function of the residuals, until nothing changes.
+
+Ordinary least squares of pseudo-values, the model's torques plus bounded residuals, has the estimate of Huber's
+function as its fixed point. With bounded residuals divided by the part that is not at the bounds, a step is that of
+Newton's method, and the covariance that least squares tells of pseudo-values is Huber's,
+K^2 s^2 E[psi^2]/E[psi']^2 (W^T W)^-1 (Huber, Robust Statistics, 1981, section 7.6).
+"""
 
 from __future__ import annotations
 
@@ -22,32 +28,40 @@ _SETTLED = 1e-3
 
 
 @dataclass(frozen=True)
-class Robust:
-    """The problem with its rows weighted, its solution, and how many of the rows count less than fully.
+class Bound:
+    """Of one joint's residuals: where they end [N m, N], and the factor ``gain`` [1] on what is within."""
 
-    Weights are those of residuals with the parameters ``values``, in parts of each joint's ``scale`` [N m, N].
+    end: float
+    gain: float
+
+
+@dataclass(frozen=True)
+class Robust:
+    """The problem of pseudo-values, its solution, and how many of the rows count less than fully.
+
+    Pseudo-values are those of residuals with the parameters ``values``, within each joint's ``bounds``.
     """
 
     problem: Problem
     solution: Solution
     outliers: int
     values: Mapping[str, float]
-    scale: Mapping[int, float]
+    bounds: Mapping[int, Bound]
 
     def rows(self, run: Observed) -> Iterator[Rows]:
-        """The rows of a run times the roots of their weights."""
-        return iter(_weighted(run, self.values, self.scale)[1])
+        """The rows of a run with pseudo-values."""
+        return iter(_bounded(run, self.values, self.bounds)[1])
 
 
 def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
-    """Iteratively reweighted least squares; a joint's scale is the median of its absolute residuals."""
+    """Least squares of pseudo-values again and again; a joint's scale is the median of its absolute residuals."""
     solution = problem.solve()
-    outliers, at, scale = 0, solution.values, dict[int, float]()
+    outliers, at, bounds = 0, solution.values, dict[int, Bound]()
     for _ in range(_ITERATIONS):
-        at, scale = solution.values, _scales(runs, solution.values)
-        weighted = [_weighted(run, at, scale) for run in runs]
-        outliers = sum(count for count, _ in weighted)
-        problem = replace(problem, factors=added([f for _, parts in weighted for f in factors(iter(parts))]))
+        at, bounds = solution.values, _bounds(runs, solution.values, problem.names)
+        pseudo = [_bounded(run, at, bounds) for run in runs]
+        outliers = sum(count for count, _ in pseudo)
+        problem = replace(problem, factors=added([f for _, parts in pseudo for f in factors(iter(parts))]))
         previous, solution = solution, problem.solve()
         steps = [
             abs(solution.values[n] - previous.values[n]) / max(solution.std(n), 1e-300)
@@ -56,23 +70,33 @@ def robust(problem: Problem, runs: Sequence[Observed]) -> Robust:
         ]
         if max(steps, default=0.0) < _SETTLED:
             break
-    return Robust(problem, solution, outliers, at, scale)
+    return Robust(problem, solution, outliers, at, bounds)
 
 
-def _scales(runs: Sequence[Observed], values: Mapping[str, float]) -> dict[int, float]:
+def _bounds(runs: Sequence[Observed], values: Mapping[str, float], sought: Sequence[str]) -> dict[int, Bound]:
+    """By joint. The gain has the correction for n rows and p parameters, K = 1 + p/n var(psi')/E[psi']^2."""
     found: dict[int, list[float]] = {}
+    unknowns: dict[int, int] = {}
     for run in runs:
         for part in run.rows():
             found.setdefault(part.joint, []).extend(np.abs(part.errors(values)).tolist())
-    return {joint: float(np.median(errors)) / _MAD + 1e-300 for joint, errors in found.items()}
+            unknowns[part.joint] = len(set(part.names) & set(sought))
+    result = {}
+    for joint, sizes in found.items():
+        if not sizes:
+            result[joint] = Bound(0.0, 1.0)
+            continue
+        end = _KNEE * (float(np.median(sizes)) / _MAD + 1e-300)
+        within = float(np.mean(np.array(sizes) <= end))
+        result[joint] = Bound(end, (1 + unknowns[joint] / len(sizes) * (1 - within) / within) / within)
+    return result
 
 
-def _weighted(run: Observed, values: Mapping[str, float], scale: Mapping[int, float]) -> tuple[int, list[Rows]]:
-    """The rows times the roots of their weights, and how many weights are below 1."""
+def _bounded(run: Observed, values: Mapping[str, float], bounds: Mapping[int, Bound]) -> tuple[int, list[Rows]]:
+    """The rows with pseudo-values, and how many residuals are beyond their bounds."""
     outliers, parts = 0, []
     for part in run.rows():
-        size = np.abs(part.errors(values)) / scale[part.joint]
-        root = np.sqrt(np.minimum(1.0, _KNEE / np.maximum(size, 1e-300)))
-        outliers += int((size > _KNEE).sum())
-        parts.append(replace(part, W=part.W * root[:, None], Y=part.Y * root))
+        error, bound = part.errors(values), bounds[part.joint]
+        outliers += int((np.abs(error) > bound.end).sum())
+        parts.append(replace(part, Y=part.Y - error + bound.gain * np.clip(error, -bound.end, bound.end)))
     return outliers, parts

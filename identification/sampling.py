@@ -181,7 +181,17 @@ def _first_stage(one: Sampled, regressors: Regressors, stage: Stage) -> Iterator
 
 def _columns(one: Sampled, regressors: Regressors, start: int, end: int) -> list[tuple[Array, Array]]:
     motion = one.motion.part(start, end)
-    base = regressors.base(motion)
+    base = _loaded(one, regressors).base(motion)
     if one.run.payload is not None:
         base = [np.concatenate(pair) for pair in zip(base, regressors.payload(motion), strict=True)]
     return [(W, one.tau[k, start:end]) for k, W in enumerate(base)]
+
+
+def _loaded(one: Sampled, regressors: Regressors) -> Regressors:
+    """With the load of the run's payload: of the values that the regressors have, or else of those that are known."""
+    payload = one.run.payload
+    if payload is None or not regressors.reads_load:
+        return regressors
+    return regressors.carrying(
+        [regressors.values.get(name, payload.known.get(stem, 0.0)) for stem, name in payload.names().items()]
+    )

@@ -17,11 +17,8 @@ from numpy.typing import NDArray
 from identification.arrays import Array
 from identification.colour import inflation
 from identification.factors import triangular
+from identification.rank import RANK, nonzero, not_identifiable
 
-#: Singular values of columns of unit length below this part of the largest are zero.
-_RANK = 1e-8
-#: Part of a parameter in a direction that no row shows, from which it is not identifiable.
-_INVOLVED = 1e-4
 #: Eigenvalues of the scaled information below this part of the largest are zero.
 _SEEN = 1e-13
 _ITERATIONS, _SETTLED = 20, 1e-6
@@ -114,7 +111,7 @@ class _Reduced:
         """Standard deviation of the current's noise, from a fit of these rows with parameters of their own."""
         A, i = self.T[:, :-1], self.T[:, -1]
         U, s, _ = np.linalg.svd(A / (np.linalg.norm(A, axis=0) + _TINY), full_matrices=False)
-        U = U[:, s > _RANK * s[0]]
+        U = U[:, nonzero(s)]
         error = np.linalg.norm(i - U @ (U.T @ i))
         floor = 1e-9 * float(np.linalg.norm(i)) / np.sqrt(self.rows) + _TINY
         return max(float(error / np.sqrt(max(self.rows - U.shape[1], 1))), float(floor))
@@ -135,8 +132,8 @@ def _once(
     size[size == 0.0] = 1.0
     A, noise = T[:, : p + 1] / size, np.sqrt([one.rows for one in reduced]) / k
     U, s, Vt = np.linalg.svd(A[:, :p], full_matrices=True)
-    rank = int((s > _RANK * s[0]).sum())
-    hidden = np.abs(Vt[rank:]).max(axis=0, initial=0.0) > _INVOLVED
+    rank = int(nonzero(s).sum())
+    hidden = not_identifiable(Vt[rank:])
     own = A[:, p] - U[:, :rank] @ (U[:, :rank].T @ A[:, p])
     scale = float(np.linalg.norm(own))
     gains = np.zeros(count)
@@ -179,13 +176,13 @@ def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tup
         total = sum(len(e) for e in errors)
         coloured += weight * own * (sum(len(e) * inflation(e) for e in errors) / total)
     size = np.sqrt(np.diag(gram))
-    silent = size <= _RANK * size.max(initial=0.0)
+    silent = size <= RANK * size.max(initial=0.0)
     size[silent] = 1.0
     values, vectors = np.linalg.eigh(gram / np.outer(size, size))
-    seen = values > _SEEN * values[-1]
+    seen = nonzero(values, _SEEN)
     inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T / np.outer(size, size)
     result: Array = inverse @ coloured @ inverse
-    unseen = silent | (np.abs(vectors[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
+    unseen = silent | not_identifiable(vectors[:, ~seen].T)
     result[unseen, unseen] = np.inf
     powers = np.linalg.eigvalsh((gram / np.outer(size, size))[np.ix_(~silent, ~silent)])
     condition = float(np.sqrt(powers[-1] / powers[0])) if powers[0] > _SEEN * powers[-1] else np.inf

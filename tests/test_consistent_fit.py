@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from generator.errors import InputError
+from generator.robot.readers import read
 from identification.consistency import grouped
 from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
@@ -106,3 +107,29 @@ def test_an_impossible_prior_is_refused(links: Regressors, folder: Path) -> None
     one = found(links, recorded(links, grouped(links.model, STANDARD)), folder / "d.csv")
     with pytest.raises(InputError, match="body 2 of the prior is impossible, expected a positive pseudo-inertia"):
         consistent_fit(one, {**STANDARD, "ZZ2": -1.0}, WEIGHT)
+
+
+#: A vertical slide with a rotor and a body, which weight and acceleration tell apart.
+LIFT = """\
+name: lift
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 1, alpha: 0, d: 0, theta: 0, r: q1}
+effects:
+  - {effect: rotor_inertia, joints: all}
+"""
+
+
+def test_an_unknown_inertia_is_that_of_a_ball_as_heavy_as_the_bodies(folder: Path) -> None:
+    """Its mass lies 0.3 m off its centre in every direction, root mean square, and two directions are across an axis:
+    the moments of 20 kg are 2 x 20 x 0.3^2 kg m2, whatever the rotor.
+    """
+    path = folder / "lift.yaml"
+    path.write_text(LIFT)
+    lift = Regressors(read(path))
+    t = np.arange(0, 10, 0.005)
+    q, qdd = 0.3 * np.sin(2 * t) + 0.1 * np.sin(7 * t), -1.2 * np.sin(2 * t) - 4.9 * np.sin(7 * t)
+    run = Recorded({"t": t, "q1": q, "tau1": 20 * 9.81 + (20 + 3) * qdd})
+    fit = consistent_fit(found(lift, run, folder / "run.csv"), None, WEIGHT)
+    assert [fit.standard[name] for name in ("M1", "Ia1")] == pytest.approx([20, 3], rel=0.01)
+    assert [fit.standard[f"{stem}1"] for stem in ("XX", "YY", "ZZ")] == pytest.approx([3.6] * 3, rel=1e-3)

@@ -245,6 +245,40 @@ def test_a_file_that_cannot_be_played(
     assert PLAYED[text] in done.err.splitlines()[-1]
 
 
+def test_positions_are_written_as_the_controller_counts_them(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With an offset of its encoders a robot makes the same true motion, and counts it from elsewhere."""
+    offset = np.radians([[70], [-40]])
+    path, words = tmp_path / "two_links.yaml", ("--evaluations", "256", "--rate", "100")
+    path.write_text(file.read_text() + "signals: {position_offset: [70 deg, -40 deg]}\n")
+    plain, shifted = tmp_path / "plain", tmp_path / "shifted"
+    for robot, out in ((file, plain), (path, shifted)):
+        assert command("excite", robot, "--out", out, *words, capsys=capsys).status == 0
+    series, same = (json.loads((out / "excitation.json").read_text())["series"] for out in (plain, shifted))
+    assert series == same
+    true, counted = (csv.read(out / "trajectory.csv").columns for out in (plain, shifted))
+    for k in (1, 2):
+        assert counted[f"qr{k}"] == pytest.approx(true[f"qr{k}"] - offset[k - 1], abs=1e-9)
+        assert counted[f"qd{k}"] == pytest.approx(true[f"qd{k}"], abs=1e-9)
+    assert "position_offset" in (shifted / "trajectory.yaml").read_text()
+    settings = Settings(
+        trajectory="played",
+        trajectory_settings={"file": str(shifted / "trajectory.csv")},
+        duration=5.0,
+        rate=500.0,
+        further=("qr",),
+    )
+    with compiled(read(path)) as made:
+        log = simulate(made, settings).columns
+    N = np.array([[100.0, 0.0], [5.0, -80.0]])
+    logged = np.linalg.solve(N, np.stack([log["qm1"], log["qm2"]])) + offset
+    count = len(log["t"][::5])
+    for k, name in enumerate(("qr1", "qr2")):
+        assert log[name][::5] == pytest.approx(counted[name][:count], abs=1e-6)
+        assert logged[k][::5] == pytest.approx(true[name][:count], abs=0.02)
+
+
 def test_a_robot_without_drives_or_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "pendulum.yaml").write_text(PENDULUM)
     words = ("--parameters", "light", "--evaluations", "600", "--noise", "0.5", "--out", tmp_path / "out")

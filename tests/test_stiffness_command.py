@@ -71,6 +71,18 @@ def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -
     assert any("tau2 is cut off for" in note for note in found.notes)
 
 
+def test_a_motor_slower_than_a_fifth_of_its_largest_speed_tells_nothing(tmp_path: Path) -> None:
+    """Friction that sticks there, a quarter of what winds the drive train up, leaves the stiffness as it is."""
+    path = Path(blocked(tmp_path / "a.csv", noise=0.0))
+    lines = path.read_text().splitlines()
+    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    speed = np.gradient(columns["q2"], columns["t"])
+    sticks = np.abs(speed) < 0.18 * np.abs(speed).max()
+    columns["tau2"] += np.where(sticks, 1000 * np.sign(columns["q2"] + 1.5), 0.0)
+    found = locked_output(ROBOT, 2, [str(Recorded(columns).save(path))])
+    assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
+
+
 def test_blocked_output_lies_within_its_stated_uncertainty(tmp_path: Path) -> None:
     def deviation(found: LockedOutput, name: str) -> float:
         one = found.values[name]

@@ -176,6 +176,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     from identification.excitation.design import designed, usual_torques
     from identification.excitation.expectation import expected
     from identification.excitation.limits import limits_of
+    from identification.excitation.memory import Memory
     from identification.excitation.noise import PART, noise_of
     from identification.excitation.results import Excitation
     from identification.excitation.shapes import Shapes
@@ -193,13 +194,14 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
     part = arguments.noise_part if arguments.noise_part is not None else 0.0 if arguments.noise else PART
     limits = limits_of(robot, arguments.speed, arguments.acceleration)
     shapes = Shapes(limits, arguments.rate / _rows_of_a_period(arguments), arguments.harmonics)
-    usual = usual_torques(shapes, regressors, values, arguments.seed)
+    memory = Memory(regressors, values, shapes.frequency, arguments.periods)
+    usual = usual_torques(shapes, memory, arguments.seed)
     noise = noise_of(robot, arguments.noise or [0.0], part, usual)
     standstill = recipe.standstills(robot)
-    judge = Criterion(regressors, values, limits, noise, standstill, filters.factor, arguments.criterion)
+    judge = Criterion(memory, limits, noise, standstill, filters.factor, arguments.criterion)
     with bar(f"searching among {arguments.evaluations} motions") as progress:
         design = designed(judge, shapes, arguments.evaluations, arguments.seed, progress)
-    motion = design.series.motion(np.arange(samples) / arguments.rate)
+    motion = memory.completed(design.series.motion(np.arange(samples) / arguments.rate), 1 / arguments.rate)
     return Excitation(
         robot=robot,
         design=design,
@@ -209,7 +211,7 @@ def _designed(arguments: argparse.Namespace, robot: Robot, regressors: Regressor
         rate=arguments.rate,
         periods=arguments.periods,
         filters=filters,
-        expected=expected(motion.q, arguments.rate, regressors, recipe, values, noise),
+        expected=expected(motion, arguments.rate, regressors, recipe, values, noise),
         units={one.name: one.unit for one in regressors.model.base_parameters},
         parameters=arguments.parameters,
         criterion=arguments.criterion,

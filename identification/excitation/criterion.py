@@ -6,13 +6,13 @@ standstill. Columns that depend on each other whatever the motion, so that no ru
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from identification.arrays import Array
 from identification.excitation.limits import Limits
+from identification.excitation.memory import Memory
 from identification.excitation.noise import Noise
 from identification.excitation.shapes import SEARCHED
 from identification.observation import Motion, Regressors, standing
@@ -27,28 +27,33 @@ _BEYOND = 100.0
 
 @dataclass(frozen=True)
 class Criterion:
-    """What is judged: ``values`` are the parameters [SI] that torques are computed with.
+    """What is judged: a motion of the robot of ``memory``, with the parameters that torques are computed with.
 
     ``standstill`` (n) [rad/s, m/s] and ``factor`` are those of the identification.
     """
 
-    regressors: Regressors
-    values: Mapping[str, float]
+    memory: Memory
     limits: Limits
     noise: Noise
     standstill: Array
     factor: int
     kind: str = DETERMINANT
 
+    @property
+    def regressors(self) -> Regressors:
+        """Those of the robot."""
+        return self.memory.regressors
+
     def information(self, motions: Motion, count: int) -> tuple[Array, Array]:
         """Of ``count`` motions of ``Shapes`` one after the other: information (count x p x p), largest load (count)."""
+        motions = self.memory.runs(motions, count)
         names = self.regressors.names
         place = {name: k for k, name in enumerate(names)}
         columns = self.regressors.base(motions)
         left_out = standing(self.regressors.signs, motions.qd, self.standstill)
         tau = np.stack(
             [
-                np.array([self.values[name] for name in row]) @ W
+                np.array([self.memory.values[name] for name in row]) @ W
                 for row, W in zip(self.regressors.structure, columns, strict=True)
             ]
         )

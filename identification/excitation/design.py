@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +11,10 @@ from generator.errors import InputError
 from identification.arrays import Array
 from identification.covariance_adaptation import strategy
 from identification.excitation.criterion import Criterion, sizes_and_rank
+from identification.excitation.memory import Memory
 from identification.excitation.shapes import BETWEEN, CHECKED, SEARCHED, Shapes
 from identification.fourier_series import FourierSeries
-from identification.observation import Motion, Regressors
+from identification.observation import Motion
 
 Progress = Callable[[float], None]
 
@@ -52,7 +53,8 @@ def designed(
     """
     draw = np.random.default_rng(seed)
     x = shapes.drawn(DRAWN, draw)
-    information, loads = criterion.information(shapes.motions(x), len(x))
+    pieces = [criterion.information(shapes.motions(piece), len(piece)) for piece in _pieces(x, criterion.memory)]
+    information, loads = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
     scale, rank = sizes_and_rank(information)
     if not rank:
         robot = criterion.regressors.model.robot
@@ -105,8 +107,9 @@ def _allowed(series: FourierSeries, criterion: Criterion, shapes: Shapes) -> tup
     instants = shapes.instants(CHECKED)
 
     def load(factor: float) -> float:
-        motion = series.resized(factor).motion(instants)
-        return largest_load(motion, criterion.regressors, criterion.values, criterion.limits.loads)
+        motion = criterion.memory.runs(series.resized(factor).motion(instants), 1)
+        torques = criterion.regressors.torques(criterion.memory.values, motion)
+        return float(np.abs(criterion.limits.loads @ torques).max(initial=0.0))
 
     if load(1.0) <= 1 - BETWEEN:
         return series, load(1.0)
@@ -115,29 +118,30 @@ def _allowed(series: FourierSeries, criterion: Criterion, shapes: Shapes) -> tup
         middle = (low + high) / 2
         low, high = (middle, high) if load(middle) <= 1 - BETWEEN else (low, middle)
     if not low:
-        raise _beyond_limits(series.resized(0.5**_HALVINGS).motion(instants), criterion)
+        raise _beyond_limits(criterion.memory.runs(series.resized(0.5**_HALVINGS).motion(instants), 1), criterion)
     return series.resized(low), load(low)
 
 
 def _beyond_limits(motion: Motion, criterion: Criterion) -> InputError:
     """The error of the limit that a motion too small for anything but weight and dry friction exceeds most."""
     robot, loads = criterion.regressors.model.robot, criterion.limits.loads
-    row = int(np.argmax(np.abs(loads @ criterion.regressors.torques(criterion.values, motion)).max(axis=1)))
+    row = int(np.argmax(np.abs(loads @ criterion.regressors.torques(criterion.memory.values, motion)).max(axis=1)))
     limited = [joint.number for joint in robot.moving if joint.torque_limit is not None]
     names = [*(f"torque limit of joint {j}" for j in limited), *(f"current limit of motor {j}" for j in robot.numbers)]
     problem = f"weight and dry friction alone are beyond the {names[row]}"
     return InputError(robot.place, problem, "a limit that leaves room to move the arm")
 
 
-def usual_torques(shapes: Shapes, regressors: Regressors, values: Mapping[str, float], seed: int) -> Array:
+def usual_torques(shapes: Shapes, memory: Memory, seed: int) -> Array:
     """Rms torques (n) [N m, N] of random motions within the limits."""
-    motions = shapes.motions(shapes.drawn(DRAWN, np.random.default_rng(seed)))
-    result: Array = np.sqrt((regressors.torques(values, motions) ** 2).mean(axis=1))
+    x = shapes.drawn(DRAWN, np.random.default_rng(seed))
+    motions = (memory.runs(shapes.motions(piece), len(piece)) for piece in _pieces(x, memory))
+    squares = [(memory.regressors.torques(memory.values, one) ** 2).mean(axis=1) for one in motions]
+    result: Array = np.sqrt(np.mean(squares, axis=0))
     return result
 
 
-def largest_load(motion: Motion, regressors: Regressors, values: Mapping[str, float], loads: Array) -> float:
-    """Largest share of a torque limit over a motion; 0 without limits."""
-    if not loads.size:
-        return 0.0
-    return float(np.abs(loads @ regressors.torques(values, motion)).max())
+def _pieces(x: Array, memory: Memory) -> Iterator[Array]:
+    """The vectors (B x numbers) of random motions in equal pieces: of few whole runs, which are long."""
+    count = min(memory.lasting, len(x))
+    return iter(np.array_split(x, count))

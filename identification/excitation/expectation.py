@@ -8,25 +8,25 @@ import numpy as np
 
 from generator.errors import Place
 from identification import recipe as recipes
-from identification.arrays import Array
 from identification.dataset import Run
 from identification.excitation.noise import Noise
 from identification.factors import factors
 from identification.least_squares import Problem, Solution
-from identification.observation import Regressors
+from identification.observation import Motion, Regressors
 from identification.recipe import Recipe
 from identification.sampling import rows_of, sampled
 
 
 def expected(
-    q: Array, rate: float, regressors: Regressors, recipe: Recipe, values: Mapping[str, float], noise: Noise
+    motion: Motion, rate: float, regressors: Regressors, recipe: Recipe, values: Mapping[str, float], noise: Noise
 ) -> Solution:
-    """Standard deviations that identification from a run with positions ``q`` (n x N) [rad, m] is expected to have.
+    """Standard deviations that identification from a run of a ``motion`` is expected to have.
 
     Filters, decimation and rows near standstill are those of ``recipe`` at ``rate`` [Hz]; ``values`` are the
     parameters [SI] that the deviations are related to.
     """
-    run = Run("designed", Place("designed"), 0.0, 1 / rate, q, np.zeros_like(q))
+    place, still = Place("designed"), np.zeros_like(motion.q)
+    run = Run("designed", place, 0.0, 1 / rate, motion.q, still, warmth=motion.warmth)
     one = sampled(run, recipe, regressors)
     found = factors(rows_of(one, regressors))
     sigma = noise.deviations(one.filters.factor)

@@ -12,6 +12,7 @@ import numpy as np
 from generator.robot.description import Robot
 from generator.version import VERSION
 from generator.writing import replace
+from identification.corrections import recorded_positions
 from identification.excitation.design import Design
 from identification.excitation.limits import Limits
 from identification.excitation.noise import Noise
@@ -60,6 +61,8 @@ def save(found: Excitation, folder: Path, beside: Mapping[str, bytes] | None = N
     Raises InputError where the folder cannot be written.
     """
     notes = "designed, not measured; qr and qd are wanted positions and speeds, at rest at both ends"
+    if found.robot.signals.position_offset:
+        notes += "; qr as the controller counts, without the position_offset of the robot file"
     sidecar = f"robot: {found.robot.name}\nnotes: {notes}\n"
     texts = {RUN: _run(found), BESIDE: sidecar, RESULTS: written(document(found))}
     files = {name: text.encode() for name, text in texts.items()} | dict(beside or {})
@@ -135,5 +138,6 @@ def _run(found: Excitation) -> str:
     names = ["t", *(f"{stem}{number}" for stem in ("qr", "qd") for number in numbers)]
     times = np.arange(found.motion.samples) / found.rate
     row = ",".join([f"%.{_DIGITS}g"] * len(names))
-    values = np.column_stack([times, found.motion.q.T, found.motion.qd.T])
+    counted = recorded_positions(found.motion.q, found.robot)
+    values = np.column_stack([times, counted.T, found.motion.qd.T])
     return "\n".join([",".join(names), *(row % tuple(one) for one in values.tolist())]) + "\n"

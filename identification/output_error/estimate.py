@@ -16,12 +16,13 @@ from identification.output_error.experiment import Experiment, experiment
 from identification.output_error.methods import methods
 from identification.output_error.search import Minimum, Search, Settings, search_of
 from identification.output_error.uncertainty import covariance, noise_density
+from identification.rank import nonzero, not_identifiable
 from identification.residuals import Residual, Residuals
 from identification.simulation.machine import Machine
 
-#: Singular values of the sensitivities below this part of the largest are zero; part of a parameter in a direction that
-#: no position shows, from which it is not identifiable; change of positions in units of their errors that is not seen.
-_RANK, _INVOLVED, _UNSEEN = 1e-6, 1e-4, 1e-2
+#: Singular values of the sensitivities below this part of the largest are zero; change of positions in units of their
+#: errors that is not seen.
+_RANK, _UNSEEN = 1e-6, 1e-2
 #: Steps by which first states of held-out runs are found, and by how much an eigenvalue may be above the margin at most
 #: for the constraint to count as active, in parts of the margin.
 _SETTLING, _ACTIVE = 6, 1e-2
@@ -103,9 +104,9 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
     silent = shown * np.maximum(np.abs(point.chi), search.std) < _UNSEEN
     size = np.where(silent, np.inf, size)
     power, directions = np.linalg.eigh(reduced.H / np.outer(size, size))
-    seen = power > _RANK**2 * power[-1]
+    seen = nonzero(power, _RANK**2)
     inverse = (directions[:, seen] / power[seen]) @ directions[:, seen].T / np.outer(size, size)
-    hidden = silent | (np.abs(directions[:, ~seen]).max(axis=1, initial=0.0) > _INVOLVED)
+    hidden = silent | not_identifiable(directions[:, ~seen].T)
     density = noise_density(criterion)
     others = replace(criterion, experiments=tuple(tests))
     tried = others.errors(_settled(others, point.chi)) if tests else ()

@@ -104,7 +104,7 @@ def _columns(machine: Machine, model: Any, settings: Settings, reference: Refere
     parts = {
         "qm" if robot.drives else "q": corrections.recorded_positions(log.q.T, robot).T @ N.T,
         _effort(machine): effort,
-        "qr": reference.q,
+        "qr": corrections.recorded_positions(reference.q.T, robot).T,
         "qs": corrections.recorded_links(log.links[late].T, robot, settings.period).T,
         "temp": np.tile((settings.temperature + settings.rise * warmth)[:, None], n),
     }

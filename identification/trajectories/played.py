@@ -10,6 +10,7 @@ from scipy.interpolate import make_interp_spline
 from generator.errors import InputError
 from identification import checks, readers
 from identification.arrays import Array
+from identification.corrections import true_positions
 from identification.recording import Recording
 from identification.signals import measured
 from identification.timing import clock
@@ -26,7 +27,7 @@ _CUBIC = 3
 
 
 def _plan(task: Task) -> Reference:
-    """A cubic spline through the file's positions; after its end the robot rests.
+    """A cubic spline through the file's positions, which are recorded ones; after its end the robot rests.
 
     Raises InputError, with file and row, for a file without positions or times, and for positions beyond the limits.
     """
@@ -39,9 +40,10 @@ def _plan(task: Task) -> Reference:
     ticks = clock(recording)
     if found.values.shape[1] <= _CUBIC:
         raise Unplanned(f"{file} has {found.values.shape[1]} rows", f"{_CUBIC + 1} at least")
-    _inside(task, recording, found.names, found.values)
+    true = true_positions(found.values, task.robot)
+    _inside(task, recording, found.names, true)
     t = recording.columns["t"] - ticks.start
-    motion = make_interp_spline(t, found.values, axis=1)
+    motion = make_interp_spline(t, true, axis=1)
     within = task.times <= t[-1]
     at = np.minimum(task.times, t[-1])
     q, qd = motion(at), np.where(within, motion.derivative()(at), 0.0)
@@ -56,7 +58,8 @@ def _inside(task: Task, recording: Recording, names: tuple[str, ...], q: Array) 
         beyond = np.flatnonzero((q[k] < lower) | (q[k] > upper))
         if beyond.size:
             row = int(beyond[0])
-            problem = f"{name} is {q[k, row]:.6g}"
+            there = f"{name} with its position_offset" if task.robot.signals.position_offset else name
+            problem = f"{there} is {q[k, row]:.6g}"
             raise InputError(recording.where(row, name), problem, f"a position from {lower:.4g} to {upper:.4g}")
 
 

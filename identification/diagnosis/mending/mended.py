@@ -26,8 +26,6 @@ from identification.sampling import Sampled
 
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
-#: Part of what the model leaves without the findings, within which they change nothing there, either way.
-_ALIKE = 0.98
 _FITTED = "nothing was added to the model: before and after differ by the fit of its parameters near the prior alone"
 _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
 
