@@ -60,8 +60,15 @@ def diagnosed(folder: Path, law: Law, effects: str, known: dict[str, float] | No
     return text, diagnosis_of(sources, Regressors(read(path)), "known" if known else None)
 
 
-@pytest.mark.parametrize("known", [None, {"Fst2": 5.0}])
-@pytest.mark.parametrize("joints", ["2", "1, 2"])
+@pytest.mark.parametrize(
+    ("joints", "known"),
+    [
+        ("2", None),
+        ("1, 2", {"Fst2": 5.0}),
+        pytest.param("1, 2", None, marks=pytest.mark.long),
+        pytest.param("2", {"Fst2": 5.0}, marks=pytest.mark.long),
+    ],
+)
 def test_another_stribeck_speed_is_found_and_written(
     joints: str, known: dict[str, float] | None, tmp_path: Path
 ) -> None:
@@ -80,6 +87,7 @@ def test_another_stribeck_speed_is_found_and_written(
         assert float(robot.use("stribeck_friction", 1).values["vs"].value) == 0.6
 
 
+@pytest.mark.long
 def test_another_order_of_a_ripple_is_found(tmp_path: Path) -> None:
     effects = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
     _, found = diagnosed(tmp_path, ripple, effects)
