@@ -132,4 +132,4 @@ def test_an_unknown_inertia_is_that_of_a_ball_as_heavy_as_the_bodies(folder: Pat
     run = Recorded({"t": t, "q1": q, "tau1": 20 * 9.81 + (20 + 3) * qdd})
     fit = consistent_fit(found(lift, run, folder / "run.csv"), None, WEIGHT)
     assert [fit.standard[name] for name in ("M1", "Ia1")] == pytest.approx([20, 3], rel=0.01)
-    assert [fit.standard[f"{stem}1"] for stem in ("XX", "YY", "ZZ")] == pytest.approx([3.6] * 3, rel=1e-3)
+    assert [fit.standard[f"{stem}1"] for stem in ("XX", "YY", "ZZ")] == pytest.approx([3.6] * 3, rel=0.02)

@@ -16,8 +16,9 @@ from identification.diagnosis.verdict.alternatives import OTHER_FRICTION
 from identification.diagnosis.verdict.contradiction import Contradicted, contradicted, doubted, pulled
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.diagnosis.verdict.unexplained import VALUES
+from identification.outcome import Value
 from identification.report.diagnose.report import report
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, Hidden, diagnosis_of, recorded, torque
 from tests.recorded import Array, parameters_text
 
 
@@ -67,6 +68,19 @@ def test_what_is_named_beside_friction_that_is_contradicted_is_not_firm(tmp_path
     assert doubted(found.search, [of_all], [one]) == (of_all,)
 
 
+def beside_known(folder: Path, law: Hidden) -> Diagnosis:
+    regressors, sources = recorded(folder, [law] * 3, ARM + parameters_text({"known": TRUTH}))
+    return diagnosis_of(sources, regressors, "known")
+
+
+@pytest.mark.parametrize("size", [3.0, pytest.param(5.0, marks=pytest.mark.long)])
+def test_a_law_that_no_effect_has_contradicts_what_is_known(size: float, tmp_path: Path) -> None:
+    """As much as is known where the joint is fast, and less below, by a law of its own."""
+    (one,) = beside_known(tmp_path, lambda q, qd: -size * np.sign(qd) / (1 + np.abs(qd) / 0.1)).findings
+    assert one.status == TENTATIVE
+    assert OTHER_FRICTION in {each.effect for each in one.alternatives}
+
+
 def test_friction_that_takes_the_place_of_what_is_known_does_not_contradict_it(tmp_path: Path) -> None:
     """The friction is as much as is known, and rises from rest."""
 
@@ -74,10 +88,14 @@ def test_friction_that_takes_the_place_of_what_is_known_does_not_contradict_it(t
         del q
         return TRUTH["Fc1"] * (np.tanh(qd / 0.1) - np.sign(qd))
 
-    regressors, sources = recorded(tmp_path, [gradual] * 3, ARM + parameters_text({"known": TRUTH}))
-    found = diagnosis_of(sources, regressors, "known")
+    found = beside_known(tmp_path, gradual)
     assert [one.name for one in found.contradicted] == ["Fc1"]
     assert [(one.hypothesis.effect, one.status) for one in found.findings] == [("gradual_friction", FIRM)]
+    hypothesis = next(one for one in found.search.offered if one.effect == "stribeck_friction")
+    none = {one.name: Value(0.0, 0.0, one.unit) for one in hypothesis.coefficients}
+    beside = replace(found.findings[0], hypothesis=hypothesis, shape=hypothesis.variants[0], parameters=none)
+    both = doubted(found.search, [*found.findings, beside], found.contradicted)
+    assert [one.status for one in both] == [FIRM, FIRM]
     less = replace(found.contradicted[0], found=found.contradicted[0].found - 0.5 * TRUTH["Fc1"])
     assert doubted(found.search, found.findings, [less])[0].status == TENTATIVE
 

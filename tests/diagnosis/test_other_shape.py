@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
-from identification.diagnosis.columns.hypothesis import EFFECT, SHAPE
+from identification.diagnosis.columns.hypothesis import SHAPE
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.mending.addition import Addition, addition
 from identification.diagnosis.mending.repair import repaired
@@ -33,7 +33,19 @@ def ripple(q: Array, qd: Array) -> Array:
 
 
 def two_ripples(q: Array, qd: Array) -> Array:
-    return ripple(q, qd) + 2.5 * np.sin(33 * q)
+    return 2 * ripple(q, qd) + 2.5 * np.sin(33 * q)
+
+
+def with_ripple(q: Array, qd: Array) -> Array:
+    return stribeck(q, qd) + ripple(q, qd)
+
+
+def with_harmonic(q: Array, qd: Array) -> Array:
+    return ripple(q, qd) + 0.8 * np.cos(62 * q) + 0.5 * np.sin(62 * q)
+
+
+def one_way(q: Array, qd: Array) -> Array:
+    return stribeck(q, qd) + 3.0 * np.maximum(qd, 0.0)
 
 
 def stating(effects: str, known: dict[str, float]) -> str:
@@ -87,25 +99,44 @@ def test_another_stribeck_speed_is_found_and_written(
         assert float(robot.use("stribeck_friction", 1).values["vs"].value) == 0.6
 
 
-@pytest.mark.long
-def test_another_order_of_a_ripple_is_found(tmp_path: Path) -> None:
-    effects = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
-    _, found = diagnosed(tmp_path, ripple, effects)
-    (one,) = found.findings
-    assert (one.hypothesis.kind, one.shape["order"]) == (SHAPE, 31.0)
+def shapes_of(found: Diagnosis) -> dict[str, float]:
+    """The shape values that were found other than in the file, by name."""
+    shapes = [one.shape for one in found.findings if one.hypothesis.kind == SHAPE]
+    return {name: value for shape in shapes for name, value in shape.items() if name != "exponent"}
 
 
-def test_a_shape_that_is_right_is_not_found_again(tmp_path: Path) -> None:
-    effects = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
-    assert diagnosed(tmp_path, stribeck, effects)[1].verdict == NOTHING
+#: Wrong shapes of the file.
+SLOW = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.6 rad/s}}\n"
+ORDER = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
+RIGHT = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
+
+
+@pytest.mark.parametrize(
+    ("law", "effects", "wanted"),
+    [
+        pytest.param(ripple, ORDER, {"order": 31.0}, marks=pytest.mark.long),
+        (with_harmonic, ORDER, {"order": 31.0}),
+        (with_ripple, SLOW + ORDER, {"order": 31.0, "vs": pytest.approx(0.15, rel=0.05)}),
+        # Of so low a speed the rows hold nothing.
+        (stribeck, SLOW.replace("0.6", "0.002"), {"vs": pytest.approx(0.15, rel=0.05)}),
+        (stribeck, RIGHT, {}),
+        (one_way, RIGHT, {}),
+    ],
+)
+def test_wrong_shapes_are_found_and_right_ones_stay(
+    law: Law, effects: str, wanted: dict[str, float], tmp_path: Path
+) -> None:
+    _, found = diagnosed(tmp_path, law, effects)
+    assert shapes_of(found) == wanted
+    others = {one.hypothesis.effect for one in found.findings if one.hypothesis.kind != SHAPE}
+    assert others == ({"asymmetric_viscous"} if law is one_way else set())
+    assert found.verdict == (NAMED if found.findings else NOTHING)
 
 
 def test_more_of_an_effect_is_no_other_shape_of_it(tmp_path: Path) -> None:
     """The ripple of the file is right, and there is another one."""
-    effects = "  - {effect: cycloid_ripple, joint: 2, values: {order: 33}}\n"
-    _, found = diagnosed(tmp_path, two_ripples, effects)
-    assert found.verdict == UNEXPLAINED
-    assert all(one.hypothesis.kind == EFFECT for one in found.findings)
+    _, found = diagnosed(tmp_path, two_ripples, ORDER)
+    assert (found.verdict, shapes_of(found)) == (UNEXPLAINED, {})
 
 
 def test_values_that_stay_are_written_as_they_were() -> None:

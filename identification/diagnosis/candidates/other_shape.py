@@ -30,9 +30,17 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         if _searched(stated.effect, robot)
         for k in [robot.numbers.index(stated.joint.number)]
         if any(scene.moves(k) for scene in scenes)
-        for one in on_joint(stated.effect, stated.joint, k, scenes, True)
+        for one in on_joint(stated.effect, stated.joint, k, _without(stated, scenes), True)
         if any(not shape.scale for shape in one.shapes)
     ]
+
+
+def _without(stated: Instance, scenes: Sequence[Scene]) -> Sequence[Scene]:
+    """The scenes without an effect of the file, where the runs tell at which shapes a search begins."""
+    if not any(shape.several for shape in stated.effect.shapes):
+        return scenes
+    nothing = dict.fromkeys(stated.names, 0.0)
+    return [replace(one, values={**one.values, **nothing}) for one in scenes]
 
 
 def _searched(effect: Effect, robot: Robot) -> bool:

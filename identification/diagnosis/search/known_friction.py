@@ -14,8 +14,6 @@ from identification.diagnosis.columns.normal_equations import Normal, Places, in
 
 #: Part of a column's square beside which it is another one, or a sum of others.
 _SAME = 1e-6
-#: A square that is none.
-_TINY = 1e-300
 
 
 def friction(robot: Robot, base: Sequence[str]) -> Places:
@@ -39,12 +37,6 @@ def explained(normal: Normal, columns: Sequence[int], others: Sequence[int], pla
 def alike(normal: Normal, columns: Sequence[int], places: Places) -> Places:
     """Those of the ``places`` whose column some ``columns`` add up to: friction of the same law, told another way."""
     return places[_sums(normal, columns, places)[1]]
-
-
-def likeness(normal: Normal, columns: Sequence[int], values: Array, place: int) -> float:
-    """How much of the friction at a place, in its unit, is most like what ``columns`` make with some ``values``."""
-    G = normal.gram
-    return float(G[place, np.array(columns)] @ values) / max(float(G[place, place]), _TINY)
 
 
 def _sums(normal: Normal, columns: Sequence[int], places: Places) -> tuple[Array, NDArray[np.bool_]]:

@@ -14,7 +14,7 @@ from scipy.optimize import minimize
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant, columns_of
-from identification.diagnosis.columns.hypothesis import SHAPE, reshaped
+from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis, reshaped
 from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.search.weighing import Weighing
 
@@ -22,18 +22,8 @@ from identification.diagnosis.search.weighing import Weighing
 _WHOLE, _CHANCE = 0.25, 3.0
 #: Shapes that are tried for each value that is searched, and the first steps between them, in usual ones.
 _TRIED, _STEP = 40, 0.5
-
-
-def tied(weighing: Weighing, chosen: Sequence[Variant]) -> list[Variant] | None:
-    """What was ``chosen``, with the shapes that explain most where all of an effect has them; None without any other
-    shape, and where not all of the effect has the one that is found.
-    """
-    result = list(chosen)
-    others = [i for i, one in enumerate(result) if one.hypothesis.kind == SHAPE]
-    for i in others:
-        if not _whole(weighing, result[i], result):
-            result[i] = _refined(weighing, i, result)
-    return result if others and all(_whole(weighing, result[i], result) for i in others) else None
+#: Most forms of a shape that are refined.
+_FORMS = 3
 
 
 def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
@@ -53,36 +43,67 @@ def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
     return float(left) + sum(map(weighing.price, chosen)) - len(ties) * float(np.log(normal.rows))
 
 
-def _refined(weighing: Weighing, i: int, chosen: Sequence[Variant]) -> Variant:
-    """The variant number i of those ``chosen`` with the shape that costs least where it is tied."""
-    start = chosen[i]
+def best_tied(weighing: Weighing, hypothesis: Hypothesis, beside: Sequence[Variant]) -> Variant | None:
+    """A hypothesis of another shape with the values that cost least ``beside`` others where it is tied; None without a
+    possible one. Of shapes that are not searched between the tried ones the best few are refined apart.
+    """
+    forms: dict[tuple[float, ...], list[tuple[float, Variant]]] = {}
+    apart = [shape.name for shape in hypothesis.shapes if not shape.free]
+    for one in (each for each in weighing.bank.variants if each.key == hypothesis.key):
+        form = tuple(one.shape[name] for name in apart)
+        forms.setdefault(form, []).append((tied_cost(weighing, [*beside, one]), one))
+    begun = sorted((min(each, key=_cost) for each in forms.values()), key=_cost)[:_FORMS]
+    refined = [refined_tied(weighing, one, beside) for _, one in begun]
+    return min(refined, key=lambda one: tied_cost(weighing, [*beside, one]), default=None)
+
+
+def _cost(one: tuple[float, Variant]) -> float:
+    return one[0]
+
+
+def refined_tied(weighing: Weighing, start: Variant, beside: Sequence[Variant]) -> Variant:
+    """A variant of another shape with the values between the tried ones that cost least ``beside`` others where it is
+    tied.
+    """
     free = [shape for shape in start.hypothesis.shapes if shape.free]
-    best = [start]
+    best, least = start, tied_cost(weighing, [*beside, start])
 
     def cost(steps: Array) -> float:
+        nonlocal best, least
         pairs = zip(free, steps.tolist(), strict=True)
         values = {shape.name: shape.moved(start.shape[shape.name], x) for shape, x in pairs}
         moved = weighing.bank.add(start.hypothesis, {**start.shape, **values}, offered=False)
         if moved is None:
             return inf
         weighing.refresh()
-        best[0] = moved.only(start.used)
-        return tied_cost(weighing, [*chosen[:i], best[0], *chosen[i + 1 :]])
+        moved = moved.only(start.used)
+        result = tied_cost(weighing, [*beside, moved])
+        if result < least:
+            best, least = moved, result
+        return result
 
     if free:
         zero = np.zeros(len(free))
         simplex = np.vstack([zero, _STEP * np.eye(len(free))])
-        options = {"maxfev": _TRIED * len(free), "initial_simplex": simplex, "xatol": 1e-3, "fatol": 0.1}
-        cost(minimize(cost, zero, method="Nelder-Mead", options=options).x)
-    return best[0]
+        options = {"maxfev": _TRIED * len(free), "initial_simplex": simplex, "xatol": 1e-2, "fatol": 0.1}
+        minimize(cost, zero, method="Nelder-Mead", options=options)
+    return best
 
 
-def _whole(weighing: Weighing, one: Variant, chosen: Sequence[Variant]) -> bool:
-    """Whether ``one`` of those that are ``chosen`` is of all of its effect."""
+def whole(weighing: Weighing, one: Variant, chosen: Sequence[Variant]) -> bool:
+    """Whether ``one`` of those that are ``chosen`` is of all of its effect, as far as the rows show what else there is
+    of it.
+    """
+    if one.hypothesis.kind != SHAPE:
+        return True
     solution, covariance = weighing.fitted(chosen)
-    pairs = [(i, place) for i, place in _ties(weighing, chosen) if _column(weighing, chosen, i) in one.columns]
+    numbers = [*range(len(weighing.bank.base)), *columns_of(chosen)]
+    pairs = [(i, place) for i, place in _ties(weighing, chosen) if numbers[i] in one.columns]
     most = max((abs(solution[i]) for i, _ in pairs), default=0.0)
     for i, place in pairs:
+        # Of a torque that all rows together hardly hold nothing is told by them.
+        if most**2 * weighing.normal.gram[place, place] < _CHANCE**2:
+            continue
         variance = covariance[i, i] + covariance[place, place] - 2 * covariance[i, place]
         if abs(solution[i] - solution[place]) > _WHOLE * most + _CHANCE * float(np.sqrt(max(variance, 0.0))):
             return False
@@ -102,8 +123,3 @@ def _ties(weighing: Weighing, chosen: Sequence[Variant]) -> list[tuple[int, int]
         for k, (name, is_shape) in enumerate(zip(names, shaped, strict=True))
         if is_shape and name in place
     ]
-
-
-def _column(weighing: Weighing, chosen: Sequence[Variant], i: int) -> int:
-    """The number of the column at a place after the base."""
-    return columns_of(chosen)[i - len(weighing.bank.base)]

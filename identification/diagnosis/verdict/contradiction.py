@@ -14,7 +14,7 @@ from generator.effects.library import effects_of, library, names_of_effects
 from generator.review.decimals import scientific
 from generator.review.words import listed
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import EFFECT
+from identification.diagnosis.columns.hypothesis import EFFECT, SHAPE
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse
 from identification.diagnosis.search import known_friction
 from identification.diagnosis.search.loop import Search
@@ -23,6 +23,10 @@ from identification.diagnosis.verdict.finding import Finding
 
 #: How many values are told by name.
 _NAMED = 6
+#: Standard deviations within which a value is the known one.
+_AGREED = 3.0
+#: Part of a joint's largest speed from which it is fast, and that by which what friction has risen to differs there.
+_FAST, _ALIKE = 0.4, 0.05
 #: Torque of a difference that is little, in parts of the noise's rms.
 _LITTLE = 0.2
 
@@ -43,7 +47,7 @@ class Contradicted:
 
     def agrees(self, value: float) -> bool:
         """Whether a value is what is known."""
-        return abs(value - self.known) <= FAR * self.std
+        return abs(value - self.known) <= _AGREED * self.std
 
     @property
     def text(self) -> str:
@@ -80,11 +84,11 @@ def contradicted(found: Search, prior: Prior | None) -> tuple[Contradicted, ...]
 
 def doubted(found: Search, named: Sequence[Finding], ones: Sequence[Contradicted]) -> tuple[Finding, ...]:
     """What was found, a friction tentative where known friction of its joint is contradicted: the right law leaves that
-    as it is known, unless it is the same law, told by directions, or what was found on the joint takes its place: all
-    together is then as much.
+    as it is known, unless it is the same law, told by directions, or what was found on the joint takes its place: where
+    the joint is fast all together is then as much.
     """
     rubbing = [(one, every) for one in named if (every := _friction(found, one)) is not None]
-    staying = [each for each in ones if each.rubs and not each.agrees(each.found + _likeness(found, rubbing, each))]
+    staying = [each for each in ones if each.rubs and not each.agrees(each.found + _instead(found, rubbing, each))]
     of_friction = {id(one): _instead_of(found, one, every, staying) for one, every in rubbing}
     return tuple(_of_another_law(one, of_friction.get(id(one), ())) for one in named)
 
@@ -101,7 +105,7 @@ def _of_another_law(one: Finding, names: Sequence[str]) -> Finding:
 
 def _friction(found: Search, one: Finding) -> Variant | None:
     """A finding with all its columns, if it is friction."""
-    effect = library().get(one.hypothesis.effect) if one.hypothesis.kind == EFFECT else None
+    effect = library().get(one.hypothesis.effect) if one.hypothesis.kind in (EFFECT, SHAPE) else None
     return found.bank.add(one.hypothesis, one.shape) if effect is not None and effect.dissipates else None
 
 
@@ -113,18 +117,27 @@ def _instead_of(found: Search, one: Finding, every: Variant, ones: Sequence[Cont
     return [each.name for each in there if each.place not in alike]
 
 
-def _likeness(found: Search, rubbing: Sequence[tuple[Finding, Variant]], one: Contradicted) -> float:
-    """How much of a friction what was found on its joint looks like, in its unit."""
-    return sum(
-        known_friction.likeness(
-            found.weighing.normal,
-            every.columns,
-            np.array([each.parameters[c.name].value or 0.0 for c in every.coefficients]),
-            one.place,
-        )
-        for each, every in rubbing
-        if each.hypothesis.joint == one.rubs
-    )
+def _instead(found: Search, rubbing: Sequence[tuple[Finding, Variant]], one: Contradicted) -> float:
+    """How much of a friction what was found on its joint makes, in its unit, where the joint is fast."""
+    return sum(_risen(found, each, every, one) for each, every in rubbing if each.hypothesis.joint == one.rubs)
+
+
+def _risen(found: Search, finding: Finding, every: Variant, one: Contradicted) -> float:
+    """How much of a friction a finding makes, with ``every`` column, where their joint is fast: nothing, unless that is
+    the same on all rows, as of friction that has risen to Coulomb's.
+    """
+    bank, k = found.bank, found.bank.robot.numbers.index(one.rubs)
+    values = np.array([finding.parameters[c.name].value or 0.0 for c in every.coefficients])
+    parts = []
+    for r in found.train:
+        run = bank.runs[r]
+        speed = np.abs(run.decimated(bank.scenes[r].motion.qd)[k])
+        fast = run.kept[k] & (speed > _FAST * speed.max())
+        (known,), torques = (bank.columns(r, k, numbers)[:, fast] for numbers in ([one.place], every.columns))
+        parts.append(values @ torques / np.where(known, known, np.inf))
+    ratios = np.concatenate(parts)
+    mean = float(np.mean(ratios)) if len(ratios) else 0.0
+    return mean if mean and np.ptp(ratios) <= _ALIKE * abs(mean) else 0.0
 
 
 def pulled(found: Search, ones: Sequence[Contradicted]) -> int | None:
