@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import sympy
 
-from generator.review.decimals import decimal, terminates
+from generator.review.decimals import terminates
 from generator.review.trigonometry import without_half_angles
 
 #: Stems that are printed as letters of another alphabet, in every notation that has them.
@@ -40,6 +40,8 @@ GREEK = {
 #: Stems of time derivatives: the letter and its number of dots.
 DOTTED = {"qd": ("q", 1), "qdd": ("q", 2)}
 
+#: What rounding leaves of numbers that are carried to sixty digits.
+_ROUNDING = Fraction(1, 10**50)
 _NAME = re.compile(r"([A-Za-z]+)_?(.*)", re.DOTALL)
 
 
@@ -184,9 +186,9 @@ def natural(text: str) -> tuple[tuple[int, int, str], ...]:
 def _number(value: Fraction) -> Formula:
     """A non-negative number: decimal when it ends and is not a half or a quarter, else a fraction.
 
-    What would be shown as 1 is one: irrational numbers, carried to sixty digits, make it up to the last of them.
+    One is what irrational numbers, carried to sixty digits, make up to the last of them.
     """
-    if decimal(value) == "1":
+    if abs(value - 1) < _ROUNDING:
         return ONE
     if value.denominator == 1 or (terminates(value) and value.denominator > 4):
         return Number(value)

@@ -27,7 +27,8 @@ def render(subject: Subject) -> Markup | None:
     tables = {"before anything is named": _table(weighing.evidence([]), chosen)}
     if chosen:
         tables["beside the findings"] = _table(weighing.evidence(chosen), chosen)
-    tried = len({one.key for one in subject.found.search.offered})
+    offered, made = subject.found.search.offered, weighing.bank.variants
+    tried = len({one.key for one in offered} | {one.key for one in made})
     text = (
         f"{tried} effects on joints were tried, each with the shape that fits best. Evidence is the drop of the sum of"
         " squares, in variances of the noise, less what its"
