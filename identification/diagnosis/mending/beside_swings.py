@@ -13,7 +13,7 @@ from generator.effects.rotor_inertia import EFFECT as ROTOR
 from generator.robot.description import ParameterSet
 from generator.symbolic.model import Model
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, SHAPE
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, TOGETHER, damped, names
 from identification.diagnosis.search.loop import Search
@@ -21,7 +21,7 @@ from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.stated_swings import swing
 
 #: Kinds of what changes no base parameter that the searched model has as well, and such corrections of signals.
-_APART, _LATE = (EFFECT, ELASTIC, SHAPE), ("torque_delay", "link_delay")
+_APART, _LATE = (EFFECT, ELASTIC), ("torque_delay", "link_delay")
 
 
 def has_swings(found: Search, additions: Collection[Addition]) -> bool:
