@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy import stats
 
 from generator.robot.readers import read
 from identification.excitation.design import improved
@@ -23,6 +22,7 @@ from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import PENDULUM, command
 from tests.recorded import TRUTH, TWO_LINKS, parameters_text
+from tests.scattering import squares
 
 Array = NDArray[np.float64]
 
@@ -141,13 +141,9 @@ def test_the_expected_deviations_are_those_of_repeated_runs(machine: Machine, fo
         errors.append([found.values[name] for name in TRUTH])
     expected = json.loads((folder / "excitation.json").read_text())["expected"]
     std = np.array([expected[name]["std"] for name in TRUTH])
-    squares = (np.std(errors, axis=0, ddof=1) / std) ** 2 * (count - 1)
-    tail = 0.001 / len(TRUTH) / 2
-    lower, upper = stats.chi2.ppf([tail, 1 - tail], count - 1)
-    assert (squares > lower).all()
-    assert (squares < upper).all()
+    scattered = squares(errors, std)
     # All together: the ratio of variances is 1 within what 13 parameters, as good as 5 independent ones, allow.
-    assert squares.mean() / (count - 1) == pytest.approx(1.0, abs=4 * np.sqrt(2 / (5 * (count - 1))))
+    assert scattered.mean() / (count - 1) == pytest.approx(1.0, abs=4 * np.sqrt(2 / (5 * (count - 1))))
 
 
 def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

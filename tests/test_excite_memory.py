@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy import stats
 
 from generator.robot.readers import read
 from identification.inverse_model import Options, identify
@@ -16,6 +15,7 @@ from identification.observation import Regressors
 from identification.readers import csv
 from identification.recipe import Recipe
 from tests.commands import command
+from tests.scattering import squares
 
 Array = NDArray[np.float64]
 
@@ -106,11 +106,7 @@ def test_what_is_expected_of_torques_with_a_past_is_what_repeated_runs_show(
         errors.append([found.values[name] - value for name, value in values.items()])
     expected = json.loads((tmp_path / "out" / "excitation.json").read_text())["expected"]
     std = np.array([expected[name]["std"] for name in values])
-    squares = (np.std(errors, axis=0, ddof=1) / std) ** 2 * (count - 1)
-    tail = 0.001 / len(values) / 2
-    lower, upper = stats.chi2.ppf([tail, 1 - tail], count - 1)
-    assert (squares > lower).all()
-    assert (squares < upper).all()
+    squares(errors, std)
 
 
 def test_a_warmth_that_nothing_tells_beforehand(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

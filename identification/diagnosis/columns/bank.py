@@ -309,6 +309,11 @@ class Bank:
             rows = [each[run.kept[joint]] for run, each in zip(self.runs, rows, strict=True)]
         return np.concatenate(rows)
 
+    def left_over(self, joint: int, values: Mapping[int, float], runs: Sequence[int]) -> tuple[float, int]:
+        """Sum of squares of what they leave of a joint's white kept rows in some runs, and how many rows those are."""
+        each = [self.residual(r, joint, values) for r in runs]
+        return sum(float(e @ e) for e in each), sum(map(len, each))
+
     def _gram(self, run: int) -> Array:
         """Products of all columns and the torque, the last one (count + 1 square)."""
         gram = np.zeros((self.count + 1, self.count + 1))

@@ -30,9 +30,8 @@ def left(bank: Bank, normal: Normal, runs: Sequence[int], variant: Variant, othe
     weights = dict(zip([*range(normal.base), *chosen], normal.solution(chosen)[0].tolist(), strict=True))
     result = 0.0
     for k in variant.coordinates:
-        each = [bank.residual(r, k, weights) for r in runs]
-        rows = sum(map(len, each))
-        beyond = sum(float(e @ e) for e in each) - rows
+        square, rows = bank.left_over(k, weights, runs)
+        beyond = square - rows
         result += beyond if beyond > _TOLD * rows else 0.0
     return result
 

@@ -47,11 +47,9 @@ def _lacks(weighing: Weighing, chosen: Sequence[Variant], shape: Hypothesis) -> 
     bank = weighing.bank
     if any(shape.joint in one.hypothesis.numbers for one in chosen):
         return True
-    k = bank.robot.numbers.index(shape.joint)
     weights = weighing.fitted_to(weighing.train, chosen)
-    each = [bank.residual(r, k, weights) for r in weighing.train]
-    rows = sum(map(len, each))
-    return sum(float(e @ e) for e in each) > (1 + _LEFT) * rows
+    left, rows = bank.left_over(bank.robot.numbers.index(shape.joint), weights, weighing.train)
+    return left > (1 + _LEFT) * rows
 
 
 def _with_another(weighing: Weighing, chosen: Sequence[Variant], shapes: Sequence[Hypothesis]) -> list[Variant] | None:
@@ -74,13 +72,10 @@ def _with_another(weighing: Weighing, chosen: Sequence[Variant], shapes: Sequenc
 
 def _completed(weighing: Weighing, selection: Selection, chosen: Sequence[Variant]) -> list[Variant]:
     """With what else is missing beside those that are ``chosen``, if that costs less."""
-    found = [
-        refined_tied(weighing, one, [other for other in again if other is not one])
-        if one.hypothesis.kind == SHAPE
-        else one
-        for again in [_variants(selection.search(chosen))]
-        for one in again
-    ]
+    found = _variants(selection.search(chosen))
+    for i, one in enumerate(found):
+        if one.hypothesis.kind == SHAPE:
+            found[i] = refined_tied(weighing, one, [*found[:i], *found[i + 1 :]])
     return min((found, list(chosen)), key=lambda each: tied_cost(weighing, each))
 
 
