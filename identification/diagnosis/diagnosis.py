@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from generator.robot.description import Robot
@@ -23,7 +23,7 @@ from identification.diagnosis.verdict.lack_of_fit import CHANCE
 from identification.diagnosis.verdict.named import findings
 from identification.diagnosis.verdict.patchwork import PATCHED, patched
 from identification.diagnosis.verdict.trial import along
-from identification.diagnosis.verdict.unexplained import NOT_JUDGED, unexplained
+from identification.diagnosis.verdict.unexplained import NOT_JUDGED, Unexplained, unexplained
 from identification.diagnosis.verdict.waterfall import Steps, steps
 from identification.diagnosis.verdict.where import Where, led, located, seen
 from identification.observation import Regressors
@@ -99,12 +99,7 @@ def diagnose(
     if verdict == NAMED and (number := patched(named)):
         verdict, reason = UNEXPLAINED, PATCHED
         rest = located(last, [one for one in last.lack if one.joint == number])
-    lacking = {one.joint for one in left.lacks}
     named = doubted(found, few_rows.doubted(few, robot, named, small), other)
-    if named:
-        before = led(before, named[0], last)
-    elif rest.joint:
-        before = replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),
@@ -114,12 +109,7 @@ def diagnose(
         *remarks.of_motion(runs, bool(named) and not found.repeats),
         *(() if dry else remarks.of_warmth(found)),
         *remarks.of_findings(named, gone),
-        *left.notes,
-        *remarks.of_lacks(last.lack, left, bool(named)),
-        *(odd_run.notes(found, lacking) if lacking else ()),
-        *remarks.of_swings(found, lacking),
-        *remarks.of_links(found, lacking),
-        *trembling.notes(found, lacking),
+        *_of_rest(found, last, left, bool(named)),
     ]
     return Diagnosis(
         robot=robot,
@@ -127,7 +117,7 @@ def diagnose(
         verdict=verdict,
         findings=named,
         invisible=_invisible(found),
-        before=before,
+        before=_where(before, named, rest, last),
         after=rest,
         roles=roles,
         runs=tuple(runs),
@@ -139,6 +129,27 @@ def diagnose(
         residuals_after=tuple(found.bank.residuals(r, weights) for r in range(len(runs))),
         notes=tuple(notes),
     )
+
+
+def _where(before: Where, named: Sequence[Finding], rest: Where, last: Where) -> Where:
+    """Where the model as it stood fails: at what was found first, else where something stays unexplained."""
+    if named:
+        return led(before, named[0], last)
+    if rest.joint:
+        return replace(before, joint=rest.joint, variable=rest.variable, region=rest.region, shares=rest.shares)
+    return before
+
+
+def _of_rest(found: Search, last: Where, left: Unexplained, named: bool) -> Iterator[str]:
+    """In words, what else is to be told of joints on which more than noise stays."""
+    lacking = {one.joint for one in left.lacks}
+    yield from left.notes
+    yield from remarks.of_lacks(last.lack, left, named)
+    if lacking:
+        yield from odd_run.notes(found, lacking)
+    yield from remarks.of_swings(found, lacking)
+    yield from remarks.of_links(found, lacking)
+    yield from trembling.notes(found, lacking)
 
 
 def _invisible(found: Search) -> tuple[Hypothesis, ...]:

@@ -16,7 +16,7 @@ class Before:
     def __init__(
         self, runs: Sequence[Prepared], player: Player, values: Mapping[str, float], beside: Mapping[str, float]
     ) -> None:
-        self._runs, self._player = runs, player
+        self.runs, self._player = runs, player
         self._values = {False: values, True: {**values, **beside}}
         self._played: dict[bool, list[Played]] = {}
 
@@ -25,6 +25,6 @@ class Before:
         the rows that both have.
         """
         if swings not in self._played:
-            self._played[swings] = [play(one, self._player, self._values[swings]) for one in self._runs]
+            self._played[swings] = [play(one, self._player, self._values[swings]) for one in self.runs]
         before, now = zip(*map(aligned, self._played[swings], after), strict=True)
         return before, now

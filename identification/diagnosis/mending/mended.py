@@ -21,6 +21,7 @@ from identification.diagnosis.mending.without_harm import without_harm
 from identification.diagnosis.mending.written_model import WrittenModel, fitted_runs, prepared_runs, written_model
 from identification.diagnosis.runs.played import Played, Player, compiled, play, together
 from identification.diagnosis.verdict.finding import Finding
+from identification.observation import Regressors
 from identification.robot_file import with_parameter_set
 from identification.sampling import Sampled
 
@@ -66,27 +67,14 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     bank = found.search.bank
     old_regressors = bank.scenes[0].regressors
     with stage("fitting the parameters with what was found"):
-        as_known = None if prior is None else prior_of(old_regressors.model, prior)
-        beside, old = without_findings(found.search), Player(old_regressors)
-        runs = [*prepared_runs(found.roles.test, old_regressors)]
-        fitted_to = fitted_runs(found, old_regressors)
-
-        def without(held: bool) -> Before:
-            return Before(runs, old, refit(fitted_to, old_regressors, as_known, held=held).written, beside)
-
-        fitted = near = before = without(held=False)
-        if as_known is not None:
-            near = without(held=True)
-            values = dict(zip(old_regressors.names, as_known.mean.tolist(), strict=True))
-            trains = {name: x for name, x in beside.items() if name not in values}
-            before = Before(runs, old, values, trains)
+        fits = _fits_without(found, old_regressors, prior)
 
         def model_of(findings: Sequence[Finding]) -> WrittenModel:
             return written_model(old_text, name, found, findings, prior)
 
         def tried_with(model: WrittenModel) -> dict[int, Untouched]:
             played = _played(found.roles.test, Player(model.regressors), model)
-            return untouched(bank, *fitted.and_after(played, model.swings))
+            return untouched(bank, *fits.free.and_after(played, model.swings))
 
         whole = model_of(found.findings)
         model, harmful = without_harm(whole, model_of, tried_with)
@@ -98,7 +86,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
     player, notes = compiled(folder / name, folder / GENERATED, model.regressors, stage)
     with stage("playing the untouched runs"):
         played = _played(found.roles.test, player, model)
-        pair, free, held = (one.and_after(played, model.swings) for one in (before, fitted, near))
+        pair, free, held = (one.and_after(played, model.swings) for one in (fits.old, fits.free, fits.near))
     tried = untouched(bank, *pair)
     left_out = {j for one in found.findings if one not in whole.findings for j in one.amplitude}
     told = [*harmful, *model.notes, *([_TWO_SETS] if model.flexible is not None else []), *notes]
@@ -111,7 +99,7 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         robot=new.robot,
         fit=fit,
         written=model.findings,
-        tested=tuple(one.sampled for one in runs),
+        tested=tuple(one.sampled for one in fits.old.runs),
         before=pair[0],
         after=pair[1],
         tried=tried,
@@ -120,6 +108,35 @@ def mended(path: Path, found: Diagnosis, prior: str | None, folder: Path, stage:
         generated=Path(GENERATED, found.robot.name),
         notes=tuple(dict.fromkeys(told)),
     )
+
+
+@dataclass(frozen=True)
+class _Fits:
+    """The test runs as models without the findings play them: the ``old`` one, one fitted to the runs and ``free`` of a
+    prior, and one fitted ``near`` it; without a prior all three are the same.
+    """
+
+    old: Before
+    free: Before
+    near: Before
+
+
+def _fits_without(found: Diagnosis, regressors: Regressors, prior: str | None) -> _Fits:
+    """The fits without what was found, of the model of ``regressors``."""
+    known = None if prior is None else prior_of(regressors.model, prior)
+    beside, player = without_findings(found.search), Player(regressors)
+    runs = [*prepared_runs(found.roles.test, regressors)]
+    fitted_to = fitted_runs(found, regressors)
+
+    def fitted(held: bool) -> Before:
+        return Before(runs, player, refit(fitted_to, regressors, known, held=held).written, beside)
+
+    free = fitted(held=False)
+    if known is None:
+        return _Fits(free, free, free)
+    values = dict(zip(regressors.names, known.mean.tolist(), strict=True))
+    trains = {name: x for name, x in beside.items() if name not in values}
+    return _Fits(Before(runs, player, values, trains), free, fitted(held=True))
 
 
 def _gain(near: Sequence[Played], free: Sequence[Played], after: Sequence[Played], runs: str) -> Iterator[str]:
