@@ -28,6 +28,7 @@ EFFECT = Effect(
             0.0,
             prismatic="m",
             tried=(3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1),
+            relative="way",
         ),
     ),
     states=(State("zd", ("1", "1"), "part of the friction that is built up, -1 to 1"),),

@@ -53,10 +53,11 @@ class Shape:
     ``prismatic`` is the unit on a prismatic joint, where it is another one. ``joint`` tells that it is the number of
     another moving joint. ``tried`` are the values at which a search for an unknown one begins, in units of the joint's
     top speed where ``relative`` says "speed", of its rotor's inertia where it says "rotor", of half the range it moves
-    through, from its middle, where it says "position", and ``within`` are ends between which it goes on from there in
-    geometric steps; where ``whole`` nothing between whole numbers is a value, and
-    where ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole
-    numbers is another effect. Of a ``scale`` any value will do where none is known: others count in units of it.
+    through, from its middle, where it says "position", of that half or of the shape's unit, whichever is less, where it
+    says "way", and ``within`` are ends between which it goes on from there in geometric steps; where ``whole`` nothing
+    between whole numbers is a value, and where ``several`` every whole number up to that one can be. Where ``exact``
+    what fits better between two whole numbers is another effect. Of a ``scale`` any value will do where none is known:
+    others count in units of it.
     """
 
     name: str

@@ -30,6 +30,7 @@ EFFECT = Effect(
             0.0,
             prismatic="m",
             tried=(3e-3, 1e-2, 3e-2, 1e-1, 3e-1),
+            relative="way",
         ),
         Shape(
             "exponent",

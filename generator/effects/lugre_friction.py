@@ -26,7 +26,15 @@ EFFECT = Effect(
     ),
     columns=_columns,
     shapes=(
-        Shape("xs", "rad", "deflection of the bristles in fast sliding", 0.0, prismatic="m", tried=(1e-3, 3e-3, 1e-2)),
+        Shape(
+            "xs",
+            "rad",
+            "deflection of the bristles in fast sliding",
+            0.0,
+            prismatic="m",
+            tried=(1e-3, 3e-3, 1e-2),
+            relative="way",
+        ),
         Shape(
             "excess",
             "1",

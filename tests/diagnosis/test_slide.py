@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -44,13 +45,24 @@ def to_and_fro(seed: int) -> tuple[Array, Motion]:
     return t, Motion(q[None], qd[None], np.gradient(qd, 1 / RATE)[None])
 
 
-def diagnosis(folder: Path, dry: Dry, late: float) -> Diagnosis:
+def swaying(seed: int) -> tuple[Array, Motion]:
+    """Some millimetres of slow motion, which repeats after four seconds."""
+    draw = np.random.default_rng(seed)
+    t = np.arange(int(RATE * SECONDS)) / RATE
+    speeds = 2 * np.pi * np.array([[0.25], [0.5], [0.75]])
+    sizes, phases = draw.uniform(0.003, 0.008, (3, 1)), draw.uniform(0, 2 * np.pi, (3, 1))
+    waves = sizes * np.exp(1j * (speeds * t + phases))
+    q, qd, qdd = (np.sum((1j * speeds) ** k * waves, axis=0).imag[None] for k in range(3))
+    return t, Motion(q, qd, qdd)
+
+
+def diagnosis(folder: Path, dry: Dry, late: float, of: Callable[[int], tuple[Array, Motion]] = to_and_fro) -> Diagnosis:
     """Of two runs, of which the end tests."""
     path = folder / "slide.yaml"
     path.write_text(SLIDE)
     draw, sources = np.random.default_rng(5), []
     for seed in (1, 2):
-        t, motion = to_and_fro(seed)
+        t, motion = of(seed)
         force = MASS * motion.qdd[0] + VISCOUS * motion.qd[0] + dry(motion.qd[0]) + OFFSET
         tau = np.interp(t - late, t, force) + lfilter([1], [1, -0.6], 0.8 * draw.normal(size=len(t)))
         q = np.round(motion.q[0] / 1e-7) * 1e-7
@@ -68,6 +80,30 @@ def test_a_force_that_is_late_and_friction_that_rises_are_told_together(tmp_path
     assert "torque_gain" in {one.effect for one in found.invisible}
     assert named["torque_delay"].parameters["torque_delay"].value == pytest.approx(LATE, abs=2e-4)
     assert named["gradual_friction"].parameters["Fg1"].value == pytest.approx(DRY, rel=0.2)
+
+
+def bristles(xs: float) -> Dry:
+    """Dahl's friction, each sample solved exactly for a constant speed; it builds up within ``xs`` [m]."""
+
+    def of(qd: Array) -> Array:
+        z, result = 0.0, np.empty_like(qd)
+        for i, v in enumerate(qd.tolist()):
+            left = math.exp(-abs(v) / (xs * RATE))
+            z = left * z + (1 - left) * math.copysign(1.0, v)
+            result[i] = DRY * z
+        return result
+
+    return of
+
+
+def test_short_ways_show_presliding_over_shorter_ones(tmp_path: Path) -> None:
+    xs = 1e-4
+    found = diagnosis(tmp_path, bristles(xs), 0.0, swaying)
+    (one,) = found.findings
+    assert found.verdict == NAMED
+    assert "dahl_friction" in {one.hypothesis.effect, *(other.effect for other in one.alternatives)}
+    assert one.shape["xs"] == pytest.approx(xs, abs=3 * one.shape_std["xs"])
+    assert one.shape_std["xs"] < xs / 5
 
 
 @pytest.fixture(scope="module")

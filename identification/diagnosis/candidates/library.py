@@ -184,9 +184,10 @@ def _points(shape: Shape, values: Sequence[float], k: int, scenes: Sequence[Scen
             return ()
     if shape.relative == "speed":
         unit = float(max(np.abs(scene.motion.qd[k]).max() for scene in scenes))
-    elif shape.relative == "position":
+    elif shape.relative in ("position", "way"):
         q = np.concatenate([scene.motion.q[k] for scene in scenes])
-        zero, unit = float(q.max() + q.min()) / 2, float(np.ptp(q)) / 2
+        middle, half = float(q.max() + q.min()) / 2, float(np.ptp(q)) / 2
+        zero, unit = (middle, half) if shape.relative == "position" else (0.0, min(half, 1.0))
     return tuple(zero + unit * one for one in values)
 
 
