@@ -18,7 +18,6 @@ from scipy.ndimage import uniform_filter1d
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
-from identification.diagnosis.columns.normal_equations import inverse
 from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
 from identification.diagnosis.noise.errors_in_variables import Redrawn
 from identification.diagnosis.noise.may_act import (
@@ -37,6 +36,10 @@ _Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
+#: The same of columns that act in any case.
+_SINGULAR = 1e-10
+#: Part of a direction's power from which it is noise of the positions: nothing is told of what that makes along it.
+_DROWNED = 0.1
 #: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
 _PART, _LEAST = 256, 0.1
 #: Rows of noise of the usual power that every run is taken to have beside its own.
@@ -110,17 +113,22 @@ def _left(
     places = [np.array([place[number] for number in part.numbers], dtype=int) for part in parts]
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
     pretended = np.zeros(len(numbers))
-    white = []
+    white, noisy = [], []
     for at, part in zip(places, parts, strict=True):
         white.append(_white(known, np.concatenate([part.columns, part.tau[None]]), part.kept))
         gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
         if part.noise is not None:
             noise = _white(known, part.noise, part.kept)
             pretended[at] -= noise[:-1] @ noise[-1]
+            noisy.append((at, noise[:-1]))
     rows = sum(x.shape[1] for x in white)
     acting = sum(number >= 0 for number in taken)
-    inside = _inside(gram[:-1, :-1], len(taken), max(allowed(rows) - acting, 0))
-    weights = inside @ (gram[:-1, -1] - pretended)
+    along = _directions(gram[:-1, :-1], len(taken), max(allowed(rows) - acting, 0))
+    drowned = (
+        np.sum([np.zeros(along.shape[1]), *(_power_along(along[at], one) for at, one in noisy)], axis=0) > _DROWNED
+    )
+    weights = along @ (along.T @ gram[:-1, -1] - np.where(drowned, 0.0, along.T @ pretended))
+    inside = along @ along.T
     noise_left, lost = [], []
     for at, x, part, run in zip(places, white, parts, bank.runs, strict=True):
         kept = part.kept
@@ -152,22 +160,33 @@ def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
     return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
 
 
-def _inside(gram: Array, base: int, most: int) -> Array:
-    """What makes products of columns with a torque weights of columns that explain it: their inverse in the directions
-    that are taken away: all of the first ``base`` columns, and ``most`` of the others.
+def _directions(gram: Array, base: int, most: int) -> Array:
+    """The directions (k x m) that are taken away of columns (k) with these products, each of unit length along the
+    rows: all of the first ``base`` columns, and ``most`` of the others.
     """
-    B = inverse(gram[:base, :base])
-    T = np.concatenate([-B @ gram[:base, base:], np.eye(len(gram) - base)])
+    D = _whole(gram[:base, :base], _SINGULAR)
+    T = np.concatenate([-D @ (D.T @ gram[:base, base:]), np.eye(len(gram) - base)])
     S = gram[base:, base:] + gram[base:, :base] @ T[:base]
-    size = np.sqrt(np.maximum(np.diag(gram)[base:], 1e-300))
-    scaled = S / np.outer(size, size)
+    V = _whole(S, _RANK)
+    return np.concatenate(
+        [np.concatenate([D, np.zeros((len(gram) - base, D.shape[1]))]), T @ V[:, max(V.shape[1] - most, 0) :]], axis=1
+    )
+
+
+def _whole(gram: Array, least: float) -> Array:
+    """All directions of columns with these products, those last that most of the columns share; none whose eigenvalue
+    is below the part ``least`` of the largest.
+    """
+    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    scaled = gram / np.outer(size, size)
     values, vectors = np.linalg.eigh((scaled + scaled.T) / 2)
-    seen = np.flatnonzero(values > _RANK * max(values.max(initial=0.0), 1e-300))
-    seen = seen[max(len(seen) - most, 0) :]
-    T = T @ (vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
-    result = T @ T.T
-    result[:base, :base] += B
-    return np.asarray(result)
+    seen = values > least * max(values.max(initial=0.0), 1e-300)
+    return np.asarray(vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
+
+
+def _power_along(directions: Array, noise: Array) -> Array:
+    """Sum of squares (m) of ``noise`` (k x rows) of columns along directions (k x m)."""
+    return np.asarray(np.sum((directions.T @ noise) ** 2, axis=1))
 
 
 def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
