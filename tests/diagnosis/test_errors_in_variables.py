@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
@@ -13,9 +14,12 @@ from generator.robot.readers import read
 from identification.diagnosis.candidates import elasticity
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
+from identification.diagnosis.columns.normal_equations import directions
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING
-from identification.diagnosis.noise.errors_in_variables import Pretence, redrawn
+from identification.diagnosis.noise.clear_directions import clear
+from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
+from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
@@ -69,12 +73,19 @@ def alone(folder: Path, step: float, count: int = 1) -> Bank:
     return Bank(runs, [Scene(run.sampled, regressors, TRUTH) for run in runs])
 
 
+def pretence_of(bank: Bank) -> Pretence:
+    """What rounding pretends along all runs, beside the model's columns."""
+    p = len(bank.base)
+    products = np.sum([bank.grams[r] for r in range(len(bank.runs))], axis=0)[:p, :p]
+    return Pretence(bank, redrawn(bank.runs, bank.scenes), products)
+
+
 def test_the_products_that_rounding_makes_are_as_large_as_told(tmp_path: Path) -> None:
     (hypothesis,) = elasticity.hypotheses(alone(tmp_path, FINE).scenes)
     several = alone(tmp_path, 4 * STEP, 4)
     variants = [each for shape in hypothesis.variants if (each := several.add(hypothesis, shape)) is not None]
     several.whiten([[WHITE]] * 4)
-    pretence = Pretence(several, redrawn(several.runs, several.scenes))
+    pretence = pretence_of(several)
     true = {several.base.index(name): value for name, value in TRUTH.items()}
     assert variants
     for variant in variants:
@@ -96,8 +107,47 @@ def test_what_the_model_explains_of_a_column_pretends_nothing(tmp_path: Path) ->
     assert variant is not None
     one.whiten([[WHITE]])
     weighing = Weighing(one, (0,), (), None, redrawn(one.runs, one.scenes))
-    assert abs(Pretence(one, redrawn(one.runs, one.scenes)).of(variant)[0]) > 400
+    assert abs(pretence_of(one).of(variant)[0]) > 400
     assert abs(weighing.pretended(variant, [])[0]) < 1
+
+
+def test_rounding_tells_nothing_along_directions_that_are_rounding_themselves() -> None:
+    """Of one column a thousandth part is noise, of the other there is more noise than anything."""
+    rows = np.random.default_rng(1).normal(size=(2, 4000)) / np.sqrt(4000)
+    noise = np.sqrt([[0.001], [2.0]]) * rows
+    np.testing.assert_array_equal(clear(np.eye(2), [(np.array([0, 1]), noise)]), [[1.0], [0.0]])
+
+
+class Drowned:
+    """Noise of positions that makes more of one combination of the model's columns than the motion does, and as much
+    of the torque as it has noise.
+    """
+
+    def __init__(self, bank: Bank, deviation: float) -> None:
+        numbers, columns, tau, kept = bank.raw(0, 0)
+        base = [i for i, number in enumerate(numbers) if number < len(bank.base)]
+        rows = columns[base] * kept
+        products = rows @ rows.T
+        noise = deviation * np.random.default_rng(3).normal(size=len(tau))
+        self.torque = noise[None]
+        self._base = [numbers[i] for i in base], np.outer(products @ directions(products)[:, 0], noise)
+
+    def base(self, *about: object) -> tuple[list[int], Array]:
+        return self._base
+
+    def of(self, *about: object) -> Array:
+        raise AssertionError("no variant is in the bank")
+
+
+def test_what_drowns_a_direction_does_not_swell_the_noise(tmp_path: Path) -> None:
+    noise = 0.4
+    regressors, (source,) = recorded(tmp_path, 1, noise, rounded(FINE))
+    run = ready(source, regressors)
+    bank = Bank([run], [Scene(run.sampled, regressors, TRUTH)])
+    ((exact,),) = colours(bank)
+    drowned = cast("Mapping[int, Redrawn]", {0: Drowned(bank, exact.deviations[0])})
+    ((told,),) = colours(bank, redrawn=drowned)
+    assert told.deviations[0] == pytest.approx(exact.deviations[0], rel=0.1)
 
 
 def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
@@ -106,7 +156,7 @@ def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
     variant = one.add(hypothesis, hypothesis.variants[0])
     assert variant is not None
     one.whiten([[WHITE]])
-    assert not Pretence(one, redrawn(one.runs, one.scenes)).of(variant).any()
+    assert not pretence_of(one).of(variant).any()
 
 
 @pytest.mark.parametrize(

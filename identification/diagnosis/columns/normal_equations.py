@@ -234,14 +234,21 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
         return np.array([[1 / A[0, 0] if A[0, 0] > 0 else 0.0]])
     if len(A) == 2 and (pair := _inverse_of_two(A, rank)) is not None:
         return pair
+    along = directions(A, rank)
+    return np.asarray(along @ along.T)
+
+
+def directions(A: Array, rank: float = _RANK) -> Array:
+    """Combinations of columns with the products ``A`` (k x k), each of unit length over the rows and at right angles to
+    the others (k x m), those last that most of the columns share: their products are the pseudo-inverse of A.
+    """
     size = np.sqrt(np.maximum(A.diagonal(), 0.0))
     live = size > 1e-12 * size.max(initial=0.0)
     scale = np.where(live, np.maximum(size, 1e-300), 1.0)
     scaled = np.where(np.outer(live, live), A / np.outer(scale, scale), 0.0)
     values, vectors = np.linalg.eigh(scaled)
-    seen = values > rank * max(values[-1], 1e-300)
-    V = vectors[:, seen]
-    return np.asarray((V / values[seen]) @ V.T / np.outer(scale, scale))
+    seen = values > rank * max(values.max(initial=0.0), 1e-300)
+    return np.asarray(vectors[:, seen] / scale[:, None] / np.sqrt(values[seen]))
 
 
 def _inverse_of_two(A: Array, rank: float) -> Array | None:

@@ -15,8 +15,10 @@ import numpy as np
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant, base_rows
+from identification.diagnosis.columns.normal_equations import directions
 from identification.diagnosis.columns.torques import made
 from identification.diagnosis.noise import rounding
+from identification.diagnosis.noise.clear_directions import clear
 from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.perturbation import moved
 from identification.diagnosis.runs.position_noise import drawn, torque_of
@@ -88,11 +90,11 @@ def redrawn(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> dict[int, Redr
 
 class Pretence:
     """Of the products of white columns with the torque what the noise of the positions makes, along the runs that are
-    ``redrawn``.
+    ``redrawn``; ``products`` are those of the base columns with each other (p x p).
     """
 
-    def __init__(self, bank: Bank, redrawn: Mapping[int, Redrawn]) -> None:
-        self._bank, self._redrawn = bank, redrawn
+    def __init__(self, bank: Bank, redrawn: Mapping[int, Redrawn], products: Array) -> None:
+        self._bank, self._redrawn, self._base = bank, redrawn, products
         self._known: dict[tuple[int, ...], Array] = {}
 
     @property
@@ -102,12 +104,14 @@ class Pretence:
 
     @cached_property
     def base(self) -> Array:
-        """Of the base columns (p)."""
-        result = np.zeros(len(self._bank.base))
+        """Of the base columns (p), as far as it does not drown them."""
+        result, noise = np.zeros(len(self._bank.base)), []
         for r, k in product(self._redrawn, range(self._bank.dof)):
             numbers, change = self._redrawn[r].base(self._bank, r, k)
             result[numbers] += self._products(r, k, change)
-        return result
+            noise.append((np.array(numbers, dtype=int), np.sqrt(self._believed[k]) * self._white(r, k, change)))
+        along = clear(directions(self._base), noise)
+        return np.asarray(self._base @ along @ (along.T @ result))
 
     def of(self, variant: Variant) -> Array:
         """Of a variant's columns (k)."""

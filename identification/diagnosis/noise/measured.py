@@ -18,7 +18,9 @@ from scipy.ndimage import uniform_filter1d
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.normal_equations import directions
 from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
+from identification.diagnosis.noise.clear_directions import clear
 from identification.diagnosis.noise.errors_in_variables import Redrawn
 from identification.diagnosis.noise.may_act import (
     Rows,
@@ -36,10 +38,6 @@ _Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
-#: The same of columns that act in any case.
-_SINGULAR = 1e-10
-#: Part of a direction's power from which it is noise of the positions: nothing is told of what that makes along it.
-_DROWNED = 0.1
 #: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
 _PART, _LEAST = 256, 0.1
 #: Rows of noise of the usual power that every run is taken to have beside its own.
@@ -124,10 +122,8 @@ def _left(
     rows = sum(x.shape[1] for x in white)
     acting = sum(number >= 0 for number in taken)
     along = _directions(gram[:-1, :-1], len(taken), max(allowed(rows) - acting, 0))
-    drowned = (
-        np.sum([np.zeros(along.shape[1]), *(_power_along(along[at], one) for at, one in noisy)], axis=0) > _DROWNED
-    )
-    weights = along @ (along.T @ gram[:-1, -1] - np.where(drowned, 0.0, along.T @ pretended))
+    unblurred = clear(along, noisy)
+    weights = along @ (along.T @ gram[:-1, -1]) - unblurred @ (unblurred.T @ pretended)
     inside = along @ along.T
     noise_left, lost = [], []
     for at, x, part, run in zip(places, white, parts, bank.runs, strict=True):
@@ -164,29 +160,13 @@ def _directions(gram: Array, base: int, most: int) -> Array:
     """The directions (k x m) that are taken away of columns (k) with these products, each of unit length along the
     rows: all of the first ``base`` columns, and ``most`` of the others.
     """
-    D = _whole(gram[:base, :base], _SINGULAR)
+    D = directions(gram[:base, :base])
     T = np.concatenate([-D @ (D.T @ gram[:base, base:]), np.eye(len(gram) - base)])
     S = gram[base:, base:] + gram[base:, :base] @ T[:base]
-    V = _whole(S, _RANK)
+    V = directions((S + S.T) / 2, _RANK)
     return np.concatenate(
         [np.concatenate([D, np.zeros((len(gram) - base, D.shape[1]))]), T @ V[:, max(V.shape[1] - most, 0) :]], axis=1
     )
-
-
-def _whole(gram: Array, least: float) -> Array:
-    """All directions of columns with these products, those last that most of the columns share; none whose eigenvalue
-    is below the part ``least`` of the largest.
-    """
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    scaled = gram / np.outer(size, size)
-    values, vectors = np.linalg.eigh((scaled + scaled.T) / 2)
-    seen = values > least * max(values.max(initial=0.0), 1e-300)
-    return np.asarray(vectors[:, seen] / size[:, None] / np.sqrt(values[seen]))
-
-
-def _power_along(directions: Array, noise: Array) -> Array:
-    """Sum of squares (m) of ``noise`` (k x rows) of columns along directions (k x m)."""
-    return np.asarray(np.sum((directions.T @ noise) ** 2, axis=1))
 
 
 def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:

@@ -84,10 +84,10 @@ class Weighing:
         self._tried = _keys(bank)
         self._held_out = HeldOut(bank, train, validate, prior)
         self._noisy = dict(noisy or {})
-        self._pretence = self._pretence_along(self.train)
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self.normal = self._normal(self.train)
+        self._pretence = self._pretence_along(self.train, self.normal)
         self.rows = np.sum([bank.rows(r) for r in self.train], axis=0)
         self._seen = bank.count
         self.few = few_rows(bank)
@@ -125,10 +125,11 @@ class Weighing:
 
     @cached_property
     def _pretence_of_all(self) -> Pretence:
-        return self._pretence_along((*self.train, *self.validate))
+        return self._pretence_along((*self.train, *self.validate), self.all)
 
-    def _pretence_along(self, runs: Sequence[int]) -> Pretence:
-        return Pretence(self.bank, {r: self._noisy[r] for r in runs if r in self._noisy})
+    def _pretence_along(self, runs: Sequence[int], normal: Normal) -> Pretence:
+        noisy = {r: self._noisy[r] for r in runs if r in self._noisy}
+        return Pretence(self.bank, noisy, normal.whole[: normal.base, : normal.base])
 
     def fitted_to(self, runs: Sequence[int], variants: Sequence[Variant]) -> dict[int, float]:
         """Values of the base columns and of those of ``variants``, by number, fitted to some runs."""
