@@ -199,17 +199,24 @@ def _problem(
 
 
 def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Problem, list[str]]:
-    """Without the payload's parameters that the last body's hide: they count as part of it."""
+    """Without the payloads' parameters that others hold, and with them those that no row shows: such a payload counts
+    as part of the last body.
+
+    What shows only in sums of a payload's own parameters stays: zero would contradict the runs.
+    """
     notes = []
     for payload in payloads.values():
-        hidden = problem.solve().hidden
-        mixed = [name for name in payload.names().values() if name in hidden]
-        if mixed and any(name not in payload.names().values() for name in hidden):
+        own = tuple(payload.names().values())
+        others = tuple(name for name in problem.names if name not in own)
+        solution = problem.solve()
+        held = [name for name in own if name in solution.hidden and problem.hold(name, others)]
+        shown = [name for name in held if solution.values[name]]
+        if shown:
             notes.append(
-                f"payload {payload.name}: no run without it tells {' '.join(mixed)} from the last body, "
+                f"payload {payload.name}: no run without it tells {' '.join(shown)} from the last body, "
                 "whose parameters hold them"
             )
-            for name in mixed:
+            for name in held:
                 problem = problem.without(name)
     return problem, notes
 
