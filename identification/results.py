@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -98,9 +98,10 @@ def parameter_sets(found: Identification, consistent: ConsistentFit | None = Non
     runs = ", ".join(Path(one.sampled.run.name).name for one in found.train)
     source = f"identified with the inverse dynamic model and least squares from {runs}"
     units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    given = found.options.fixed
     sets = [
-        ParameterSet(FULL, "all base parameters that the data show", source, _set(found.full, units)),
-        ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units)),
+        ParameterSet(FULL, "all base parameters that the data show", source, _set(found.full, units, given)),
+        ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units, given)),
     ]
     if consistent is not None:
         values = {
@@ -118,17 +119,16 @@ def older_sets(found: Identification, consistent: ConsistentFit | None = None) -
     return [f"the set {CONSISTENT} in the robot file is of an earlier identification"]
 
 
-def _set(estimate: Estimate, units: Mapping[str, str]) -> dict[str, ParameterValue]:
-    """Values of the estimated parameters of the robot and of those fixed at other values than zero."""
+def _set(estimate: Estimate, units: Mapping[str, str], given: Collection[str]) -> dict[str, ParameterValue]:
+    """Values of the estimated parameters of the robot and of those that were ``given``."""
     solution, result = estimate.solution, {}
     for name, unit in units.items():
-        value = solution.values.get(name, 0.0)
-        if name in solution.hidden or (name not in estimate.sought and not value):
+        if name in solution.hidden or name not in (*estimate.sought, *given):
             continue
         relative = solution.relative_std(name)
         known = name in estimate.sought and math.isfinite(relative)
-        note = "" if name in estimate.sought else "given, not identified"
-        result[name] = ParameterValue(value, unit, relative if known else None, note=note)
+        note = "" if name in estimate.sought else outcome.GIVEN
+        result[name] = ParameterValue(solution.values[name], unit, relative if known else None, note=note)
     return result
 
 

@@ -161,6 +161,9 @@ def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str])
     assert (run["cutoff"], run["order"], run["factor"], run["payload"]) == (20, 3, 8, "L")
     assert any("payload L" in note for note in found["notes"])
     assert found["parameters"]["Fc1"]["fixed"]
+    written = read(folder / "out" / "two_links.yaml").parameter_sets["identified"].values
+    given = {name: one.value for name, one in written.items() if one.note == "given, not identified"}
+    assert given == found["method"]["fixed"]
 
 
 def _recipe(folder: Path) -> Path:

@@ -24,12 +24,16 @@ SET = "identified_output_error"
 
 
 def parameters(found: OutputError) -> dict[str, Value]:
-    """The sought parameters by name."""
+    """The sought parameters by name, and those that were given, in the model's order."""
     best = found.best
-    units = {parameter.name: parameter.unit for parameter in found.first.regressors.model.base_parameters}
     return {
-        name: Value(None if name in best.hidden else best.values[name], best.std(name), units[name])
-        for name in best.names
+        one.name: Value(
+            None if one.name in best.hidden else best.values[one.name],
+            best.std(one.name),
+            one.unit,
+            given=one.name in found.settings.fixed,
+        )
+        for one in found.first.regressors.model.base_parameters
     }
 
 
@@ -37,13 +41,6 @@ def document(found: OutputError) -> dict[str, Any]:
     """The content of results.json, see docs/output_error.md."""
     best, settings = found.best, found.settings
     numbers = found.robot.numbers
-    units = {parameter.name: parameter.unit for parameter in found.first.regressors.model.base_parameters}
-    fixed = {
-        name: {"value": best.values[name], "std": 0.0, "fixed": True, "unit": units[name]}
-        for name in settings.fixed
-        if name in units
-    }
-
     return {
         "robot": found.robot.name,
         "robot_sha256": found.robot.digest,
@@ -64,7 +61,7 @@ def document(found: OutputError) -> dict[str, Any]:
             for kind, runs in (("train", found.train), ("test", found.test))
         },
         "condition": best.condition,
-        "parameters": {**outcome.parameters(parameters(found)), **fixed},
+        "parameters": outcome.parameters(parameters(found)),
         "residual": {
             "train": outcome.norms_by_number(best.train, numbers),
             "test": None if best.test is None else outcome.norms_by_number(best.test, numbers),
