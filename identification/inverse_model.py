@@ -25,6 +25,7 @@ from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
+from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload
 from identification.suspicion import beyond, directed, suspect
@@ -269,6 +270,7 @@ def _doubts(regressors: Regressors, full: Estimate, best: Estimate) -> list[str]
     """
     solution = full.solution
     notes = not_shown(solution.hidden, "motion in the data")
+    notes += shown_together([name for name in regressors.names if name in solution.hidden], solution.values)
     for parameter in regressors.model.base_parameters:
         name = parameter.name
         if parameter.lower is None or name not in full.sought or name in solution.hidden:

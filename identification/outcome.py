@@ -14,8 +14,6 @@ from identification.residuals import Residual, Residuals
 
 #: Relative standard deviation from which a gain, a torque constant or a stiffness is refused.
 LIMIT = 0.1
-#: Note on a value that was not identified, in a parameter set.
-GIVEN = "given, not identified"
 
 
 @dataclass(frozen=True)
@@ -88,13 +86,11 @@ def norms_by_number(of: Residuals, numbers: Sequence[int]) -> dict[str, Any]:
 
 def values_of_set(values: Mapping[str, Value]) -> dict[str, ParameterValue]:
     """As a parameter set of a robot file holds them, without those that are not known."""
-    result = {}
-    for name, one in values.items():
-        if one.value is not None:
-            known = math.isfinite(one.relative_std) and not one.given
-            note = GIVEN if one.given else ""
-            result[name] = ParameterValue(one.value, one.unit, one.relative_std if known else None, note=note)
-    return result
+    return {
+        name: ParameterValue(one.value, one.unit, one.relative_std if math.isfinite(one.relative_std) else None)
+        for name, one in values.items()
+        if one.value is not None
+    }
 
 
 def table(values: Mapping[str, Value]) -> list[str]:

@@ -14,9 +14,10 @@ from identification.consistent_fit import consistent_fit
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipe import Recipe
+from identification.results import parameter_sets
 from identification.sensitivity import sensitivity
 from tests.commands import command
-from tests.recorded import TRUTH, Recorded, fourier, recorded, regressors, two_links
+from tests.recorded import TRUTH, Array, Recorded, as_recorded, fourier, recorded, regressors, two_links
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
 
@@ -95,6 +96,29 @@ def test_a_run_too_short_for_other_filters_is_identified_from_all_the_same(links
     assert tried
     assert notes
     assert all("could not be tried" in note for note in notes)
+
+
+def still_second(of: Regressors, seed: int) -> tuple[Array, Motion]:
+    """Times and a motion of the first joint alone."""
+    t, motion = fourier(of.model.robot, 20.0, 200.0, seed)
+    return t, Motion(*(np.array([[1.0], [0.0]]) * one for one in (motion.q, motion.qd, motion.qdd)))
+
+
+def test_the_set_makes_the_torques_of_runs_that_show_parameters_only_in_sums(links: Regressors, tmp_path: Path) -> None:
+    t, motion = still_second(links, seed=1)
+    path = as_recorded(links, t, motion.q, links.torques(TRUTH, motion)).save(tmp_path / "a.csv")
+    found = identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0)), regressors=links)
+    written = parameter_sets(found)[0].values
+    assert {"Fv2", "Fc2"}.isdisjoint(written)
+    hidden = set(found.full.solution.hidden) & written.keys()
+    assert {"ZZ1R", "MX1R", "ZZ2", "MX2"} <= hidden
+    assert {written[name].relative_std for name in hidden} == {1e5}
+    (told,) = (note for note in found.notes if "one by one" in note)
+    assert set(told.removeprefix("the runs do not show ").split(" one by one")[0].split()) == hidden
+    _, other = still_second(links, seed=5)
+    played = {name: written[name].value if name in written else 0.0 for name in TRUTH}
+    torque = links.torques(TRUTH, other)[0]
+    assert np.abs(links.torques(played, other)[0] - torque).max() < 0.01 * torque.std()
 
 
 def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,6 +18,7 @@ from identification.output_error.methods import methods
 from identification.output_error.multi_start import OutputError
 from identification.results import RESULTS, written
 from identification.robot_file import with_parameter_set
+from identification.set_values import identified_values
 
 #: Name of the parameter set in the robot file.
 SET = "identified_output_error"
@@ -84,7 +85,8 @@ def save(found: OutputError, robot_file: Path, folder: Path, beside: Mapping[str
     Raises InputError where the folder cannot be written.
     """
     runs = ", ".join(Path(one.run.name).name for one in found.train)
-    values = outcome.values_of_set(parameters(found))
+    best, units = found.best, {one.name: one.unit for one in found.first.regressors.model.base_parameters}
+    values = identified_values(units, best.values, best.std, found.settings.fixed)
     one = ParameterSet(SET, "base parameters by output error in open loop", f"output error from {runs}", values)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
     files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode(), **(beside or {})}
