@@ -127,6 +127,20 @@ def test_sets_that_cannot_be_compared_are_refused(
     assert error in done.err
 
 
+@pytest.mark.parametrize("b", ["{}/results.json", "{}/results.json:essential", "{}/kr500.yaml:report_table_13"])
+def test_the_report_of_what_is_compared_is_spared(b: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    written(tmp_path, ZZ1R=1.0)
+    (tmp_path / "kr500.yaml").write_bytes(find_robot("kr500").read_bytes())
+    (tmp_path / "report.html").write_text("of the identification")
+    words = ["compare", "kr500:report_table_11", b.format(tmp_path), "--out"]
+    done = command(*words, tmp_path / ".." / tmp_path.name, capsys=capsys)
+    assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
+    assert "which is compared, expected another --out" in done.err
+    assert (tmp_path / "report.html").read_text() == "of the identification"
+    for _ in range(2):
+        assert command(*words, tmp_path / "compared", capsys=capsys).status == 0
+
+
 def test_nothing_is_printed_where_the_files_cannot_be_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -30,10 +30,12 @@ def run(arguments: argparse.Namespace) -> None:
     """Compares and prints a row a parameter."""
     with needing(command_line("counterpoise compare")):
         from identification.comparison import compare
-        from identification.comparison_results import save
+        from identification.comparison_results import save, spare_reports
         from identification.parameter_source import parameters
 
     found = compare(parameters(arguments.a), parameters(arguments.b))
+    if arguments.out is not None:
+        spare_reports(found, arguments.out)
     lines = [_table(found)]
     if arguments.out is not None:
         from identification.report.compare.report import report
