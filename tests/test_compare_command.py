@@ -25,6 +25,9 @@ TABLE_14 = {
 }  # fmt: skip
 
 
+SETS = ("kr500:report_table_11", "kr500:report_table_13")
+
+
 def test_table_14_of_the_report() -> None:
     """Printed from values with more digits than Tables 11 and 13 show, hence the tolerance."""
     found = compare(parameters("kr500:report_table_11"), parameters("kr500:report_table_13"))
@@ -125,6 +128,15 @@ def test_sets_that_cannot_be_compared_are_refused(
     done = command("compare", "kr500:report_table_11", b.format(tmp_path), capsys=capsys)
     assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
     assert error in done.err
+
+
+def test_what_counts_as_agreement_is_printed(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    apart = sum(1 for one in compare(*map(parameters, SETS)).common if one.deviations is not None)
+    monkeypatch.setattr("identification.comparison.AGREE", 1e9)
+    done = command("compare", *SETS, capsys=capsys)
+    assert done.out.endswith(f"; {apart} of {apart} with a std agree within 1e+09 std\n")
 
 
 @pytest.mark.parametrize("b", ["{}/results.json", "{}/results.json:essential", "{}/kr500.yaml:report_table_13"])
