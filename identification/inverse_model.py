@@ -27,7 +27,7 @@ from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
-from identification.sidecar import Payload
+from identification.sidecar import Payload, check_carried
 from identification.suspicion import beyond, directed, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
@@ -40,8 +40,8 @@ class Options:
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
     is r_sigma of the essential parameters, whose residual may be larger by the part ``growth`` (infinite: by any);
-    ``payload`` is that of runs without a sidecar that tells. So many ``draws`` of a block bootstrap give the standard
-    deviations of the full model; 0 means those of independent residuals.
+    ``payload`` is that of runs whose sidecar tells none, and contradicts no other. So many ``draws`` of a block
+    bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None
@@ -101,7 +101,8 @@ def identify(
 
     A run is a path, or ``PATH@FROM:TO`` with times in s. ``regressors`` may be given to use them again.
 
-    Raises InputError for runs that cannot be used and for fixed parameters that the robot does not have.
+    Raises InputError for runs that cannot be used, for fixed parameters that the robot does not have, and for a payload
+    that no run carries.
     """
     options = options or Options()
     recipe = options.recipe or recipes.recipe_of(robot.name)
@@ -112,6 +113,7 @@ def identify(
     )
     fitted, tested = ([one.sampled.run for one in runs] for runs in (trained, tried))
     unshared({"fit": fitted})
+    check_carried(options.payload, [run.payload for run in (*fitted, *tested)])
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
     notes += fitted_too(fitted, tested)

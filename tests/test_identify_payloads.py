@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,8 @@ from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_
 PLAIN = Recipe(dynamics=4.0)
 #: Ten parameters of a point mass in the tool frame [SI], by its mass.
 POINT = {mass: [0.0] * 9 + [mass] for mass in (0.0, 0.5, 2.5)}
+#: Those of half a kilogram as a sidecar tells them.
+POINT_OF_HALF = dict.fromkeys(UNITS, 0.0) | {"M": 0.5}
 
 
 @pytest.fixture
@@ -44,6 +47,28 @@ def test_a_run_that_says_it_carries_nothing_is_given_no_payload(links: Regressor
     found = identify(links.model.robot, [empty, loaded], options=Options(PLAIN, payload=payload), regressors=links)
     values = found.full.solution.values
     assert {name: values[name] for name in TRUTH} == pytest.approx(TRUTH, rel=5e-3, abs=0.03)
+
+
+def test_a_payload_that_all_sidecars_contradict_is_refused(links: Regressors, tmp_path: Path) -> None:
+    empty = carrying(links, 0.0, tmp_path / "empty.csv", "payload: none\n")
+    loaded = carrying(links, 2.5, tmp_path / "loaded.csv", known("L", 2.5))
+
+    def fitted(*runs: Path, payload: Payload, test: tuple[Path, ...] = ()) -> Mapping[str, float]:
+        options = Options(PLAIN, payload=payload)
+        return identify(links.model.robot, runs, test, options, links).full.solution.values
+
+    for payload in (Payload("L", {"M": 77.0}), Payload("K", {"M": 2.5}), Payload("K", {})):
+        with pytest.raises(
+            InputError, match=f"^--payload:1:1: no run carries payload {payload.name} with these values"
+        ):
+            fitted(empty, loaded, payload=payload)
+    with pytest.raises(InputError, match="no run carries payload L"):
+        fitted(empty, payload=Payload("L", {"M": 2.5}))
+    told = fitted(empty, loaded, payload=Payload("L", {"M": 2.5}))
+    assert told["ML"] == 2.5
+    silent = carrying(links, 0.5, tmp_path / "silent.csv", "notes: of the day after\n")
+    assert fitted(empty, silent, payload=Payload("K", POINT_OF_HALF))["MX2"] == pytest.approx(TRUTH["MX2"], rel=0.01)
+    fitted(empty, test=(silent,), payload=Payload("K", POINT_OF_HALF))
 
 
 def test_of_two_payloads_one_is_told_from_the_other(links: Regressors, tmp_path: Path) -> None:
