@@ -7,17 +7,29 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
 from identification.consistent_fit import consistent_fit
+from identification.fixing import fixed
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipe import Recipe
 from identification.results import parameter_sets
 from identification.sensitivity import sensitivity
 from tests.commands import command
-from tests.recorded import TRUTH, Array, Recorded, as_recorded, fourier, recorded, regressors, two_links
+from tests.recorded import (
+    TRUTH,
+    TWO_LINKS,
+    Array,
+    Recorded,
+    as_recorded,
+    fourier,
+    parameters_text,
+    recorded,
+    regressors,
+    two_links,
+)
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
 
@@ -128,6 +140,52 @@ def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixtu
     done = command("identify", "tilted_two_link", "--data", run, *given, capsys=capsys)
     assert done.status == 0
     assert "every value is given" in done.out
+
+
+SETS = {
+    "friction": {"Fv1": 14.0, "Fc1": 9.0},
+    "essential": {"ZZ1R": 9.0, "MX2": 3.1, "Ia2": 0.9},
+    "standard": {"M2": 6.0, "MX2": 3.1},
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "requests", "values"),
+    [
+        ("friction", ["Fv1", "Fc1"], {"Fv1": 14.0, "Fc1": 9.0}),
+        ("friction", ["Fv1", "Fv2=7"], {"Fv1": 14.0, "Fv2": 7.0}),
+        ("essential", ["bodies"], {"ZZ1R": 9.0, "MX1R": 0.0, "MY1": 0.0, "ZZ2": 0.0, "MX2": 3.1, "MY2": 0.0}),
+        # The second body is 0.5 m from the first axis.
+        ("standard", ["MX1R", "MY1"], {"MX1R": 0.5 * 6.0, "MY1": 0.0}),
+        ("friction", ["Fv*"], "Fv2"),
+        ("friction", ["bodies"], "ZZ1R"),
+        ("essential", ["bodies", "Ia*", "Off2"], "Off2"),
+        ("standard", ["Ia2"], "Ia2"),
+    ],
+)
+def test_a_value_is_taken_from_a_set_that_tells_it(
+    name: str, requests: list[str], values: dict[str, float] | str, tmp_path: Path
+) -> None:
+    path = tmp_path / "robot.yaml"
+    path.write_text(TWO_LINKS + parameters_text(SETS))
+    model = Regressors(read(path)).model
+    prior = model.robot.parameter_sets[name]
+    if isinstance(values, dict):
+        assert fixed(requests, prior, model, Place("--fix")) == pytest.approx(values)
+        return
+    told = f"--fix:1:1: the set {name} does not tell {values}, expected {values}=VALUE, or a set of values that has it"
+    with pytest.raises(InputError, match=f"^{told}$"):
+        fixed(requests, prior, model, Place("--fix"))
+
+
+def test_a_set_that_does_not_tell_what_is_given_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot = tmp_path / "robot.yaml"
+    robot.write_text(TWO_LINKS + parameters_text(SETS))
+    words = ("--data", tmp_path / "none.csv", "--fix", "Fv2", "--prior", "friction", "--out", tmp_path / "out")
+    done = command("identify", robot, *words, capsys=capsys)
+    errors = [line for line in done.err.splitlines() if line.startswith("error: ")]
+    told = "the set friction does not tell Fv2, expected Fv2=VALUE, or a set of values that has it"
+    assert (done.status, errors) == (2, [f"error: --fix:1:1: {told}"])
 
 
 @pytest.mark.parametrize("robust", [False, True])

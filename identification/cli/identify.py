@@ -150,12 +150,12 @@ def run(arguments: argparse.Namespace) -> None:
 def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     from identification.fixing import fixed
     from identification.inverse_model import Options
-    from identification.named_set import resolved_set
+    from identification.named_set import named_set
     from identification.sidecar import given
 
     model, prior = regressors.model, None
     if arguments.prior is not None:
-        prior = resolved_set(model, arguments.prior, command_line("--prior"))
+        prior = named_set(model.robot, arguments.prior, command_line("--prior"))
     ratio = (
         {}
         if arguments.essential is None
