@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from generator.errors import InputError, Place
 from generator.version import VERSION
 from generator.writing import replace
 from identification.comparison import AGREE, Comparison, Difference
-from identification.parameter_source import Known, Parameters
-from identification.results import written
+from identification.parameter_source import JSON, Known, Parameters
+from identification.results import RESULTS, written
 
 COMPARISON = "comparison.json"
 
@@ -27,6 +28,16 @@ def document(found: Comparison) -> dict[str, Any]:
         "data": {"a": _source(found.a), "b": _source(found.b)},
         "parameters": {name: _difference(one) for name, one in found.differences.items()},
     }
+
+
+def spare_reports(found: Comparison, folder: Path) -> None:
+    """Raises InputError where ``folder`` holds results that are compared: their report has the name of this one's."""
+    for source in (found.a, found.b):
+        path = Path(source.file)
+        beside = path.suffix == JSON or (folder / RESULTS).exists()
+        if beside and folder.exists() and path.parent.samefile(folder):
+            problem = f"the report of {path.name} is here, which is compared"
+            raise InputError(Place(str(folder)), problem, "another --out")
 
 
 def save(found: Comparison, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:

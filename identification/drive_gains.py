@@ -29,7 +29,7 @@ from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of
 from identification.sampling import Sampled, sampled
 from identification.shared_samples import unshared
-from identification.sidecar import Payload
+from identification.sidecar import Payload, check_carried
 from identification.total_least_squares import Fit, Part, solve
 
 #: Step of a payload's known value for its derivative, in standard deviations.
@@ -121,7 +121,7 @@ def drive_gains(
     carrying = [_carrying(run, payload) for run in carrying]
     stds = dict(payload_std or {})
     _check_known(carrying, stds)
-    _check_carried(carrying, payload)
+    check_carried(payload, [run.payload for run in carrying])
     runs = [*unloaded, *carrying]
     unshared({"fit": runs})
     given = regressors or Regressors(robot)
@@ -220,16 +220,6 @@ def _carrying(run: Run, payload: Payload | None) -> Run:
     if not any(carried.known.values()):
         raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass or first moments")
     return replace(run, payload=carried)
-
-
-def _check_carried(loaded: Sequence[Run], payload: Payload | None) -> None:
-    """Raises InputError where no run has the ``payload``, because all sidecars tell another."""
-    carried = [run.payload for run in loaded if run.payload is not None]
-    if payload is not None and not any(
-        one.name == payload.name and payload.known.items() <= one.known.items() for one in carried
-    ):
-        problem = f"no loaded run carries payload {payload.name} with these values: their sidecars tell others"
-        raise InputError(command_line("--payload"), problem, "that of a run whose sidecar tells none")
 
 
 def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:

@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fnmatch import fnmatchcase
 
 from generator import expressions
+from generator.effects.library import names_of_effects
 from generator.errors import InputError, Place
 from generator.given_once import given_once
+from generator.robot.description import ParameterSet
 from generator.robot.fields import nearest
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
+from generator.symbolic.parameter_sets import regrouped, resolved
 
 #: Word for all base parameters that stand for the bodies' inertia and weight.
 BODIES = "bodies"
 
 
-def fixed(requests: Sequence[str], prior: Mapping[str, float] | None, model: Model, place: Place) -> dict[str, float]:
+def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, place: Place) -> dict[str, float]:
     """Values by name for ``NAME=VALUE`` [SI], ``NAME``, a pattern such as ``Fv*``, or ``bodies``.
 
     What has no value of its own takes that of ``prior``. Raises InputError for a name that the robot does not have, for
-    one given twice, and for a name without value where there is no prior.
+    one given twice, for a name without value where there is no prior, and for one of which the prior tells nothing.
     """
     given_once(requests, place)
     names = [parameter.name for parameter in model.base_parameters]
+    values = {} if prior is None else resolved(model, prior.values)
+    told = set() if prior is None else _told(model, prior)
     result: dict[str, float] = {}
     for request in requests:
         wanted, equals, value = request.partition("=")
@@ -37,9 +42,23 @@ def fixed(requests: Sequence[str], prior: Mapping[str, float] | None, model: Mod
                 result[name] = float(expressions.parse_number(value, place))
             elif prior is None:
                 raise InputError(place, f"{name} has no value", f"{name}=VALUE, or a set of values to take it from")
+            elif name not in told:
+                problem = f"the set {prior.name} does not tell {name}"
+                raise InputError(place, problem, f"{name}=VALUE, or a set of values that has it")
             else:
-                result[name] = prior[name]
+                result[name] = values[name]
     return result
+
+
+def _told(model: Model, prior: ParameterSet) -> set[str]:
+    """Base parameters that a set tells, by themselves or by what they hold. A set of bodies tells those of all: what it
+    lacks is zero.
+    """
+    given = regrouped(model, prior.values).keys()
+    bodies, effects = set(_chosen(BODIES, (), model)), names_of_effects(model.robot)
+    parts = {name: {name, *terms} for name, terms in model.grouping.numeric().items()}
+    of_bodies = {part for name in bodies for part in parts[name]} - effects
+    return {name for name, own in parts.items() if given & (of_bodies if name in bodies else own)}
 
 
 def _chosen(wanted: str, names: Sequence[str], model: Model) -> list[str]:

@@ -25,8 +25,9 @@ from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of
 from identification.sampling import Rows, sampled
+from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
-from identification.sidecar import Payload
+from identification.sidecar import Payload, check_carried
 from identification.suspicion import beyond, directed, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
@@ -39,8 +40,8 @@ class Options:
 
     ``recipe`` is the robot's own where None. ``fixed`` are values [SI] of parameters that are not estimated; ``ratio``
     is r_sigma of the essential parameters, whose residual may be larger by the part ``growth`` (infinite: by any);
-    ``payload`` is that of runs without a sidecar that tells. So many ``draws`` of a block bootstrap give the standard
-    deviations of the full model; 0 means those of independent residuals.
+    ``payload`` is that of runs whose sidecar tells none, and contradicts no other. So many ``draws`` of a block
+    bootstrap give the standard deviations of the full model; 0 means those of independent residuals.
     """
 
     recipe: Recipe | None = None
@@ -100,7 +101,8 @@ def identify(
 
     A run is a path, or ``PATH@FROM:TO`` with times in s. ``regressors`` may be given to use them again.
 
-    Raises InputError for runs that cannot be used and for fixed parameters that the robot does not have.
+    Raises InputError for runs that cannot be used, for fixed parameters that the robot does not have, and for a payload
+    that no run carries.
     """
     options = options or Options()
     recipe = options.recipe or recipes.recipe_of(robot.name)
@@ -111,6 +113,7 @@ def identify(
     )
     fitted, tested = ([one.sampled.run for one in runs] for runs in (trained, tried))
     unshared({"fit": fitted})
+    check_carried(options.payload, [run.payload for run in (*fitted, *tested)])
     payloads = _known_payloads(trained, tried)
     notes = [note for one in (*trained, *tried) for note in _notes_on(one, robot, recipe)]
     notes += fitted_too(fitted, tested)
@@ -199,17 +202,24 @@ def _problem(
 
 
 def _separable(problem: Problem, payloads: Mapping[str, Payload]) -> tuple[Problem, list[str]]:
-    """Without the payload's parameters that the last body's hide: they count as part of it."""
+    """Without the payloads' parameters that others hold, and with them those that no row shows: such a payload counts
+    as part of the last body.
+
+    What shows only in sums of a payload's own parameters stays: zero would contradict the runs.
+    """
     notes = []
     for payload in payloads.values():
-        hidden = problem.solve().hidden
-        mixed = [name for name in payload.names().values() if name in hidden]
-        if mixed and any(name not in payload.names().values() for name in hidden):
+        own = tuple(payload.names().values())
+        others = tuple(name for name in problem.names if name not in own)
+        solution = problem.solve()
+        held = [name for name in own if name in solution.hidden and problem.hold(name, others)]
+        shown = [name for name in held if solution.values[name]]
+        if shown:
             notes.append(
-                f"payload {payload.name}: no run without it tells {' '.join(mixed)} from the last body, "
+                f"payload {payload.name}: no run without it tells {' '.join(shown)} from the last body, "
                 "whose parameters hold them"
             )
-            for name in mixed:
+            for name in held:
                 problem = problem.without(name)
     return problem, notes
 
@@ -262,6 +272,7 @@ def _doubts(regressors: Regressors, full: Estimate, best: Estimate) -> list[str]
     """
     solution = full.solution
     notes = not_shown(solution.hidden, "motion in the data")
+    notes += shown_together([name for name in regressors.names if name in solution.hidden], solution.values)
     for parameter in regressors.model.base_parameters:
         name = parameter.name
         if parameter.lower is None or name not in full.sought or name in solution.hidden:

@@ -16,15 +16,18 @@ from identification.rank import nonzero, not_identifiable
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
 _ROUNDING, _TINY = 1e-12, 1e-300
 _REWEIGHTINGS = 2
+#: Length of a column that shows nothing, in parts of the longest.
+_SILENT = 1e-12
 
 
 @dataclass(frozen=True)
 class Solution:
     """Parameters by name, their order in ``covariance`` (p x p), and the ``hidden`` ones.
 
-    ``values`` hold the fixed parameters too. Hidden ones have a value that only serves to estimate torques; their
-    variance is infinite. ``sigma`` is the residual's standard deviation by joint [N m, N], ``condition`` that of W,
-    ``scaled_condition`` with columns of unit length, and ``rank`` the number of independent columns.
+    ``values`` hold the fixed parameters too. Hidden ones have a value that only serves to estimate torques, zero where
+    no row shows them in any sum; their variance is infinite. ``sigma`` is the residual's standard deviation by joint
+    [N m, N], ``condition`` that of W, ``scaled_condition`` with columns of unit length, and ``rank`` the number of
+    independent columns.
     """
 
     names: tuple[str, ...]
@@ -80,6 +83,10 @@ class Problem:
         """The same with one parameter zero."""
         names = tuple(one for one in self.names if one != name)
         return Problem(self.factors, names, {**self.fixed, name: 0.0}, self.weighted, self.by_samples)
+
+    def hold(self, name: str, others: tuple[str, ...]) -> bool:
+        """Whether ``others`` explain all that ``name`` would, so that nothing is lost where it is zero."""
+        return name in replace(self, names=(*others, name)).solve().hidden
 
     def solve(self) -> Solution:
         """Ordinary least squares, or weighted by each joint's own residual (report eq. 39-45)."""
@@ -163,7 +170,7 @@ class _Solved:
         R, z = reduced[:, :-1], reduced[:, -1]
         count = R.shape[1]
         size = np.linalg.norm(R, axis=0)
-        silent = size <= 1e-12 * size.max(initial=0.0) if count else np.zeros(0, dtype=bool)
+        silent = _silent(size)
         scale = np.where(silent, 1.0, size)
         scaled = np.where(silent, 0.0, R / scale)
         if not count or silent.all():
@@ -172,12 +179,17 @@ class _Solved:
         s = np.concatenate([s, np.zeros(count - len(s))])
         rank = int(nonzero(s).sum())
         V, s_seen = Vt[:rank].T, s[:rank]
-        chi = (V @ ((U[:, :rank].T @ z) / s_seen)) / scale
+        chi = np.where(silent, 0.0, (V @ ((U[:, :rank].T @ z) / s_seen)) / scale)
         inverse = ((V / s_seen**2) @ V.T) / np.outer(scale, scale)
         hidden = silent | not_identifiable(Vt[rank:])
         whole = rank == count
         condition = float(np.linalg.cond(R)) if whole else np.inf
         return cls(chi, inverse, hidden, condition, float(s[0] / s_seen[-1]) if whole else np.inf, rank)
+
+
+def _silent(size: Array) -> NDArray[np.bool_]:
+    """Which columns, by their lengths (p), are zero but for rounding."""
+    return np.asarray(size <= _SILENT * size.max(initial=0.0))
 
 
 def _error(R: Array, chi: Array) -> float:
@@ -188,7 +200,7 @@ def _error(R: Array, chi: Array) -> float:
 def _rank(R: Array) -> int:
     """Number of independent columns, each taken in units of its length."""
     size = np.linalg.norm(R, axis=0)
-    live = R[:, size > 1e-12 * size.max(initial=0.0)] if R.size else R
+    live = R[:, ~_silent(size)]
     if not live.size:
         return 0
     s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)

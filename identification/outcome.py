@@ -20,7 +20,8 @@ LIMIT = 0.1
 class Value:
     """A parameter [``unit``] with its standard deviation; None and infinite where the data do not show it.
 
-    ``essential`` tells whether the essential model keeps it, ``refused`` why it has no value.
+    ``essential`` tells whether the essential model keeps it, ``refused`` why it has no value, ``given`` whether it was
+    given instead of estimated.
     """
 
     value: float | None
@@ -28,10 +29,13 @@ class Value:
     unit: str
     essential: bool = True
     refused: str = ""
+    given: bool = False
 
     @property
     def relative_std(self) -> float:
-        """In % of the value; infinite without one."""
+        """In % of the value; infinite without one, zero of one that was given."""
+        if self.given:
+            return 0.0
         if self.value is None or not math.isfinite(self.std):
             return math.inf
         return 100 * self.std / abs(self.value) if self.value else math.inf
@@ -44,8 +48,8 @@ def parameters(values: Mapping[str, Value]) -> dict[str, Any]:
             "value": one.value,
             "std": one.std,
             "relative_std_percent": one.relative_std,
-            "essential": one.essential and one.value is not None,
-            "fixed": False,
+            "essential": one.essential and one.value is not None and not one.given,
+            "fixed": one.given,
             "identifiable": one.value is not None,
             "unit": one.unit,
             **({"refused": one.refused} if one.refused else {}),
@@ -95,7 +99,8 @@ def table(values: Mapping[str, Value]) -> list[str]:
     lines = [f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  unit"]
     for name, one in values.items():
         shown = "unknown" if one.value is None else f"{one.value:.6g}"
-        lines.append(f"{name.ljust(width)} {shown:>12} {one.std:>10.4g} {one.relative_std:>9.4g}  {one.unit}")
+        given = "  given" if one.given else ""
+        lines.append(f"{name.ljust(width)} {shown:>12} {one.std:>10.4g} {one.relative_std:>9.4g}  {one.unit}{given}")
     return lines
 
 

@@ -18,7 +18,8 @@ from generator.symbolic.parameter_sets import resolved
 from identification.named_set import named_set
 from identification.recording import digest
 
-_JSON = ".json"
+#: How the name of a results file ends.
+JSON = ".json"
 #: Names of a result's models, by how they are asked for; their place in the file.
 _MODELS = {"full": (), "essential": ("essential",), "consistent": ("consistent",)}
 _EXPECTED = "RESULTS.json, RESULTS.json:essential, RESULTS.json:consistent, or ROBOT:SET"
@@ -56,12 +57,12 @@ def parameters(source: str) -> Parameters:
 
     ROBOT is a name in robots/ or the path of a robot file. Raises InputError for anything else.
     """
-    if source.endswith(_JSON):
+    if source.endswith(JSON):
         return _of_results(source, Path(source), "full")
     left, colon, right = source.rpartition(":")
     if not colon:
         raise InputError(Place(source), "this names no parameter values", _EXPECTED)
-    if left.endswith(_JSON):
+    if left.endswith(JSON):
         return _of_results(source, Path(left), right)
     return _of_robot(source, left, right)
 

@@ -17,6 +17,7 @@ from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Estimate, Identification
 from identification.robot_file import with_parameter_set
 from identification.sensitivity import Variation
+from identification.set_values import identified_values
 from identification.sidecar import UNITS
 
 #: Names of the files, and of the parameter sets in the robot file.
@@ -98,9 +99,12 @@ def parameter_sets(found: Identification, consistent: ConsistentFit | None = Non
     runs = ", ".join(Path(one.sampled.run.name).name for one in found.train)
     source = f"identified with the inverse dynamic model and least squares from {runs}"
     units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    given = found.options.fixed
     sets = [
-        ParameterSet(FULL, "all base parameters that the data show", source, _set(found.full, units)),
-        ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units)),
+        ParameterSet(
+            FULL, "all base parameters that the data show, alone or in sums", source, _set(found.full, units, given)
+        ),
+        ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units, given)),
     ]
     if consistent is not None:
         values = {
@@ -118,18 +122,11 @@ def older_sets(found: Identification, consistent: ConsistentFit | None = None) -
     return [f"the set {CONSISTENT} in the robot file is of an earlier identification"]
 
 
-def _set(estimate: Estimate, units: Mapping[str, str]) -> dict[str, ParameterValue]:
-    """Values of the estimated parameters of the robot and of those fixed at other values than zero."""
-    solution, result = estimate.solution, {}
-    for name, unit in units.items():
-        value = solution.values.get(name, 0.0)
-        if name in solution.hidden or (name not in estimate.sought and not value):
-            continue
-        relative = solution.relative_std(name)
-        known = name in estimate.sought and math.isfinite(relative)
-        note = "" if name in estimate.sought else "given, not identified"
-        result[name] = ParameterValue(value, unit, relative if known else None, note=note)
-    return result
+def _set(estimate: Estimate, units: Mapping[str, str], given: Mapping[str, float]) -> dict[str, ParameterValue]:
+    """Values of the estimated parameters of the robot and of those that were ``given``."""
+    solution = estimate.solution
+    told = {name: unit for name, unit in units.items() if name in given or name in estimate.sought}
+    return identified_values(told, solution.values, solution.std, given)
 
 
 def _method(found: Identification) -> dict[str, Any]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from generator import expressions
+from generator.command_line import command_line
 from generator.errors import InputError, Place
 from generator.given_once import given_once
 from generator.robot import fields
@@ -143,3 +144,14 @@ def given(words: Sequence[str], place: Place) -> Payload:
         else:
             raise InputError(place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}")
     return Payload(name, known)
+
+
+def check_carried(payload: Payload | None, carried: Iterable[Payload | None]) -> None:
+    """Raises InputError where the ``payload`` that was given is none of those that runs have ``carried``, because all
+    sidecars tell something else.
+    """
+    if payload is not None and not any(
+        one is not None and one.name == payload.name and payload.known.items() <= one.known.items() for one in carried
+    ):
+        problem = f"no run carries payload {payload.name} with these values: their sidecars tell others, or none"
+        raise InputError(command_line("--payload"), problem, "that of a run whose sidecar tells nothing of it")

@@ -25,6 +25,9 @@ TABLE_14 = {
 }  # fmt: skip
 
 
+SETS = ("kr500:report_table_11", "kr500:report_table_13")
+
+
 def test_table_14_of_the_report() -> None:
     """Printed from values with more digits than Tables 11 and 13 show, hence the tolerance."""
     found = compare(parameters("kr500:report_table_11"), parameters("kr500:report_table_13"))
@@ -125,6 +128,29 @@ def test_sets_that_cannot_be_compared_are_refused(
     done = command("compare", "kr500:report_table_11", b.format(tmp_path), capsys=capsys)
     assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
     assert error in done.err
+
+
+def test_what_counts_as_agreement_is_printed(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    apart = sum(1 for one in compare(*map(parameters, SETS)).common if one.deviations is not None)
+    monkeypatch.setattr("identification.comparison.AGREE", 1e9)
+    done = command("compare", *SETS, capsys=capsys)
+    assert done.out.endswith(f"; {apart} of {apart} with a std agree within 1e+09 std\n")
+
+
+@pytest.mark.parametrize("b", ["{}/results.json", "{}/results.json:essential", "{}/kr500.yaml:report_table_13"])
+def test_the_report_of_what_is_compared_is_spared(b: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    written(tmp_path, ZZ1R=1.0)
+    (tmp_path / "kr500.yaml").write_bytes(find_robot("kr500").read_bytes())
+    (tmp_path / "report.html").write_text("of the identification")
+    words = ["compare", "kr500:report_table_11", b.format(tmp_path), "--out"]
+    done = command(*words, tmp_path / ".." / tmp_path.name, capsys=capsys)
+    assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
+    assert "which is compared, expected another --out" in done.err
+    assert (tmp_path / "report.html").read_text() == "of the identification"
+    for _ in range(2):
+        assert command(*words, tmp_path / "compared", capsys=capsys).status == 0
 
 
 def test_nothing_is_printed_where_the_files_cannot_be_written(

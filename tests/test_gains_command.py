@@ -226,9 +226,9 @@ def test_a_payload_that_the_sidecars_contradict_is_refused(arm: Regressors, tmp_
     (tmp_path / "b.yaml").write_text("payload: {M: 20 kg, MY: -0.8 kg m}\n")
     empty, loaded = ([str(tmp_path / name)] for name in ("a.csv", "b.csv"))
     for known in ({"M": 9.0}, {"M": 0.0}, {"XX": 0.3}):
-        with pytest.raises(InputError, match="--payload:1:1: no loaded run carries payload L with these values"):
+        with pytest.raises(InputError, match="--payload:1:1: no run carries payload L with these values"):
             drive_gains(arm.model.robot, empty, loaded, Payload("L", known), regressors=arm)
-    with pytest.raises(InputError, match="no loaded run carries payload K"):
+    with pytest.raises(InputError, match="no run carries payload K"):
         drive_gains(arm.model.robot, empty, loaded, Payload("K", {"M": 20.0}), regressors=arm)
     alone, beside = (
         drive_gains(arm.model.robot, empty, loaded, payload, regressors=arm).constants

@@ -108,6 +108,27 @@ def test_bodies_of_a_set_lack_what_it_leaves_out(folder: Path, capsys: pytest.Ca
     assert json.loads((folder / "points" / "results.json").read_text())["consistent"] is not None
 
 
+@pytest.mark.parametrize(
+    ("lacking", "told"), [("", []), ("M1", ["M1"]), ("M1 M2", ["M1 and M2"]), ("M1 M2 YY1 YY2 ZZ1", [])]
+)
+def test_a_set_of_bodies_without_a_mass_is_told(
+    lacking: str, told: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """ZZ2 is a base parameter too: a set with it alone need not be of bodies."""
+    units = {"M": "kg", "YY": "kg m2", "ZZ": "kg m2"}
+    values = {f"{stem}{j}": f"{stem}{j}: 5 {unit}" for j in (1, 2) for stem, unit in units.items()}
+    kept = ", ".join(text for name, text in values.items() if name not in lacking.split())
+    robot = folder / "lacking.yaml"
+    robot.write_text(f"{TWO_LINKS}parameters:\n  points: {{values: {{{kept}}}}}\n")
+    words = ["--data", folder / "a.csv", "--prior", "points", "--out", folder / "lacking"]
+    done = command("identify", robot, *words, capsys=capsys)
+    assert done.status == 0, done.err
+    found = json.loads((folder / "lacking" / "results.json").read_text())
+    assert found["consistent"]["prior"] is (not lacking)
+    notes = [note for note in found["notes"] if "does not tell" in note]
+    assert notes == [f"the set points does not tell {one}: no parameters were kept near its bodies" for one in told]
+
+
 def test_a_cutoff_above_the_highest_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     note = "a.csv: the cut-off is 90 Hz, the highest at 200 Hz, not 120 Hz"
     assert note in identified(folder, capsys, "--cutoff", "120").out
@@ -121,7 +142,7 @@ def test_identifying_twice_gives_the_same_files(folder: Path, capsys: pytest.Cap
     assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == first
 
 
-def test_unknown_parameters_are_infinite_in_json_and_absent_from_the_set(
+def test_unknown_parameters_are_infinite_in_json_and_tell_nothing_in_the_set(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = (folder / "a.csv").read_text().splitlines()
@@ -142,7 +163,9 @@ def test_unknown_parameters_are_infinite_in_json_and_absent_from_the_set(
     assert all(math.isinf(found["parameters"][name]["std"]) for name in unknown)
     assert "Infinity" not in (folder / "out" / "results.json").read_text()
     values = read(folder / "out" / "two_links.yaml").parameter_sets["identified"].values
-    assert set(values) == set(TRUTH) - unknown
+    assert "Fv2" not in values
+    assert {name for name, one in values.items() if one.relative_std == 1e5} == unknown & values.keys()
+    assert set(values) | unknown == set(TRUTH)
 
 
 def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -161,6 +184,9 @@ def test_options_of_the_method(folder: Path, capsys: pytest.CaptureFixture[str])
     assert (run["cutoff"], run["order"], run["factor"], run["payload"]) == (20, 3, 8, "L")
     assert any("payload L" in note for note in found["notes"])
     assert found["parameters"]["Fc1"]["fixed"]
+    written = read(folder / "out" / "two_links.yaml").parameter_sets["identified"].values
+    given = {name: one.value for name, one in written.items() if one.note == "given, not identified"}
+    assert given == found["method"]["fixed"]
 
 
 def _recipe(folder: Path) -> Path:

@@ -7,16 +7,29 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
 from identification.consistent_fit import consistent_fit
+from identification.fixing import fixed
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipe import Recipe
+from identification.results import parameter_sets
 from identification.sensitivity import sensitivity
 from tests.commands import command
-from tests.recorded import TRUTH, Recorded, fourier, recorded, regressors, two_links
+from tests.recorded import (
+    TRUTH,
+    TWO_LINKS,
+    Array,
+    Recorded,
+    as_recorded,
+    fourier,
+    parameters_text,
+    recorded,
+    regressors,
+    two_links,
+)
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
 
@@ -97,6 +110,29 @@ def test_a_run_too_short_for_other_filters_is_identified_from_all_the_same(links
     assert all("could not be tried" in note for note in notes)
 
 
+def still_second(of: Regressors, seed: int) -> tuple[Array, Motion]:
+    """Times and a motion of the first joint alone."""
+    t, motion = fourier(of.model.robot, 20.0, 200.0, seed)
+    return t, Motion(*(np.array([[1.0], [0.0]]) * one for one in (motion.q, motion.qd, motion.qdd)))
+
+
+def test_the_set_makes_the_torques_of_runs_that_show_parameters_only_in_sums(links: Regressors, tmp_path: Path) -> None:
+    t, motion = still_second(links, seed=1)
+    path = as_recorded(links, t, motion.q, links.torques(TRUTH, motion)).save(tmp_path / "a.csv")
+    found = identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0)), regressors=links)
+    written = parameter_sets(found)[0].values
+    assert {"Fv2", "Fc2"}.isdisjoint(written)
+    hidden = set(found.full.solution.hidden) & written.keys()
+    assert {"ZZ1R", "MX1R", "ZZ2", "MX2"} <= hidden
+    assert {written[name].relative_std for name in hidden} == {1e5}
+    (told,) = (note for note in found.notes if "one by one" in note)
+    assert set(told.removeprefix("the runs do not show ").split(" one by one")[0].split()) == hidden
+    _, other = still_second(links, seed=5)
+    played = {name: written[name].value if name in written else 0.0 for name in TRUTH}
+    torque = links.torques(TRUTH, other)[0]
+    assert np.abs(links.torques(played, other)[0] - torque).max() < 0.01 * torque.std()
+
+
 def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     of = regressors("tilted_two_link")
     run = recorded(of, resolved_sets(of.model)["example"]).save(tmp_path / "a.csv")
@@ -104,6 +140,52 @@ def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixtu
     done = command("identify", "tilted_two_link", "--data", run, *given, capsys=capsys)
     assert done.status == 0
     assert "every value is given" in done.out
+
+
+SETS = {
+    "friction": {"Fv1": 14.0, "Fc1": 9.0},
+    "essential": {"ZZ1R": 9.0, "MX2": 3.1, "Ia2": 0.9},
+    "standard": {"M2": 6.0, "MX2": 3.1},
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "requests", "values"),
+    [
+        ("friction", ["Fv1", "Fc1"], {"Fv1": 14.0, "Fc1": 9.0}),
+        ("friction", ["Fv1", "Fv2=7"], {"Fv1": 14.0, "Fv2": 7.0}),
+        ("essential", ["bodies"], {"ZZ1R": 9.0, "MX1R": 0.0, "MY1": 0.0, "ZZ2": 0.0, "MX2": 3.1, "MY2": 0.0}),
+        # The second body is 0.5 m from the first axis.
+        ("standard", ["MX1R", "MY1"], {"MX1R": 0.5 * 6.0, "MY1": 0.0}),
+        ("friction", ["Fv*"], "Fv2"),
+        ("friction", ["bodies"], "ZZ1R"),
+        ("essential", ["bodies", "Ia*", "Off2"], "Off2"),
+        ("standard", ["Ia2"], "Ia2"),
+    ],
+)
+def test_a_value_is_taken_from_a_set_that_tells_it(
+    name: str, requests: list[str], values: dict[str, float] | str, tmp_path: Path
+) -> None:
+    path = tmp_path / "robot.yaml"
+    path.write_text(TWO_LINKS + parameters_text(SETS))
+    model = Regressors(read(path)).model
+    prior = model.robot.parameter_sets[name]
+    if isinstance(values, dict):
+        assert fixed(requests, prior, model, Place("--fix")) == pytest.approx(values)
+        return
+    told = f"--fix:1:1: the set {name} does not tell {values}, expected {values}=VALUE, or a set of values that has it"
+    with pytest.raises(InputError, match=f"^{told}$"):
+        fixed(requests, prior, model, Place("--fix"))
+
+
+def test_a_set_that_does_not_tell_what_is_given_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot = tmp_path / "robot.yaml"
+    robot.write_text(TWO_LINKS + parameters_text(SETS))
+    words = ("--data", tmp_path / "none.csv", "--fix", "Fv2", "--prior", "friction", "--out", tmp_path / "out")
+    done = command("identify", robot, *words, capsys=capsys)
+    errors = [line for line in done.err.splitlines() if line.startswith("error: ")]
+    told = "the set friction does not tell Fv2, expected Fv2=VALUE, or a set of values that has it"
+    assert (done.status, errors) == (2, [f"error: --fix:1:1: {told}"])
 
 
 @pytest.mark.parametrize("robust", [False, True])

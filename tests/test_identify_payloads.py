@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +11,17 @@ import pytest
 from generator.errors import InputError
 from identification.drive_gains import drive_gains
 from identification.inverse_model import Options, identify
-from identification.observation import Regressors
+from identification.observation import Motion, Regressors
 from identification.recipe import Recipe
 from identification.results import document
 from identification.sidecar import UNITS, Payload
-from tests.recorded import TRUTH, Recorded, recorded, two_links
+from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_links
 
 PLAIN = Recipe(dynamics=4.0)
 #: Ten parameters of a point mass in the tool frame [SI], by its mass.
 POINT = {mass: [0.0] * 9 + [mass] for mass in (0.0, 0.5, 2.5)}
+#: Those of half a kilogram as a sidecar tells them.
+POINT_OF_HALF = dict.fromkeys(UNITS, 0.0) | {"M": 0.5}
 
 
 @pytest.fixture
@@ -46,6 +49,28 @@ def test_a_run_that_says_it_carries_nothing_is_given_no_payload(links: Regressor
     assert {name: values[name] for name in TRUTH} == pytest.approx(TRUTH, rel=5e-3, abs=0.03)
 
 
+def test_a_payload_that_all_sidecars_contradict_is_refused(links: Regressors, tmp_path: Path) -> None:
+    empty = carrying(links, 0.0, tmp_path / "empty.csv", "payload: none\n")
+    loaded = carrying(links, 2.5, tmp_path / "loaded.csv", known("L", 2.5))
+
+    def fitted(*runs: Path, payload: Payload, test: tuple[Path, ...] = ()) -> Mapping[str, float]:
+        options = Options(PLAIN, payload=payload)
+        return identify(links.model.robot, runs, test, options, links).full.solution.values
+
+    for payload in (Payload("L", {"M": 77.0}), Payload("K", {"M": 2.5}), Payload("K", {})):
+        with pytest.raises(
+            InputError, match=f"^--payload:1:1: no run carries payload {payload.name} with these values"
+        ):
+            fitted(empty, loaded, payload=payload)
+    with pytest.raises(InputError, match="no run carries payload L"):
+        fitted(empty, payload=Payload("L", {"M": 2.5}))
+    told = fitted(empty, loaded, payload=Payload("L", {"M": 2.5}))
+    assert told["ML"] == 2.5
+    silent = carrying(links, 0.5, tmp_path / "silent.csv", "notes: of the day after\n")
+    assert fitted(empty, silent, payload=Payload("K", POINT_OF_HALF))["MX2"] == pytest.approx(TRUTH["MX2"], rel=0.01)
+    fitted(empty, test=(silent,), payload=Payload("K", POINT_OF_HALF))
+
+
 def test_of_two_payloads_one_is_told_from_the_other(links: Regressors, tmp_path: Path) -> None:
     """Without an empty run the first counts as part of the last body; the other one's difference shows."""
     first = carrying(links, 0.5, tmp_path / "first.csv", "payload: {name: A}\n")
@@ -58,6 +83,42 @@ def test_of_two_payloads_one_is_told_from_the_other(links: Regressors, tmp_path:
     told = document(found)["payloads"]
     assert all(one["value"] is None and np.isinf(one["std"]) for one in told["A"].values())
     assert any(one["value"] is not None for one in told["B"].values())
+
+
+def alone(links: Regressors, mass: float, seed: int, path: Path, says: str) -> Path:
+    """A run, with noise of 0.05 N m, in which the second joint alone moves."""
+    t, motion = fourier(links.model.robot, 20.0, 200.0, seed)
+    still = Motion(*(np.array([[0.0], [1.0]]) * one for one in (motion.q, motion.qd, motion.qdd)))
+    tau = links.torques(TRUTH, still) + np.array([POINT[mass] @ W for W in links.payload(still)])
+    tau += 0.05 * np.random.default_rng(seed).normal(size=tau.shape)
+    as_recorded(links, t, still.q, tau).save(path)
+    path.with_suffix(".yaml").write_text(says)
+    return path
+
+
+def test_a_payload_that_shows_only_in_sums_is_not_taken_from_the_runs_that_carry_it(
+    links: Regressors, tmp_path: Path
+) -> None:
+    """The first joint stands still: beside an empty run the second one's torque tells sums of the payload's values."""
+    empty = alone(links, 0.0, 1, tmp_path / "empty.csv", "payload: none\n")
+    loaded = alone(links, 2.5, 2, tmp_path / "loaded.csv", "payload: {name: L}\n")
+    found = identify(links.model.robot, [empty, loaded], options=Options(PLAIN), regressors=links)
+    left = found.full.train.per_joint[1]
+    assert left.norm < 0.05 * np.sqrt(left.rows)
+    assert not [note for note in found.notes if "tells" in note]
+    values = found.full.solution.values
+    # The first moment about the second joint, 0.4 m from the tool's origin.
+    assert values["MXL"] + 0.4 * values["ML"] == pytest.approx(2.5 * 0.4, rel=0.01)
+    assert {"ML", "MXL", "XXL"} <= set(found.full.solution.hidden)
+
+
+def test_of_a_payload_on_all_runs_no_more_is_said_than_the_last_body_holds(links: Regressors, tmp_path: Path) -> None:
+    loaded = alone(links, 2.5, 2, tmp_path / "loaded.csv", "payload: {name: L}\n")
+    found = identify(links.model.robot, [loaded], options=Options(PLAIN), regressors=links)
+    (note,) = (note for note in found.notes if "tells" in note)
+    # Turning about its axis, the second joint shows no moment of inertia about another one.
+    assert "tells ZZL MXL MYL ML from" in note
+    assert found.full.train.per_joint[1].norm < 0.05 * np.sqrt(found.full.train.per_joint[1].rows)
 
 
 def test_gains_are_not_found_from_runs_in_the_wrong_places(links: Regressors, tmp_path: Path) -> None:

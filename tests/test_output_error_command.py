@@ -17,8 +17,10 @@ import distributed
 import numpy as np
 import pytest
 
+from generator.derivation import derive
 from generator.errors import InputError, Place
 from generator.robot.readers import read
+from generator.symbolic.parameter_sets import resolved
 from identification.corrections import TooWarm, Untold
 from identification.executors import cluster
 from identification.executors.cluster import Cluster
@@ -221,6 +223,36 @@ def test_the_command_writes_its_results_and_resumes(
     assert json.loads((out / "results.json").read_text())["residual"]["test"]["total"]["norm"] == float("inf")
     command(*words, "--segment", "0.5", capsys=capsys)
     assert len(list((out / "starts").iterdir())) == 2
+
+
+def test_what_is_given_is_written_beside_what_is_found(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--data", folder / "A.csv", "--fix", "Fv1=210", "Off1=0", "--iterations", "2", "--out", tmp_path]
+    done = command("output-error", folder / "slide.yaml", *words, capsys=capsys)
+    assert done.status == 0, done.err
+    found = json.loads((tmp_path / "results.json").read_text())["parameters"]
+    assert found["Fv1"] == {
+        "value": 210.0,
+        "std": 0.0,
+        "relative_std_percent": 0.0,
+        "essential": False,
+        "fixed": True,
+        "identifiable": True,
+        "unit": "N s/m",
+    }
+    assert found["Off1"].keys() == found["M1"].keys() == found["Fv1"].keys()
+    assert not found["M1"]["fixed"]
+    robot = read(tmp_path / "slide.yaml")
+    written = robot.parameter_sets["identified_output_error"].values
+    assert {name: (one.value, one.note) for name, one in written.items() if one.note} == {
+        "Fv1": (210.0, "given, not identified"),
+        "Off1": (0.0, "given, not identified"),
+    }
+    played = resolved(derive(robot, names=(), check=False), written)
+    assert played["Fv1"] == 210.0
+    assert played["Fc1"] == pytest.approx(found["Fc1"]["value"], rel=1e-5)
+    assert any(line.split()[0] == "Fv1" and line.endswith("given") for line in done.out.splitlines())
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ A, B = "kr300_r2500/A.csv", "kr300_r2500/B.csv"
 
 def held_at_the_prior(of: Regressors, payload: dict[str, float]) -> Options:
     """Bodies and rotors as known beforehand; friction, offsets, the balancer and a payload are sought."""
-    prior = resolved_sets(of.model)["a_priori"]
+    prior = of.model.robot.parameter_sets["a_priori"]
     given = fixed(["bodies", "Ia*"], prior, of.model, Place("test"))
     return Options(fixed=given, payload=Payload("L", payload))
 

@@ -30,10 +30,12 @@ def run(arguments: argparse.Namespace) -> None:
     """Compares and prints a row a parameter."""
     with needing(command_line("counterpoise compare")):
         from identification.comparison import compare
-        from identification.comparison_results import save
+        from identification.comparison_results import save, spare_reports
         from identification.parameter_source import parameters
 
     found = compare(parameters(arguments.a), parameters(arguments.b))
+    if arguments.out is not None:
+        spare_reports(found, arguments.out)
     lines = [_table(found)]
     if arguments.out is not None:
         from identification.report.compare.report import report
@@ -45,6 +47,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _table(found: Comparison) -> str:
+    from identification.comparison import AGREE
+
     width = max(map(len, [*found.differences, "parameter"]))
     lines = [f"A {found.a.name}, B {found.b.name}"]
     lines.append(f"{'parameter'.ljust(width)} {'A':>12} {'B':>12} {'e %':>9} {'std of A %':>10}  unit")
@@ -53,7 +57,7 @@ def _table(found: Comparison) -> str:
     told = [one for one in common if one.agrees is not None]
     agreeing = sum(1 for one in told if one.agrees)
     lines.append(
-        f"{plural(len(common), 'parameter')} in common; {agreeing} of {len(told)} with a std agree within 2 std"
+        f"{plural(len(common), 'parameter')} in common; {agreeing} of {len(told)} with a std agree within {AGREE:g} std"
     )
     return "\n".join(lines)
 

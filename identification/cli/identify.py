@@ -17,12 +17,12 @@ from generator.cli.shared_arguments import takes_robot
 from generator.command_line import command_line
 from generator.progress import stage
 from generator.resources import find_robot
-from generator.review.words import plural
+from generator.review.words import listed, plural
 from identification.cli.shared_arguments import takes_data, takes_test
 from identification.extras import needing
 
 if TYPE_CHECKING:
-    from generator.robot.description import Robot
+    from generator.symbolic.model import Model
     from identification.consistent_fit import ConsistentFit
     from identification.inverse_model import Identification, Options
     from identification.observation import Regressors
@@ -150,12 +150,12 @@ def run(arguments: argparse.Namespace) -> None:
 def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     from identification.fixing import fixed
     from identification.inverse_model import Options
-    from identification.named_set import resolved_set
+    from identification.named_set import named_set
     from identification.sidecar import given
 
     model, prior = regressors.model, None
     if arguments.prior is not None:
-        prior = resolved_set(model, arguments.prior, command_line("--prior"))
+        prior = named_set(model.robot, arguments.prior, command_line("--prior"))
     ratio = (
         {}
         if arguments.essential is None
@@ -177,24 +177,31 @@ def _consistent(
     """The physically consistent parameters beside what was found, which tells why where there are none."""
     from identification.consistent_fit import consistent_fit, doubts
 
+    bodies, notes = (None, []) if arguments.prior is None else _bodies(arguments.prior, found.regressors.model)
+    found = found.noting(notes)
     with stage("making the parameters physically consistent"):
         try:
-            consistent = consistent_fit(found, _bodies(arguments.prior, found.robot), weight)
+            consistent = consistent_fit(found, bodies, weight)
         except ValueError as error:
             return found.noting([str(error)]), None
         return found.noting(doubts(found, consistent)), consistent
 
 
-def _bodies(name: str | None, robot: Robot) -> dict[str, float] | None:
-    """The standard parameters of a set that gives the bodies, those that it lacks zero; None for any other."""
-    if name is None:
-        return None
+def _bodies(name: str, model: Model) -> tuple[dict[str, float] | None, list[str]]:
+    """The standard parameters of a set that gives the bodies, those that it lacks zero; None for any other, and a note
+    where only masses lack.
+    """
     from generator.robot.parameters import inertial_parameters
 
-    values = {one: value.value for one, value in robot.parameter_sets[name].values.items()}
-    if not all(f"M{joint.number}" in values for joint in robot.bodies):
-        return None
-    return {one.name: 0.0 for joint in robot.bodies for one in inertial_parameters(joint)} | values
+    bodies = model.robot.bodies
+    values = {one: value.value for one, value in model.robot.parameter_sets[name].values.items()}
+    inertial = [one.name for joint in bodies for one in inertial_parameters(joint)]
+    massless = [one for one in (f"M{joint.number}" for joint in bodies) if one not in values]
+    if not massless:
+        return dict.fromkeys(inertial, 0.0) | values, []
+    of_bodies = set(inertial) - {one.name for one in model.base_parameters}
+    told = f"the set {name} does not tell {listed(massless)}: no parameters were kept near its bodies"
+    return None, [told] if of_bodies & values.keys() else []
 
 
 def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:

@@ -27,6 +27,7 @@ from identification.output_error.estimate import Estimate, evaluated
 from identification.output_error.experiment import Experiment, experiment
 from identification.output_error.methods import methods
 from identification.output_error.search import Minimum, Search, Settings, search_of, starts
+from identification.set_values import shown_together
 from identification.simulation.machine import Machine, compiled
 from identification.study import Counted, key_of, study
 
@@ -207,7 +208,10 @@ def _score(search: Search, rms: Array) -> float:
 
 
 def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) -> tuple[str, ...]:
+    solution = first.full.solution
+    of_other_values = shown_together([name for name in best.names if name in solution.hidden], solution.values)
     notes = [note for note in first.notes if not note.startswith("the essential parameters")]
+    notes = [note for note in notes if note not in of_other_values]
     for one in runs:
         unused = one.motion.samples - one.tau.shape[0] * one.tau.shape[1]
         if unused * one.period >= 0.1:
@@ -217,4 +221,5 @@ def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) ->
     if best.test is not None and not np.isfinite(best.test.total.norm):
         notes.append("the simulation diverges on what was held out: shorter segments follow it further")
     notes += not_shown(best.hidden, "position")
+    notes += shown_together(best.hidden, best.values)
     return tuple(dict.fromkeys(notes))

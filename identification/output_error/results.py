@@ -18,18 +18,23 @@ from identification.output_error.methods import methods
 from identification.output_error.multi_start import OutputError
 from identification.results import RESULTS, written
 from identification.robot_file import with_parameter_set
+from identification.set_values import identified_values
 
 #: Name of the parameter set in the robot file.
 SET = "identified_output_error"
 
 
 def parameters(found: OutputError) -> dict[str, Value]:
-    """The sought parameters by name."""
+    """The sought parameters by name, and those that were given, in the model's order."""
     best = found.best
-    units = {parameter.name: parameter.unit for parameter in found.first.regressors.model.base_parameters}
     return {
-        name: Value(None if name in best.hidden else best.values[name], best.std(name), units[name])
-        for name in best.names
+        one.name: Value(
+            None if one.name in best.hidden else best.values[one.name],
+            best.std(one.name),
+            one.unit,
+            given=one.name in found.settings.fixed,
+        )
+        for one in found.first.regressors.model.base_parameters
     }
 
 
@@ -37,13 +42,6 @@ def document(found: OutputError) -> dict[str, Any]:
     """The content of results.json, see docs/output_error.md."""
     best, settings = found.best, found.settings
     numbers = found.robot.numbers
-    units = {parameter.name: parameter.unit for parameter in found.first.regressors.model.base_parameters}
-    fixed = {
-        name: {"value": best.values[name], "std": 0.0, "fixed": True, "unit": units[name]}
-        for name in settings.fixed
-        if name in units
-    }
-
     return {
         "robot": found.robot.name,
         "robot_sha256": found.robot.digest,
@@ -64,7 +62,7 @@ def document(found: OutputError) -> dict[str, Any]:
             for kind, runs in (("train", found.train), ("test", found.test))
         },
         "condition": best.condition,
-        "parameters": {**outcome.parameters(parameters(found)), **fixed},
+        "parameters": outcome.parameters(parameters(found)),
         "residual": {
             "train": outcome.norms_by_number(best.train, numbers),
             "test": None if best.test is None else outcome.norms_by_number(best.test, numbers),
@@ -87,7 +85,8 @@ def save(found: OutputError, robot_file: Path, folder: Path, beside: Mapping[str
     Raises InputError where the folder cannot be written.
     """
     runs = ", ".join(Path(one.run.name).name for one in found.train)
-    values = outcome.values_of_set(parameters(found))
+    best, units = found.best, {one.name: one.unit for one in found.first.regressors.model.base_parameters}
+    values = identified_values(units, best.values, best.std, found.settings.fixed)
     one = ParameterSet(SET, "base parameters by output error in open loop", f"output error from {runs}", values)
     text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
     files = {RESULTS: written(document(found)).encode(), f"{found.robot.name}.yaml": text.encode(), **(beside or {})}

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from generator.effects.library import names_of_effects
-from generator.robot.description import ParameterSet, ParameterValue
+from generator.robot.description import ParameterSet
 from generator.symbolic.bodies import INERTIAL
 from identification.arrays import Array
 from identification.colour import inflation
@@ -26,6 +26,7 @@ from identification.outcome import Value
 from identification.own_load import under_own_load
 from identification.robot_file import rounded
 from identification.sampling import Sampled
+from identification.set_values import identified_values, shown_together
 
 #: Name of the set in the robot file.
 SET = "diagnosed"
@@ -33,8 +34,6 @@ SET = "diagnosed"
 _PASSES = 6
 #: Least residual [N m, N] by which rows are weighed: its square is a number.
 _TINY = 1e-150
-#: Standard deviation in parts of a value that the runs do not show by itself.
-_UNKNOWN = 1e3
 #: Samples at which a payload is compared with base parameters.
 _SAMPLES = 80
 
@@ -106,11 +105,12 @@ def refit(
     notes += _of_hidden([name for name in regressors.names if name in solution.hidden], values)
     names = ", ".join(dict.fromkeys(Path(one.run.name).name for one in runs))
     how = "least squares" if prior is None else "least squares near what was known"
+    units = {parameter.name: parameter.unit for parameter in regressors.model.parameters if parameter.name in values}
     written = ParameterSet(
         SET,
         description or "base parameters with what the diagnosis found",
         f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
-        _values(regressors, values, std, solution),
+        identified_values(units, values, std.__getitem__, {}),
     )
     far = () if prior is None else _far(prior, regressors, values, std)
     return Refit(values, std, written, regressors, tuple(notes), far)
@@ -118,14 +118,9 @@ def refit(
 
 def _of_hidden(hidden: Sequence[str], values: Mapping[str, float]) -> list[str]:
     """What is to be told of parameters that the runs do not show: nothing of them at all, or not one by one."""
-    out, together = ([name for name in hidden if (values[name] != 0) is shown] for shown in (False, True))
+    out = [name for name in hidden if not values[name]]
     notes = [f"the runs do not show {' '.join(out)}, which the set leaves out: zero where it plays"] if out else []
-    if together:
-        notes.append(
-            f"the runs do not show {' '.join(together)} one by one: values in the set serve the torques of such motion "
-            "together, and no other"
-        )
-    return notes
+    return notes + shown_together(hidden, values)
 
 
 def _far(
@@ -254,18 +249,3 @@ def _colours(values: Mapping[str, float], observed: Sequence[Observed]) -> dict[
             power[joint] += float(e @ e)
             coloured[joint] += float(e @ e) * inflation(e)
     return {joint: coloured[joint] / size if size else 1.0 for joint, size in power.items()}
-
-
-def _values(
-    regressors: Regressors,
-    values: Mapping[str, float],
-    std: Mapping[str, float],
-    solution: Solution,
-) -> dict[str, ParameterValue]:
-    result = {}
-    for parameter in regressors.model.parameters:
-        name = parameter.name
-        if name in values and (values[name] or name not in solution.hidden):
-            relative = 100 * min(std[name] / abs(values[name]), _UNKNOWN) if values[name] else None
-            result[name] = ParameterValue(values[name], parameter.unit, relative)
-    return result

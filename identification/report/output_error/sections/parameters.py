@@ -12,7 +12,6 @@ ORDER = 30
 
 def render(subject: Subject) -> Markup:
     best, parameters = subject.found.best, subject.results["parameters"]
-    rows = {name: {"relative_std_percent": 0.0, **one} for name, one in parameters.items()}
     states: dict[str, Content] = {
         name: element("span", "given", class_="faint")
         if name not in best.names
@@ -26,4 +25,4 @@ def render(subject: Subject) -> Markup:
         " model and least squares make of the same runs."
     )
     beside = {"inverse model": subject.found.first.full.solution.values}
-    return join(element("p", text), parameter_table(rows, states, beside))
+    return join(element("p", text), parameter_table(parameters, states, beside))
