@@ -81,6 +81,10 @@ class Problem:
         names = tuple(one for one in self.names if one != name)
         return Problem(self.factors, names, {**self.fixed, name: 0.0}, self.weighted, self.by_samples)
 
+    def scales(self, sigma: Mapping[int, float]) -> Mapping[int, float]:
+        """What the rows are divided by, by joint: ``sigma`` [N m, N] where they are weighted, else 1."""
+        return sigma if self.weighted else dict.fromkeys(sigma, 1.0)
+
     def solve(self) -> Solution:
         """Ordinary least squares, or weighted by each joint's own residual (report eq. 39-45)."""
         stacked = {one.joint: self._reduced(one) for one in self.factors}
