@@ -97,6 +97,30 @@ def test_a_run_too_short_for_other_filters_is_identified_from_all_the_same(links
     assert all("could not be tried" in note for note in notes)
 
 
+def test_every_run_is_tried_with_other_filters_than_its_own(links: Regressors, tmp_path: Path) -> None:
+    """Runs at two rates, whose factors differ: which comes first does not matter."""
+    runs = [
+        recorded(links, TRUTH, rate=rate, seed=seed, noise=0.05).save(tmp_path / f"{rate:g}.csv")
+        for seed, rate in enumerate((400.0, 100.0), 1)
+    ]
+    found = identify(links.model.robot, runs, options=Options(PLAIN), regressors=links)
+    tried, _ = sensitivity(found, runs)
+    again, _ = sensitivity(
+        identify(links.model.robot, runs[::-1], options=Options(PLAIN), regressors=links), runs[::-1]
+    )
+    assert [one.value for one in tried] == [10.0, 40.0, 10.0, 40.0]
+    assert [one.value for one in again] == [10.0, 40.0, 2.0, 10.0]
+    assert [one.parameter for one in again] == [one.parameter for one in tried]
+    assert [one.change for one in again] == pytest.approx([one.change for one in tried], rel=1e-6)
+    # Half the cut-off of 20 Hz written out; factors follow from the rates.
+    half = identify(
+        links.model.robot, runs, options=Options(PLAIN.changed(cutoff=10.0)), regressors=links
+    ).full.solution
+    own = found.full.solution
+    moved = {name: abs(half.values[name] - own.values[name]) / own.std(name) for name in TRUTH}
+    assert tried[0].change == pytest.approx(max(moved.values()), rel=1e-6)
+
+
 def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     of = regressors("tilted_two_link")
     run = recorded(of, resolved_sets(of.model)["example"]).save(tmp_path / "a.csv")
