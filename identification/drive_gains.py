@@ -289,7 +289,9 @@ def _observable(
     too_loose = False
     for m in range(n):
         if not any(len(each[m].i) for _, each in rows):
-            refused[m] = "it has no rows: its joint is never faster than the standstill threshold"
+            spoiled = any(one.spoiled(m) for one, _ in rows)
+            slow = "its joint is never faster than the standstill threshold"
+            refused[m] = f"it has no rows: {'each would hold a sample that was lost or cut off' if spoiled else slow}"
     while len(refused) < n:
         parts = _parts(rows, names, refused, {})
         fit = solve(parts, n)

@@ -77,6 +77,24 @@ def test_runs_without_a_row_are_refused(links: Regressors, tmp_path: Path) -> No
         identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0, standstill=100.0)), regressors=links)
 
 
+def test_rows_that_lost_samples_leave_out_are_told_from_slow_ones(links: Regressors, tmp_path: Path) -> None:
+    """One sample in forty is lost, and the decimation's window is as wide."""
+    whole = recorded(links, TRUTH, noise=0.01)
+    kept = np.arange(4000) % 40 != 20
+    lost = Recorded({name: values[kept] for name, values in whole.columns.items()}).save(tmp_path / "lost.csv")
+    options = Options(Recipe(dynamics=4.0, factor=20))
+    with pytest.raises(
+        InputError, match=r"lost.csv:1:1: no row is left: each would hold a sample that was lost or cut"
+    ):
+        identify(links.model.robot, [lost], options=options, regressors=links)
+    found = identify(links.model.robot, [lost, whole.save(tmp_path / "whole.csv")], options=options, regressors=links)
+    told = f"{lost}: joint 1 and joint 2 have no rows: each would hold a sample that was lost or cut off"
+    assert found.notes[1:] == (told,)
+    # Ten samples to either side fit between two of the lost ones.
+    options = Options(Recipe(dynamics=4.0, factor=10))
+    assert identify(links.model.robot, [lost], options=options, regressors=links).full.train.total.rows > 0
+
+
 def test_runs_are_long_enough_for_every_stage_of_the_decimation(links: Regressors, tmp_path: Path) -> None:
     """Factors of 20 and 14 have two stages, the second of which needs 25 rows of the first."""
     for rate, factor in ((200.0, 20), (140.0, 14)):
