@@ -26,7 +26,7 @@ from identification.outcome import LIMIT
 from identification.own_load import settled
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.sampling import Sampled, sampled
 from identification.shared_samples import unshared
 from identification.sidecar import Payload
@@ -131,7 +131,7 @@ def drive_gains(
     constants = {m: (float(found.fit.k[m]), found.gain_std(m)) for m in range(len(N)) if m not in found.refused}
     share = {m: abs(found.from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
     residuals = _residuals(found.fit, found.parts)
-    notes = [*(note for run in runs for note in run.notes), *told, *_doubts(residuals, constants, robot)]
+    notes = [*(note for run in runs for note in notes_of(run, recipe)), *told, *_doubts(residuals, constants, robot)]
     return DriveGains(
         regressors=regressors,
         recipe=recipe,

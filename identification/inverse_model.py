@@ -23,7 +23,7 @@ from identification.own_load import under_own_load
 from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.sampling import Rows, Sampled, sampled
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload
@@ -241,12 +241,8 @@ def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], tes
 
 
 def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
-    notes = list(one.sampled.run.notes)
+    notes = notes_of(one.sampled.run, recipe)
     name = one.sampled.run.name
-    cutoff = one.sampled.filters.cutoff
-    if recipe.cutoff is not None and cutoff < recipe.cutoff:
-        rate = f"the highest at {one.sampled.run.rate:.6g} Hz"
-        notes.append(f"{name}: the cut-off is {cutoff:.6g} Hz, {rate}, not {recipe.cutoff:g} Hz")
     slow, spoiled = list[str](), list[str]()
     for factor in one.factors:
         number, still = robot.moving[factor.joint].number, factor.joint in one.sampled.still

@@ -77,6 +77,17 @@ def test_runs_without_a_row_are_refused(links: Regressors, tmp_path: Path) -> No
         identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0, standstill=100.0)), regressors=links)
 
 
+@pytest.mark.parametrize(("recipe", "wanted"), [(Recipe(), 10), (Recipe(dynamics=4.0), 20), (Recipe(cutoff=6.75), 0)])
+def test_a_cut_off_that_the_rate_lowers_is_told(
+    recipe: Recipe, wanted: float, links: Regressors, tmp_path: Path
+) -> None:
+    """To 0.45 of it: also that which follows from the dynamics."""
+    run = recorded(links, TRUTH, rate=15.0, duration=60.0, noise=0.01).save(tmp_path / "coarse.csv")
+    found = identify(links.model.robot, [run], options=Options(recipe), regressors=links)
+    told = [note for note in found.notes if "cut-off" in note]
+    assert told == [f"{run}: the cut-off is 6.75 Hz, the highest at 15 Hz, not {wanted} Hz"][: bool(wanted)]
+
+
 def test_rows_that_lost_samples_leave_out_are_told_from_slow_ones(links: Regressors, tmp_path: Path) -> None:
     """One sample in forty is lost, and the decimation's window is as wide."""
     whole = recorded(links, TRUTH, noise=0.01)
