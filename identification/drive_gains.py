@@ -265,7 +265,7 @@ def _known(runs: Sequence[Run]) -> dict[str, float]:
 def _parts(
     rows: Observations, names: Sequence[str], left_out: Mapping[int, str], more: Mapping[str, float]
 ) -> list[Part]:
-    """The rows with the payloads' known values, plus ``more`` by stem, in w."""
+    """The rows with the payloads' known values, plus ``more`` by parameter name, in w."""
     result = []
     every = _known([one.run for one, _ in rows])
     free = np.array([name not in every for name in names])
@@ -273,8 +273,8 @@ def _parts(
         known = np.zeros(len(names))
         payload = one.run.payload
         if payload is not None:
-            for stem, value in payload.known.items():
-                known[names.index(payload.names()[stem])] = value + more.get(stem, 0.0)
+            for name, value in payload.fixed.items():
+                known[names.index(name)] = value + more.get(name, 0.0)
         for motor in each:
             if motor.motor not in left_out:
                 result.append(Part(motor.motor, motor.B * free, motor.B @ known, motor.i))
@@ -332,13 +332,14 @@ def _relative(fit: Fit, more: Array) -> Array:
 def _of_payload(
     rows: Observations, names: Sequence[str], fit: Fit, refused: Mapping[int, str], stds: Mapping[str, float]
 ) -> Array:
-    """Standard deviations of [k, chi] that come from those of the payload's known values."""
+    """Standard deviations of [k, chi] that come from those of the payloads' known values, each on its own."""
     square = np.zeros(len(fit.k) + len(fit.chi))
-    for stem, std in stds.items():
-        if std:
-            ends = [solve(_parts(rows, names, refused, {stem: sign * _STEP * std}), len(fit.k)) for sign in (1, -1)]
-            change = np.concatenate([ends[0].k, ends[0].chi]) - np.concatenate([ends[1].k, ends[1].chi])
-            square += (change / (2 * _STEP)) ** 2
+    payloads = [one.run.payload for one, _ in rows if one.run.payload is not None]
+    by_name = {payload.names()[stem]: std for payload in payloads for stem, std in stds.items() if std}
+    for name, std in by_name.items():
+        ends = [solve(_parts(rows, names, refused, {name: sign * _STEP * std}), len(fit.k)) for sign in (1, -1)]
+        change = np.concatenate([ends[0].k, ends[0].chi]) - np.concatenate([ends[1].k, ends[1].chi])
+        square += (change / (2 * _STEP)) ** 2
     result: Array = np.sqrt(square)
     return result
 
