@@ -88,6 +88,17 @@ def test_a_cut_off_that_the_rate_lowers_is_told(
     assert told == [f"{run}: the cut-off is 6.75 Hz, the highest at 15 Hz, not {wanted} Hz"][: bool(wanted)]
 
 
+def test_rows_with_a_torque_that_is_cut_off_do_not_count(links: Regressors, tmp_path: Path) -> None:
+    """A clean run with one torque cut off at its 95 % quantile: what else is there gives the truth."""
+    whole = recorded(links, TRUTH)
+    limit = float(np.quantile(whole.columns["tau1"], 0.95))
+    cut = whole.with_columns(tau1=np.minimum(whole.columns["tau1"], limit)).save(tmp_path / "cut.csv")
+    options = Options(recipe=Recipe(dynamics=4.0))
+    found = identify(links.model.robot, [cut], options=options, regressors=links).full
+    assert {name: found.solution.values[name] for name in TRUTH} == pytest.approx(TRUTH, rel=2e-3, abs=0.02)
+    assert found.train.total.relative_to_mean < 0.1
+
+
 def test_rows_that_lost_samples_leave_out_are_told_from_slow_ones(links: Regressors, tmp_path: Path) -> None:
     """One sample in forty is lost, and the decimation's window is as wide."""
     whole = recorded(links, TRUTH, noise=0.01)
