@@ -7,7 +7,7 @@ rows of all joints.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -45,8 +45,9 @@ def bootstrapped(
     """
     if not problem.names:
         return solution
-    whitening = _whitening(problem, solution)
-    blocks = list(_blocks(solution, runs, rows, whitening).values())
+    scales = problem.scales(solution.sigma)
+    whitening = _whitening(problem, scales)
+    blocks = list(_blocks(solution, scales, runs, rows, whitening).values())
     count = len(blocks)
     G = np.array([one.G for one in blocks])
     g = np.array([one.g for one in blocks])
@@ -58,9 +59,9 @@ def bootstrapped(
     return replace(solution, covariance=whitening @ np.atleast_2d(np.cov(steps, rowvar=False)) @ whitening.T)
 
 
-def _whitening(problem: Problem, solution: Solution) -> Array:
+def _whitening(problem: Problem, scales: Mapping[int, float]) -> Array:
     """T (p x r) with unit normal equations in the r steps that the rows show of the parameters, chi = T step."""
-    stacked = [one.on(problem.names)[:, :-1] / solution.sigma[one.joint] for one in problem.factors]
+    stacked = [one.on(problem.names)[:, :-1] / scales[one.joint] for one in problem.factors]
     R = np.concatenate(stacked)
     size = np.linalg.norm(R, axis=0)
     scale = np.where(size > 0, size, 1.0)
@@ -70,7 +71,11 @@ def _whitening(problem: Problem, solution: Solution) -> Array:
 
 
 def _blocks(
-    solution: Solution, runs: Sequence[Observed], rows: Callable[[Observed], Iterable[Rows]], whitening: Array
+    solution: Solution,
+    scales: Mapping[int, float],
+    runs: Sequence[Observed],
+    rows: Callable[[Observed], Iterable[Rows]],
+    whitening: Array,
 ) -> dict[tuple[int, int], _Block]:
     """By run and number, all blocks of all runs."""
     duration = sum(run.sampled.motion.samples * run.sampled.run.period for run in runs)
@@ -82,11 +87,11 @@ def _blocks(
         for part in rows(run):
             error = part.errors(solution.values)
             mine = [k for k, name in enumerate(part.names) if name in place]
-            Q = part.W[:, mine] @ whitening[[place[part.names[k]] for k in mine]] / solution.sigma[part.joint]
+            Q = part.W[:, mine] @ whitening[[place[part.names[k]] for k in mine]] / scales[part.joint]
             numbers = ((part.t - run.sampled.run.start) / length).astype(int)
             for number in np.unique(numbers):
                 inside = numbers == number
                 block = result.setdefault((index, int(number)), _Block(np.zeros((rank, rank)), np.zeros(rank)))
                 block.G += Q[inside].T @ Q[inside]
-                block.g += Q[inside].T @ (error[inside] / solution.sigma[part.joint])
+                block.g += Q[inside].T @ (error[inside] / scales[part.joint])
     return result

@@ -26,7 +26,7 @@ from identification.outcome import LIMIT
 from identification.own_load import settled
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.sampling import Sampled, sampled
 from identification.shared_samples import unshared
 from identification.sidecar import Payload, check_carried
@@ -131,7 +131,7 @@ def drive_gains(
     constants = {m: (float(found.fit.k[m]), found.gain_std(m)) for m in range(len(N)) if m not in found.refused}
     share = {m: abs(found.from_payload[m] / value) if value else 0.0 for m, (value, _) in constants.items()}
     residuals = _residuals(found.fit, found.parts)
-    notes = [*(note for run in runs for note in run.notes), *told, *_doubts(residuals, constants, robot)]
+    notes = [*(note for run in runs for note in notes_of(run, recipe)), *told, *_doubts(residuals, constants, robot)]
     return DriveGains(
         regressors=regressors,
         recipe=recipe,
@@ -255,7 +255,7 @@ def _known(runs: Sequence[Run]) -> dict[str, float]:
 def _parts(
     rows: Observations, names: Sequence[str], left_out: Mapping[int, str], more: Mapping[str, float]
 ) -> list[Part]:
-    """The rows with the payloads' known values, plus ``more`` by stem, in w."""
+    """The rows with the payloads' known values, plus ``more`` by parameter name, in w."""
     result = []
     every = _known([one.run for one, _ in rows])
     free = np.array([name not in every for name in names])
@@ -263,8 +263,8 @@ def _parts(
         known = np.zeros(len(names))
         payload = one.run.payload
         if payload is not None:
-            for stem, value in payload.known.items():
-                known[names.index(payload.names()[stem])] = value + more.get(stem, 0.0)
+            for name, value in payload.fixed.items():
+                known[names.index(name)] = value + more.get(name, 0.0)
         for motor in each:
             if motor.motor not in left_out:
                 result.append(Part(motor.motor, motor.B * free, motor.B @ known, motor.i))
@@ -279,7 +279,9 @@ def _observable(
     too_loose = False
     for m in range(n):
         if not any(len(each[m].i) for _, each in rows):
-            refused[m] = "it has no rows: its joint is never faster than the standstill threshold"
+            spoiled = any(one.spoiled(m) for one, _ in rows)
+            slow = "its joint is never faster than the standstill threshold"
+            refused[m] = f"it has no rows: {'each would hold a sample that was lost or cut off' if spoiled else slow}"
     while len(refused) < n:
         parts = _parts(rows, names, refused, {})
         fit = solve(parts, n)
@@ -320,13 +322,14 @@ def _relative(fit: Fit, more: Array) -> Array:
 def _of_payload(
     rows: Observations, names: Sequence[str], fit: Fit, refused: Mapping[int, str], stds: Mapping[str, float]
 ) -> Array:
-    """Standard deviations of [k, chi] that come from those of the payload's known values."""
+    """Standard deviations of [k, chi] that come from those of the payloads' known values, each on its own."""
     square = np.zeros(len(fit.k) + len(fit.chi))
-    for stem, std in stds.items():
-        if std:
-            ends = [solve(_parts(rows, names, refused, {stem: sign * _STEP * std}), len(fit.k)) for sign in (1, -1)]
-            change = np.concatenate([ends[0].k, ends[0].chi]) - np.concatenate([ends[1].k, ends[1].chi])
-            square += (change / (2 * _STEP)) ** 2
+    payloads = [one.run.payload for one, _ in rows if one.run.payload is not None]
+    by_name = {payload.names()[stem]: std for payload in payloads for stem, std in stds.items() if std}
+    for name, std in by_name.items():
+        ends = [solve(_parts(rows, names, refused, {name: sign * _STEP * std}), len(fit.k)) for sign in (1, -1)]
+        change = np.concatenate([ends[0].k, ends[0].chi]) - np.concatenate([ends[1].k, ends[1].chi])
+        square += (change / (2 * _STEP)) ** 2
     result: Array = np.sqrt(square)
     return result
 

@@ -29,7 +29,7 @@ from identification.observation import generated_module
 from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
 from identification.signals import EFFORTS, WRENCH, NoColumns
 from identification.torque_constants import Turning
@@ -114,7 +114,7 @@ def force_steps(
         notes.append("torque constants without the rotors' acceleration: no inertia Iam or Ia was given")
     found = {j: one.value for j in robot.numbers if (one := kt.get(f"kt{j}")) and one.value is not None}
     notes += torque_constants.doubts(found, stated_constants(robot), "the wrench or the currents of the other sign")
-    notes = [note for run, _ in runs for note in run.notes] + notes
+    notes = [note for run, _ in runs for note in notes_of(run, recipe)] + notes
     return ForceSteps(robot, poses, components, stiffness, kt, residuals, motor_residuals, tuple(notes))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from generator.errors import InputError, Place
+from generator.errors import InputError
 from generator.review.words import listed
 from generator.robot.description import Robot
 from identification import recipe as recipes
@@ -23,8 +23,8 @@ from identification.own_load import under_own_load
 from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
-from identification.run_filters import filters_of
-from identification.sampling import Rows, sampled
+from identification.run_filters import filters_of, notes_of
+from identification.sampling import Rows, Sampled, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload, check_carried
@@ -127,7 +127,7 @@ def identify(
     if regressors is not given:
         trained, tried = (tuple(Observed(one.sampled, regressors) for one in runs) for runs in (trained, tried))
     factors, tests = _added(trained), _added(tried)
-    _check_rows(factors, place)
+    _check_rows(factors, sampled_runs)
     problem, told = _separable(posed(factors), _payloads(trained))
     notes += told
     problem, solution, told = _solved(problem, trained, options)
@@ -178,11 +178,16 @@ def _known_payloads(trained: Sequence[Observed], tried: Sequence[Observed]) -> d
     return result
 
 
-def _check_rows(factors: Sequence[Factor], place: Place) -> None:
+def _check_rows(factors: Sequence[Factor], runs: Sequence[Sampled]) -> None:
     """Raises InputError where no joint has a row."""
-    if not any(one.rows for one in factors):
-        slow = "no row is left: joints are never faster than the standstill threshold, or their efforts are cut off"
-        raise InputError(place, slow, "faster motion, a smaller threshold, lower efforts")
+    if any(one.rows for one in factors):
+        return
+    place = runs[0].run.place
+    if any(run.spoiled(one.joint) for run in runs for one in factors):
+        spoiled = "no row is left: each would hold a sample that was lost or cut off"
+        raise InputError(place, spoiled, "longer stretches without any, a smaller factor")
+    slow = "no row is left: joints are never faster than the standstill threshold"
+    raise InputError(place, slow, "faster motion, a smaller threshold")
 
 
 def _problem(
@@ -246,23 +251,22 @@ def _estimate(problem: Problem, solution: Solution, train: Sequence[Factor], tes
 
 
 def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
-    notes = list(one.sampled.run.notes)
+    notes = notes_of(one.sampled.run, recipe)
     name = one.sampled.run.name
-    cutoff = one.sampled.filters.cutoff
-    if recipe.cutoff is not None and cutoff < recipe.cutoff:
-        rate = f"the highest at {one.sampled.run.rate:.6g} Hz"
-        notes.append(f"{name}: the cut-off is {cutoff:.6g} Hz, {rate}, not {recipe.cutoff:g} Hz")
-    slow = []
+    slow, spoiled = list[str](), list[str]()
     for factor in one.factors:
         number, still = robot.moving[factor.joint].number, factor.joint in one.sampled.still
         if still:
             rows = "" if factor.rows else ", and its dry friction may be any: it has no rows"
             notes.append(f"{name}: joint {number} stands still; its speed was taken as zero{rows}")
         elif not factor.rows:
-            slow.append(f"joint {number}")
+            (spoiled if one.sampled.spoiled(factor.joint) else slow).append(f"joint {number}")
     if slow:
         verb, they_have = ("is", "it has") if len(slow) == 1 else ("are", "they have")
         notes.append(f"{name}: {listed(slow)} {verb} never faster than the standstill threshold; {they_have} no rows")
+    if spoiled:
+        verb = "has" if len(spoiled) == 1 else "have"
+        notes.append(f"{name}: {listed(spoiled)} {verb} no rows: each would hold a sample that was lost or cut off")
     return notes
 
 

@@ -88,6 +88,10 @@ class Problem:
         """Whether ``others`` explain all that ``name`` would, so that nothing is lost where it is zero."""
         return name in replace(self, names=(*others, name)).solve().hidden
 
+    def scales(self, sigma: Mapping[int, float]) -> Mapping[int, float]:
+        """What the rows are divided by, by joint: ``sigma`` [N m, N] where they are weighted, else 1."""
+        return sigma if self.weighted else dict.fromkeys(sigma, 1.0)
+
     def solve(self) -> Solution:
         """Ordinary least squares, or weighted by each joint's own residual (report eq. 39-45)."""
         stacked = {one.joint: self._reduced(one) for one in self.factors}
@@ -103,19 +107,22 @@ class Problem:
         return self._solution(solved, ordinary, sigma, variance)
 
     def foreseen(self, truth: Mapping[str, float], sigma: Mapping[int, float]) -> Solution:
-        """What ``solve`` tells of rows whose torques are those of ``truth`` with residuals of std ``sigma`` by joint.
+        """What ``solve`` finds over rows whose torques are those of ``truth`` with residuals of std ``sigma`` by joint.
 
-        The torques of the factors themselves do not count.
+        The covariance is how estimates scatter from one draw of the residuals to the next: where rows are not weighted,
+        each joint's residuals count with their own variance. The torques of the factors themselves do not count.
         """
         exact = replace(self, factors=tuple(one.with_torques(truth) for one in self.factors))
         stacked = {one.joint: exact._reduced(one) for one in exact.factors}
-        ordinary = solved = _Solved.of(np.concatenate(list(stacked.values())))
-        rows = {one.joint: one.rows for one in self.factors}
-        variance = sum(rows[joint] * sigma[joint] ** 2 for joint in rows) / max(sum(rows.values()), 1)
-        if self.weighted:
-            solved = _Solved.of(np.concatenate([R / sigma[joint] for joint, R in stacked.items()]))
-            variance = 1.0
-        return replace(exact._solution(solved, ordinary, sigma, variance), values=truth)
+        ordinary = _Solved.of(np.concatenate(list(stacked.values())))
+        scales = self.scales(sigma)
+        solved = _Solved.of(np.concatenate([R / scales[joint] for joint, R in stacked.items()]))
+        # chi = inverse W^T Y: what one unit of each row's residual moves, in units of its std.
+        rows = [R[:, :-1] * (sigma[joint] / scales[joint] ** 2) for joint, R in stacked.items()]
+        moved = np.concatenate(rows) @ solved.inverse
+        return replace(
+            exact._solution(solved, ordinary, sigma, 1.0), values=truth, covariance=np.asarray(moved.T @ moved)
+        )
 
     def _reduced(self, one: Factor) -> Array:
         """[R z] of the free parameters, the fixed ones' part taken from z."""

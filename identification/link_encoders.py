@@ -28,7 +28,7 @@ from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
 
 RECIPE = Recipe()
@@ -124,7 +124,7 @@ def of_runs(
     unshared({"fit": runs})
     filters = [filters_of(run, recipe) for run in runs]
     latency, stiffness, mistaken, residuals, kept = {}, {}, {}, {}, {}
-    notes = [note for run in runs for note in run.notes]
+    notes = [note for run in runs for note in notes_of(run, recipe)]
     for k, joint in enumerate(robot.moving):
         mine = [(run, one) for run, one in zip(runs, filters, strict=True) if f"qs{joint.number}" in run.others]
         if not mine:

@@ -25,7 +25,7 @@ from identification.least_squares import Problem, Solution
 from identification.outcome import LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
-from identification.run_filters import filters_of
+from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
 
 #: The decimation passes twice the dynamics. The report's passes 1 Hz, which cannot tell Iam qdd from k q.
@@ -109,7 +109,7 @@ def locked_output(
         problem_text = f"{name} comes out negative: the torque falls as the motor turns on"
         raise InputError(found[0][0].place, problem_text, f"torque and position of joint {number} with one sign")
     full = {one: _shown(value) for one, value in full.items()}
-    notes = [note for run, _ in found for note in run.notes]
+    notes = [note for run, _ in found for note in notes_of(run, recipe)]
     ways = [float(np.ptp(run.q[k])) for run, _ in found]
     notes += [
         f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of {name}"

@@ -66,6 +66,11 @@ class Recipe:
         return replace(self, **{name: value for name, value in values.items() if value is not None})  # type: ignore[arg-type]
 
     @property
+    def wanted_cutoff(self) -> float:
+        """Cut-off of the Butterworth filter [Hz] at rates that do not limit it."""
+        return self.cutoff or _CUTOFF * self.dynamics
+
+    @property
     def slowest(self) -> float:
         """Sampling rate [Hz] below which a run does not hold the motion's dynamics."""
         return min(self.dynamics, self.cutoff or self.dynamics) / _HIGHEST
@@ -78,7 +83,7 @@ class Recipe:
 
     def at(self, rate: float) -> Filters:
         """The filters for runs sampled at ``rate`` [Hz]."""
-        cutoff = min(self.cutoff or _CUTOFF * self.dynamics, _HIGHEST * rate)
+        cutoff = min(self.wanted_cutoff, _HIGHEST * rate)
         factor = self.factor or possible_factor(rate / (_RATE * self.dynamics))
         ends = round(_ENDS * rate / cutoff)
         first = ends if self.dropped_first is None else self.dropped_first

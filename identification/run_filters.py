@@ -1,4 +1,4 @@
-"""The filters of one run, where it is long and fast enough for them."""
+"""The filters of one run, where it is long and fast enough for them, and what is to be told of both."""
 
 from __future__ import annotations
 
@@ -26,3 +26,12 @@ def fast_enough(run: Run, recipe: Recipe) -> None:
     if run.rate < recipe.slowest:
         problem = f"one sample in {run.period:.4g} s ({run.rate:.4g} Hz)"
         raise InputError(run.place, problem, f"at least {recipe.slowest:.3g} Hz; are the times in s?")
+
+
+def notes_of(run: Run, recipe: Recipe) -> list[str]:
+    """What is to be told of the run, and of a cut-off that its rate lowers."""
+    cutoff = recipe.at(run.rate).cutoff
+    if cutoff == recipe.wanted_cutoff:
+        return [*run.notes]
+    limit = f"the highest at {run.rate:.6g} Hz, not {recipe.wanted_cutoff:g} Hz"
+    return [*run.notes, f"{run.name}: the cut-off is {cutoff:.6g} Hz, {limit}"]

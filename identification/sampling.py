@@ -45,6 +45,7 @@ class Rows:
 class Sampled:
     """A run ready to be observed: its filtered motion, without the ends; ``still`` are joints without motion.
 
+    Of samples (n x N) near standstill, ``slow``, and of all that are ``left_out``, no row is made.
     ``head`` are the speeds (n x h) [rad/s, m/s] before it, since the run began: states inside effects remember them.
     """
 
@@ -52,6 +53,7 @@ class Sampled:
     filters: Filters
     motion: Motion
     tau: Array
+    slow: NDArray[np.bool_]
     left_out: NDArray[np.bool_]
     still: tuple[int, ...]
     head: Array
@@ -61,6 +63,11 @@ class Sampled:
         """Times of the samples [s] (N)."""
         numbers: Array = np.arange(self.filters.first, self.filters.first + self.motion.samples, dtype=float)
         return self.run.start + self.run.period * numbers
+
+    def spoiled(self, k: int) -> bool:
+        """Whether joint k, fast enough for rows, has none because of samples that were lost or cut off."""
+        rows, fast = (kept_rows(out[k], self.filters.factor).any() for out in (self.left_out, self.slow))
+        return bool(fast and not rows)
 
 
 def sampled(
@@ -80,15 +87,14 @@ def sampled(
     qd = rate(q, run.period)
     qdd = rate(qd, run.period)
     inner = filters.inner(run.samples)
-    slow = recipe.standstills(regressors.model.robot)
-    still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= slow[k])
+    limits = recipe.standstills(regressors.model.robot)
+    still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= limits[k])
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
     motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)
-    left_out = standing(regressors.signs, motion.qd, slow)
-    if run.unusable is not None:
-        left_out |= run.unusable[:, inner]
-    result = Sampled(run, filters, motion, run.tau[:, inner], left_out, still, qd[:, : inner.start])
+    slow = standing(regressors.signs, motion.qd, limits)
+    left_out = slow if run.unusable is None else slow | run.unusable[:, inner]
+    result = Sampled(run, filters, motion, run.tau[:, inner], slow, left_out, still, qd[:, : inner.start])
     _check_defined(result, regressors)
     return result
 

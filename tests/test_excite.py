@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +12,24 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from generator.errors import Place
 from generator.robot.readers import read
+from identification.dataset import Run
 from identification.excitation.design import improved
+from identification.excitation.expectation import expected
+from identification.excitation.noise import Noise
+from identification.factors import factors
 from identification.inverse_model import Options, identify
+from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
 from identification.readers import csv
 from identification.recipe import Recipe
+from identification.sampling import rows_of, sampled
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import PENDULUM, command
-from tests.recorded import TRUTH, TWO_LINKS, parameters_text
+from tests.recorded import TRUTH, TWO_LINKS, fourier, parameters_text, regressors
 from tests.scattering import squares
 
 Array = NDArray[np.float64]
@@ -144,6 +152,23 @@ def test_the_expected_deviations_are_those_of_repeated_runs(machine: Machine, fo
     scattered = squares(errors, std)
     # All together: the ratio of variances is 1 within what 13 parameters, as good as 5 independent ones, allow.
     assert scattered.mean() / (count - 1) == pytest.approx(1.0, abs=4 * np.sqrt(2 / (5 * (count - 1))))
+
+
+def test_ordinary_least_squares_are_expected_to_scatter_as_they_do() -> None:
+    """Joints of very unequal noise, whose rows count alike: estimates from drawn rows are the judge."""
+    arm, names, noise = regressors("tilted_two_link"), regressors("tilted_two_link").names, np.array([60.0, 0.6])
+    _, motion = fourier(arm.model.robot, 20.0, 200.0)
+    recipe = Recipe(weights="none")
+    foreseen = expected(motion, 200.0, arm, recipe, dict.fromkeys(names, 3.0), Noise(noise, np.zeros(2)))
+    still = Run("designed", Place("designed"), 0.0, 1 / 200.0, motion.q, np.zeros_like(motion.q))
+    rows, factor = [*rows_of(sampled(still, recipe, arm), arm)], recipe.at(200.0).factor
+    draw = np.random.default_rng(3)
+    errors = []
+    for _ in range(60):
+        noisy = [replace(one, Y=noise[one.joint] / np.sqrt(factor) * draw.normal(size=len(one.Y))) for one in rows]
+        found = Problem(factors(noisy), names, {}, weighted=False).solve()
+        errors.append([found.values[name] for name in names])
+    squares(errors, np.array([foreseen.std(name) for name in names]))
 
 
 def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

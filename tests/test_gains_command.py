@@ -157,6 +157,26 @@ def test_a_payload_that_is_not_exact_enough_shows_no_gain(arm: Regressors, tmp_p
         drive_gains(robot, empty, loaded, payload, {"M": 3.0}, regressors=arm)
 
 
+def test_what_several_payloads_owe_is_independent(arm: Regressors, tmp_path: Path) -> None:
+    """Against gains from sidecars that tell one mass or the other 0.1 kg larger and smaller."""
+    found(arm, tmp_path)
+    empty, loaded = str(tmp_path / "a.csv"), [str(tmp_path / name) for name in ("b.csv", "c.csv")]
+    t, motion, _ = currents(arm, 3, False)
+    tau = arm.torques(truth(arm), motion) + np.array([1.5 * PAYLOAD @ W for W in arm.payload(motion)])
+    saved(Path(loaded[1]), t, motion, np.linalg.solve(N.T, tau) / KT[:, None], 0.02, 7)
+
+    def gains(*masses: float) -> DriveGains:
+        for name, mass in zip("bc", masses, strict=True):
+            (tmp_path / f"{name}.yaml").write_text(f"payload: {{name: {name.upper()}, M: {mass} kg}}\n")
+        return drive_gains(arm.model.robot, [empty], loaded, payload_std={"M": 0.1}, regressors=arm)
+
+    masses = ((20.1, 30.0), (19.9, 30.0), (20.0, 30.1), (20.0, 29.9))
+    ends = [np.array([gains(*pair).constants[m][0] for m in range(3)]) for pair in masses]
+    by_value = np.hypot(ends[0] - ends[1], ends[2] - ends[3]) / 2 / KT
+    share = gains(20, 30).payload_share
+    assert [share[m] for m in range(3)] == pytest.approx(by_value, rel=0.05)
+
+
 def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found(arm, tmp_path)
     robot = Path(arm.model.robot.place.file)

@@ -90,6 +90,46 @@ def test_runs_without_a_row_are_refused(links: Regressors, tmp_path: Path) -> No
         identify(links.model.robot, [path], options=Options(Recipe(dynamics=4.0, standstill=100.0)), regressors=links)
 
 
+@pytest.mark.parametrize(("recipe", "wanted"), [(Recipe(), 10), (Recipe(dynamics=4.0), 20), (Recipe(cutoff=6.75), 0)])
+def test_a_cut_off_that_the_rate_lowers_is_told(
+    recipe: Recipe, wanted: float, links: Regressors, tmp_path: Path
+) -> None:
+    """To 0.45 of it: also that which follows from the dynamics."""
+    run = recorded(links, TRUTH, rate=15.0, duration=60.0, noise=0.01).save(tmp_path / "coarse.csv")
+    found = identify(links.model.robot, [run], options=Options(recipe), regressors=links)
+    told = [note for note in found.notes if "cut-off" in note]
+    assert told == [f"{run}: the cut-off is 6.75 Hz, the highest at 15 Hz, not {wanted} Hz"][: bool(wanted)]
+
+
+def test_rows_with_a_torque_that_is_cut_off_do_not_count(links: Regressors, tmp_path: Path) -> None:
+    """A clean run with one torque cut off at its 95 % quantile: what else is there gives the truth."""
+    whole = recorded(links, TRUTH)
+    limit = float(np.quantile(whole.columns["tau1"], 0.95))
+    cut = whole.with_columns(tau1=np.minimum(whole.columns["tau1"], limit)).save(tmp_path / "cut.csv")
+    options = Options(recipe=Recipe(dynamics=4.0))
+    found = identify(links.model.robot, [cut], options=options, regressors=links).full
+    assert {name: found.solution.values[name] for name in TRUTH} == pytest.approx(TRUTH, rel=2e-3, abs=0.02)
+    assert found.train.total.relative_to_mean < 0.1
+
+
+def test_rows_that_lost_samples_leave_out_are_told_from_slow_ones(links: Regressors, tmp_path: Path) -> None:
+    """One sample in forty is lost, and the decimation's window is as wide."""
+    whole = recorded(links, TRUTH, noise=0.01)
+    kept = np.arange(4000) % 40 != 20
+    lost = Recorded({name: values[kept] for name, values in whole.columns.items()}).save(tmp_path / "lost.csv")
+    options = Options(Recipe(dynamics=4.0, factor=20))
+    with pytest.raises(
+        InputError, match=r"lost.csv:1:1: no row is left: each would hold a sample that was lost or cut"
+    ):
+        identify(links.model.robot, [lost], options=options, regressors=links)
+    found = identify(links.model.robot, [lost, whole.save(tmp_path / "whole.csv")], options=options, regressors=links)
+    told = f"{lost}: joint 1 and joint 2 have no rows: each would hold a sample that was lost or cut off"
+    assert found.notes[1:] == (told,)
+    # Ten samples to either side fit between two of the lost ones.
+    options = Options(Recipe(dynamics=4.0, factor=10))
+    assert identify(links.model.robot, [lost], options=options, regressors=links).full.train.total.rows > 0
+
+
 def test_runs_are_long_enough_for_every_stage_of_the_decimation(links: Regressors, tmp_path: Path) -> None:
     """Factors of 20 and 14 have two stages, the second of which needs 25 rows of the first."""
     for rate, factor in ((200.0, 20), (140.0, 14)):
@@ -131,6 +171,30 @@ def test_the_set_makes_the_torques_of_runs_that_show_parameters_only_in_sums(lin
     played = {name: written[name].value if name in written else 0.0 for name in TRUTH}
     torque = links.torques(TRUTH, other)[0]
     assert np.abs(links.torques(played, other)[0] - torque).max() < 0.01 * torque.std()
+
+
+def test_every_run_is_tried_with_other_filters_than_its_own(links: Regressors, tmp_path: Path) -> None:
+    """Runs at two rates, whose factors differ: which comes first does not matter."""
+    runs = [
+        recorded(links, TRUTH, rate=rate, seed=seed, noise=0.05).save(tmp_path / f"{rate:g}.csv")
+        for seed, rate in enumerate((400.0, 100.0), 1)
+    ]
+    found = identify(links.model.robot, runs, options=Options(PLAIN), regressors=links)
+    tried, _ = sensitivity(found, runs)
+    again, _ = sensitivity(
+        identify(links.model.robot, runs[::-1], options=Options(PLAIN), regressors=links), runs[::-1]
+    )
+    assert [one.value for one in tried] == [10.0, 40.0, 10.0, 40.0]
+    assert [one.value for one in again] == [10.0, 40.0, 2.0, 10.0]
+    assert [one.parameter for one in again] == [one.parameter for one in tried]
+    assert [one.change for one in again] == pytest.approx([one.change for one in tried], rel=1e-6)
+    # Half the cut-off of 20 Hz written out; factors follow from the rates.
+    half = identify(
+        links.model.robot, runs, options=Options(PLAIN.changed(cutoff=10.0)), regressors=links
+    ).full.solution
+    own = found.full.solution
+    moved = {name: abs(half.values[name] - own.values[name]) / own.std(name) for name in TRUTH}
+    assert tried[0].change == pytest.approx(max(moved.values()), rel=1e-6)
 
 
 def test_all_parameters_may_be_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

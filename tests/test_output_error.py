@@ -352,7 +352,7 @@ def test_what_cannot_be_used_is_refused(machine: Machine, record: Callable[..., 
         ("segments of 0.01 s, expected at least 0.08 s", lambda: experiment(run, machine.robot, Recipe(), 0.01)),
         ("900 rows, expected at least 2000 for the filters", lambda: experiment(short, machine.robot, Recipe(), 1.0)),
         (
-            "torques are cut off in every segment",
+            "every segment holds a sample that was lost or cut off",
             lambda: experiment(cut_off, machine.robot, Recipe(), 1.0),
         ),
         (

@@ -18,7 +18,7 @@ from generator.review.page import sections
 from identification.observation import Motion
 from identification.report import series
 from identification.report.identify.report import report
-from identification.report.identify.sections import condition, summary
+from identification.report.identify.sections import condition, runs, summary
 from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, Subject
 from identification.report.numbers import plain
 from identification.report.welch import spectrum
@@ -82,6 +82,20 @@ def test_a_report_says_what_the_results_say(written: dict[str, bytes], subject: 
                 assert f'value="{one["norm"]!r}"' in text
                 assert f'value="{one["relative_percent"]!r}"' in text
                 assert f'value="{one["relative_to_mean_percent"]!r}"' in text
+
+
+def test_the_elimination_tells_where_it_ended(subject: Subject) -> None:
+    """A ratio that the growth limit keeps from being reached is not said to be."""
+    best = subject.results["essential"]
+    found = [one["relative_std_percent"] for one in best["parameters"].values() if one["std"]]
+    text = str(runs.render(subject))
+    assert best["ratio"] == 30
+    assert "is below 30 or the residual would grow by more than 4 % (report eq. 47)" in text
+    reached = re.search(r"eq. 47\): it is ([0-9.e+]+)", text)
+    assert reached is not None
+    assert float(reached[1]) == pytest.approx(max(found) / min(found), rel=0.01)
+    asked = replace(subject, results={**subject.results, "essential": {**best, "ratio": 15.0, "growth": float("inf")}})
+    assert "is below 15 (report eq. 47): it is" in str(runs.render(asked))
 
 
 def test_output_error_shows_what_the_simulation_misses(written: dict[str, bytes]) -> None:

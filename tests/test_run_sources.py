@@ -12,7 +12,7 @@ from pyarrow import parquet
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification import sidecar
+from identification import recipe, sidecar
 from identification.dataset import load
 from identification.run_source import RunSource, part_of
 from tests.commands import PENDULUM, command
@@ -28,6 +28,15 @@ def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
         load(f"{path}@20:", robot)
     with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
         load(f"{path}@2:x", robot)
+
+
+def test_each_formula_of_a_recipe_is_used_where_it_can_be(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    (tmp_path / "recipe.yaml").write_text("columns: {q1: a1 * pi / 180, q2: 2 * q1, temp1: warmth + 273}\n")
+    named = good.without("q1").with_columns(a1=np.degrees(good.columns["q1"]))
+    run = load(str(named.save(tmp_path / "a.csv")), robot, recipe.read(tmp_path / "recipe.yaml").columns)
+    assert run.q[0] == pytest.approx(good.columns["q1"], abs=1e-12)
+    assert run.q[1].tolist() == good.columns["q2"].tolist()
+    assert "temp1" not in run.others
 
 
 @pytest.mark.parametrize("first", [0.0, 1700000000.0])

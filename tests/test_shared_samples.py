@@ -36,6 +36,16 @@ def test_a_copy_with_other_line_ends_and_digits_shares_samples(noisy: Recorded, 
     assert told.startswith("copy.csv@2:5 tests what is fitted in a.csv, from 2 s to 5 s")
 
 
+def test_parts_that_touch_do_not_and_parts_that_overlap_by_two_periods_do(
+    noisy: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    """One sample at the joint of two parts belongs to both."""
+    path = noisy.save(tmp_path / "a.csv")
+    unshared({"fit": [load(f"{path}@:4", robot), load(f"{path}@4:", robot)]})
+    with pytest.raises(InputError, match=r"its samples from 4 s to 4.01 s fit in a.csv"):
+        unshared({"fit": [load(f"{path}@:4.01", robot), load(f"{path}@4:", robot)]})
+
+
 def test_the_same_motion_once_more_does_not(noisy: Recorded, robot: Robot, tmp_path: Path) -> None:
     draw = np.random.default_rng(2)
     again = {name: noisy.columns[name] + 0.1 * draw.normal(size=1600) for name in ("tau1", "tau2")}

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from generator.errors import InputError
 from generator.resources import find_robot
@@ -35,8 +36,11 @@ IA = np.array([4000.0, 4000.0, 3500.0, 300.0, 500.0, 200.0])
 LOCKED = {"Iam2": 900.0, "Fvm2": 8.0e3, "Fcm2": 60.0, "k2": 1.9e6, "Offk2": 2.85e6 + 300.0}
 
 
-def blocked(path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0) -> str:
-    """A motor that goes slowly to and fro by a few mrad, up to some kN m; the other joints stand and hum."""
+def blocked(path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0, colour: float = 0.0) -> str:
+    """A motor that goes slowly to and fro by a few mrad, up to some kN m; the other joints stand and hum.
+
+    Of noise that is coloured, each sample has so much of the one before.
+    """
     draw = np.random.default_rng(seed)
     t = np.arange(round(60 * RATE)) / RATE
     w = 2 * np.pi * 0.15
@@ -46,7 +50,7 @@ def blocked(path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.
     q, tau = np.zeros((6, len(t))), draw.normal(scale=5.0, size=(6, len(t)))
     q[1] = -1.5 + x
     tau[1] = 900 * a + 8e3 * v + 60 * np.sign(v) + 1.9e6 * q[1] + LOCKED["Offk2"] + balancer
-    tau[1] += draw.normal(scale=noise, size=len(t))
+    tau[1] += lfilter([1.0], [1.0, -colour], draw.normal(scale=noise, size=len(t)))
     columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"tau{j + 1}": tau[j] for j in range(6)}
     return str(Recorded(columns).save(path))
 
@@ -83,14 +87,19 @@ def test_a_motor_slower_than_a_fifth_of_its_largest_speed_tells_nothing(tmp_path
     assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
 
 
-def test_blocked_output_lies_within_its_stated_uncertainty(tmp_path: Path) -> None:
+@pytest.mark.parametrize("colour", [0.0, 0.95])
+def test_blocked_output_lies_within_its_stated_uncertainty(colour: float, tmp_path: Path) -> None:
+    """Also where noise lasts for a fifth of a second, beside motions of seconds."""
+
     def deviation(found: LockedOutput, name: str) -> float:
         one = found.values[name]
         assert one.value is not None
         return (one.value - LOCKED[name]) / one.std
 
     path = tmp_path / "a.csv"
-    all_of = [locked_output(ROBOT, 2, [blocked(path, seed)]) for seed in range(20)]
+    all_of = [
+        locked_output(ROBOT, 2, [blocked(path, seed, noise=40.0 * (1 - colour), colour=colour)]) for seed in range(20)
+    ]
     deviations = [deviation(one, name) for one in all_of for name in ("k2", "Fvm2")]
     assert 0.8 <= np.mean(np.abs(deviations) < 2) <= 1
     assert np.std(deviations) == pytest.approx(1.0, abs=0.35)

@@ -86,7 +86,11 @@ def experiment(run: Run, robot: Robot, recipe: Recipe, segment: float | None, fi
     cut = np.zeros(run.q.shape) if run.unusable is None else run.unusable.astype(float)
     used = _segments(cut[:, inner], count, length).max(axis=(1, 2)) == 0
     if not used.any():
-        raise InputError(run.place, "torques are cut off in every segment", "a run below the limits")
+        raise InputError(
+            run.place,
+            "every segment holds a sample that was lost or cut off",
+            "a run below the limits, or shorter segments",
+        )
     tau, q, q_smooth, qd = (np.ascontiguousarray(part[used]) for part in parts)
     return Experiment(
         run=run,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from generator.review.markup import Content, Markup, element, join, table
 from identification.report.identify.subject import Subject
 from identification.report.numbers import plain
@@ -21,11 +23,23 @@ def render(subject: Subject) -> Markup:
         "std": method["std"],
         "residual variance": method["residual_variance"],
         "standstill": f"rows of joints slower than {_slowest(subject)} are left out",
-        "essential": f"ratio of relative standard deviations below {results['essential']['ratio']:g} (report eq. 47)",
+        "essential": _elimination(subject),
         "given": ", ".join(f"{name} = {plain(value, 6)}" for name, value in method["fixed"].items()) or "nothing",
     }
     kinds = {"fitted": results["data"]["train"], "held out": results["data"]["test"]}
     return join(runs_table(kinds), element("h3", "Method"), facts(about), _sensitivity(subject))
+
+
+def _elimination(subject: Subject) -> str:
+    """The rule by which parameters were taken away, and the ratio of relative standard deviations that it reached."""
+    asked, best = subject.results["essential"], subject.found.essential
+    relative = [best.solution.relative_std(name) for name in best.sought]
+    growth = f" or the residual would grow by more than {100 * asked['growth']:g} %" if asked["growth"] < np.inf else ""
+    smallest, largest = min(relative, default=0.0), max(relative, default=0.0)
+    reached = f": it is {plain(largest / smallest, 3)}" if smallest > 0 else ""
+    return (
+        f"until the ratio of relative standard deviations is below {asked['ratio']:g}{growth} (report eq. 47){reached}"
+    )
 
 
 def _slowest(subject: Subject) -> str:

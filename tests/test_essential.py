@@ -1,0 +1,36 @@
+"""Essential parameters: where the elimination ends, with the limits that are told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from identification.essential import GROWTH, RATIO, essential
+from identification.factors import factors
+from identification.least_squares import Problem
+from identification.sampling import Rows
+
+NAMES = ("a", "b")
+
+
+def orthogonal(b: float, noise: float) -> Problem:
+    """400 rows of two orthogonal unit columns with parameters 1 and ``b``, residuals of norm ``noise`` beside both."""
+    Q = np.linalg.qr(np.random.default_rng(0).normal(size=(400, 3)))[0]
+    rows = Rows(0, NAMES, Q[:, :2], Q @ [1.0, b, noise], np.arange(400.0))
+    return Problem(factors([rows]), NAMES, {}, weighted=True)
+
+
+@pytest.mark.parametrize(("growth", "kept"), [(0.035, NAMES[:1]), (0.045, NAMES)])
+def test_a_parameter_stays_that_makes_the_residual_grow_by_more_than_four_percent(
+    growth: float, kept: tuple[str, ...]
+) -> None:
+    """Without b the residual is sqrt(noise^2 + b^2), noise (1 + growth)."""
+    noise = 1e-3
+    problem = orthogonal(noise * np.sqrt((1 + growth) ** 2 - 1), noise)
+    assert essential(problem, RATIO, GROWTH)[0].names == kept
+
+
+@pytest.mark.parametrize(("ratio", "kept"), [(29.0, NAMES), (31.0, NAMES[:1])])
+def test_elimination_ends_below_a_ratio_of_thirty(ratio: float, kept: tuple[str, ...]) -> None:
+    """Columns of one length have one standard deviation: relative ones are as the inverse of the values."""
+    assert essential(orthogonal(1 / ratio, 1e-3))[0].names == kept
