@@ -99,6 +99,11 @@ def element(name: str) -> tuple[int, int] | None:
     return None if match is None else (int(match[1] or match[3]), int(match[2] or match[4]))
 
 
+def element_name(row: int, column: int) -> str:
+    """The name that ``element`` reads."""
+    return f"N{row}{column}" if max(row, column) < 10 else f"N{row}_{column}"
+
+
 def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
     pair = element(key.content)
     if pair is None:
