@@ -218,6 +218,13 @@ def test_the_other_joint_of_a_rotor_is_another_that_moves(other: int) -> None:
         effects_of(one_slide(EffectUse("coupled_rotor", (1,), values)))
 
 
+def test_a_rotor_that_the_other_joint_does_not_turn_is_its_own_joints_rotor() -> None:
+    values = {"other": Quantity(Integer(2), "1"), "ratio": Quantity(Integer(0), "1", Place("arm.yaml", 9, 5))}
+    two = (joint(1, REVOLUTE), joint(2, REVOLUTE, pi / 2))
+    with pytest.raises(InputError, match=r"^arm.yaml:9:5: ratio is 0, expected a number other than zero$"):
+        effects_of(robot("arm", two, effects=(EffectUse("coupled_rotor", (1,), values),)))
+
+
 def test_a_rotor_that_bodies_imitate_by_symbolic_lengths_is_refused() -> None:
     values = {"other": Quantity(Integer(1), "1"), "ratio": Quantity(Rational(4, 5), "1")}
     joints = (joint(1, REVOLUTE), joint(2, PRISMATIC, pi / 2, d=symbol("a1")))

@@ -56,7 +56,8 @@ class Shape:
     through, from its middle, where it says "position", and ``within`` are ends between which it goes on from there in
     geometric steps; where ``whole`` nothing between whole numbers is a value, and
     where ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole
-    numbers is another effect. Of a ``scale`` any value will do where none is known: others count in units of it.
+    numbers is another effect. Of a ``scale`` any value will do where none is known: others count in units of it. One
+    that is ``nonzero`` may have either sign.
     """
 
     name: str
@@ -74,6 +75,7 @@ class Shape:
     several: int = 0
     exact: bool = False
     scale: bool = False
+    nonzero: bool = False
 
     def unit_on(self, joint: Joint) -> str:
         """The unit on this joint: ``prismatic``, if there is one, on a prismatic joint, else ``unit``."""

@@ -273,5 +273,7 @@ def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> N
         return
     if shape.lower is not None and not float(value) > shape.lower:
         raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
+    if shape.nonzero and value == 0:
+        raise InputError(place, f"{shape.name} is 0", "a number other than zero")
     if shape.upper is not None and not float(value) < shape.upper:
         raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {unit}")
