@@ -264,7 +264,7 @@ def test_what_loads_a_drive_and_what_does_not_are_not_grouped_under_friction_by_
     """An offset loads it, asymmetric dry friction does not, and the torque of both is the same."""
     model = arm(tmp_path, "offset", "", "asymmetric_coulomb")
     assert "Off1R" in {base.name for base in model.grouping.base}
-    told = "the torque of Fcn1 is one that Off1 make too, and friction by the load tells them apart"
+    told = "the torque of Fcn1 is one that Off1 makes too, and friction by the load tells them apart"
     with pytest.raises(InputError, match=told):
         arm(tmp_path, "offset", "", "asymmetric_coulomb", "load_friction")
 
