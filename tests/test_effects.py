@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from generator.derivation import derive
 from generator.effects.library import effects_of, library
 from generator.errors import InputError, Place
 from generator.reference.joint_effects import LAWS
+from generator.reference.law import At
 from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, Length, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
@@ -117,6 +119,16 @@ def test_gradual_friction_rises_from_rest(tmp_path: Path) -> None:
     assert torque(model, {"Fg1": 5}, qd=[0, 1e-4, 0.01, 1, -1]) == pytest.approx(
         [0, 5 * np.tanh(0.01), 5 * np.tanh(1), 5, -5]
     )
+
+
+@pytest.mark.parametrize("speed", [1e-9, 3e-7, 2.0, -2.0])
+def test_friction_of_the_lowest_speeds_has_its_second_law(speed: float) -> None:
+    """At 2 rad/s the ratio to the speed of 1e-7 rad/s is beyond what an exponential of decimals can be of."""
+    shape = {"v0": Decimal("1e-7"), "vs": Decimal("1e-7"), "exponent": Decimal(2)}
+    at = At(shape, Decimal(0), Decimal(speed), Decimal(0), Decimal(np.sign(speed)), Decimal(1))
+    (gradual,), (stribeck,) = (LAWS[name].torque(at) for name in ("gradual_friction", "stribeck_friction"))
+    assert float(gradual) == pytest.approx(np.tanh(speed / 1e-7), rel=1e-12)
+    assert float(stribeck) == pytest.approx(np.sign(speed) * np.exp(-((speed / 1e-7) ** 2)), rel=1e-12)
 
 
 def test_load_friction_is_a_part_of_the_load(tmp_path: Path) -> None:
