@@ -137,7 +137,7 @@ def _torque_constants(entry: Entry | None, moving: Sequence[int]) -> tuple[dict[
     unit = fields.text(keys.pop("unit").value, "unit of torque_constants", "N m/A")
     factor = parse_unit(unit.content, unit.place, "N m/A").factor
     if not factor.is_Rational:
-        raise InputError(unit.place, f"unit {unit.content} is no fraction of N m/A", "one such as N m/A or mN m/A")
+        raise InputError(unit.place, f"unit {unit.content} is no fraction of N m/A", "one such as N m/A or kN m/A")
     use = keys.pop("use")
     found = {
         identifier(Text(key, one.key), "torque constants"): _constants(one.value, key, factor, moving)
