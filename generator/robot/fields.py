@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 
 import sympy
@@ -56,8 +57,15 @@ def text(node: Node, what: str, expected: str = "a text") -> Text:
 
 
 def prose(entry: Entry | None, what: str) -> str:
-    """A text for people, its white space made single; empty where there is none."""
-    return "" if entry is None else " ".join(text(entry.value, what).content.split())
+    """A text for people, its white space made single; empty where there is none. Raises InputError for characters of
+    control and format, which change how others are shown.
+    """
+    line = "" if entry is None else " ".join(text(entry.value, what).content.split())
+    for character in line:
+        if entry is not None and unicodedata.category(character) in ("Cc", "Cf"):
+            problem = f"{what} holds U+{ord(character):04X}, a character of control or format"
+            raise InputError(entry.value.place, problem, "characters that are seen")
+    return line
 
 
 def integer(node: Node, what: str, expected: str = "an integer") -> int:
