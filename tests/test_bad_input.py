@@ -127,8 +127,9 @@ def test_control_characters(tmp_path: Path) -> None:
     assert _refusal(file) == f"{file}:2:1: not YAML: character 0, expected a robot file in YAML"
 
 
-def test_folder(tmp_path: Path) -> None:
-    folder = tmp_path / "arm.yaml"
+@pytest.mark.parametrize("name", ["arm.yaml", "arm"])
+def test_folder(name: str, tmp_path: Path) -> None:
+    folder = tmp_path / name
     folder.mkdir()
     assert _refusal(folder) == f"{folder}:1:1: this is a folder, expected a robot file"
 
