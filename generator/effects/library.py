@@ -13,7 +13,7 @@ from generator.discovery import modules
 from generator.effects.effect import Column, Effect, Positive, Shape, Site, State
 from generator.errors import InputError, Place
 from generator.robot.description import FIXED, EffectUse, Joint, Robot
-from generator.robot.fields import nearest
+from generator.robot.fields import check_size, nearest
 from generator.robot.parameters import Parameter
 
 
@@ -271,6 +271,7 @@ def _check_others(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) ->
 def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> None:
     if value == shape.default:
         return
+    check_size(place, shape.name, value, any_small=shape.lower is None and not shape.nonzero)
     if shape.lower is not None and not float(value) > shape.lower:
         raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
     if shape.nonzero and value == 0:
