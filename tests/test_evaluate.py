@@ -212,6 +212,16 @@ def test_refused(pendulum: Path, arguments: list[str], message: str, capsys: pyt
         ('{"ZZ1": {"value": 1, "relative_std": NaN}}', ":1:38: 'NaN' is not a finite number, expected a finite number"),
         ('{"ZZ1": {"value": 1, "unit": "kg m2", "note": [1]}}', ":1:47: note on ZZ1 is a list, expected a text"),
         ("[1, 2]", ":1:1: the parameter file is a list, expected a table with names as keys"),
+def test_a_balancer_that_is_grouped_with_the_bodies_has_no_force(
+    pendulum: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A spring from a point above the axis acts like the weight of the link."""
+    use = "  - {effect: spring_balancer, joint: 1, values: {d21: 0.3 m, d22: 80 mm, phi: 90 deg}}\n"
+    pendulum.write_text(PENDULUM.split("parameters:")[0] + use)
+    told = "pendulum has no quantity 'balancer': Kr1 is grouped into MX1R, expected "
+    assert told in refusal(pendulum, "balancer", "--q", "0", capsys=capsys)
+
+
         ('{"ZZ1": 1', ":1:10: not YAML: "),
     ],
 )

@@ -62,7 +62,9 @@ def _derived(robot: str, name: str) -> tuple[Model, Function]:
     model = derive(read(find_robot(robot)), names=(name,), check=False, plain=True)
     if name not in model.functions:
         known = [quantity.name for quantity in quantities().values() if quantity.applies(model)]
-        raise InputError(command_line(_COMMAND), f"{model.robot.name} has no quantity {name!r}", nearest(name, known))
+        why = quantities()[name].absence(model) if name in quantities() else ""
+        problem = f"{model.robot.name} has no quantity {name!r}" + (f": {why}" if why else "")
+        raise InputError(command_line(_COMMAND), problem, nearest(name, known))
     return model, model.functions[name]
 
 
