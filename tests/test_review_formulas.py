@@ -28,6 +28,7 @@ from tests.reviewed import value
 from tests.subject import Subject
 
 x, d2, d3, d10, rl4, phi, q2, fc = sympy.symbols("x d2 d3 d10 rl4 phi q2 Fc2", real=True)
+TAN = sympy.tan(x / 2)
 #: What is left of irrational numbers, carried to sixty digits, that are one together.
 NOTHING = sympy.Rational(37, 10**59)
 ROOT = sympy.sqrt(d2**2 + d3**2 + 2 * d2 * d3 * sympy.cos(phi + q2))
@@ -119,6 +120,20 @@ def test_half_angles_become_sines_and_cosines(squares: tuple[int, int, int]) -> 
     for at in (0.3, 1.1, -2.0):
         numbers = {x: at, d2: 0.7}
         assert float(result.subs(numbers)) == pytest.approx(float(expression.subs(numbers)), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        (-2 * TAN / (TAN**2 - 1), sympy.tan(x)),
+        (d2 / TAN - d2 * TAN, 2 * d2 * sympy.cos(x) / sympy.sin(x)),
+        ((1 + TAN**2) / (1 - TAN**2), 1 / sympy.cos(x)),
+        (4 * d2 * TAN**2 / (1 - TAN**2) ** 2, d2 * sympy.tan(x) ** 2),
+    ],
+)
+def test_half_angles_below_a_line_become_tangents_too(written: sympy.Expr, read: sympy.Expr) -> None:
+    assert without_half_angles(written) == read
+    assert float(written.subs({x: 0.37, d2: 0.7})) == pytest.approx(float(read.subs({x: 0.37, d2: 0.7})), rel=1e-12)
 
 
 def test_joints_with_one_law_have_the_same_numbers_in_it(tmp_path: Path) -> None:
