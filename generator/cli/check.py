@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.derivation import derive
     from generator.effects.library import missing_limits
     from generator.robot.readers import read
-    from generator.symbolic.parameter_sets import impossible, resolved_sets
+    from generator.symbolic.parameter_sets import impossible, regrouped, resolved_sets
 
     path = find_robot(arguments.robot)
     with stage("reading and deriving"):
@@ -36,6 +36,5 @@ def run(arguments: argparse.Namespace) -> None:
     for place, problem in missing_limits(robot):
         print(f"note: {place}: {problem}")
     for title, one in robot.parameter_sets.items():
-        for name in impossible(model, one.values):
-            value = one.values[name]
-            print(f"note: {value.place}: {name} of the set {title} is {value.value:g}, which no robot can have")
+        for note in impossible(model, regrouped(model, one.values), f" of the set {title}"):
+            print(note)
