@@ -35,8 +35,8 @@ def derive(
     A ``plain`` model writes the textbook recursion. With ``check`` the groupings are compared with the numerical rank
     of the regressor. The values of ``parameter_set``, if given, stand in the equations as numbers.
 
-    Raises InputError for effects that do not fit the robot, for a parameter set that does not, and GroupingMismatch
-    if the check fails.
+    Raises InputError for effects that do not fit the robot or of which the check cannot decide whether they are others,
+    for a parameter set that does not fit, and GroupingMismatch if the check fails.
     """
     chosen = robot.parameter_sets.get(parameter_set or "")
     place = robot.place if chosen is None else chosen.place

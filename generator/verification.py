@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from generator.errors import InputError
+from generator.grouping.observability import STEMS
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.model import Model
 
@@ -22,7 +24,8 @@ class GroupingMismatch(Exception):
 
 
 def check_grouping(model: Model) -> None:
-    """Compares groupings and regressor over random states; raises GroupingMismatch naming the columns.
+    """Compares groupings and regressor over random states; raises GroupingMismatch naming the columns, and InputError
+    where an effect's torque is so nearly one that others make that numbers cannot decide.
 
     Two facts are checked: the base columns are independent, and the standard regressor equals the base columns times
     the groupings' coefficients.
@@ -34,12 +37,25 @@ def check_grouping(model: Model) -> None:
     scale = np.maximum(np.linalg.norm(w, axis=0), 1e-30)
     involved = _dependent(w[:, heads] / scale[heads], [names[k] for k in heads])
     if involved:
+        _refuse_undecided(model, involved)
         raise GroupingMismatch(f"the base columns of {', '.join(involved)} depend on each other")
     error = np.linalg.norm(w - w[:, heads] @ coefficients, axis=0)
     allowed = _FIT_TOLERANCE * np.maximum(scale, _ROUNDING * scale.max())
     bad = [name for name, e, most in zip(names, error, allowed, strict=True) if e > most]
     if bad:
+        _refuse_undecided(model, bad)
         raise GroupingMismatch(f"groupings of {', '.join(bad)} do not reproduce their columns of the regressor")
+
+
+def _refuse_undecided(model: Model, names: Sequence[str]) -> None:
+    """Raises InputError where there are parameters of effects that no exact rule groups among ``names``."""
+    for one in sorted(model.effects, key=lambda one: not one.effect.shapes):
+        pairs = zip(one.names, one.effect.parameters, strict=True)
+        undecided = [name for name, parameter in pairs if name in names and parameter.stem not in STEMS]
+        if undecided:
+            problem = f"the torque of {' and '.join(undecided)} is hardly another than other parameters make"
+            place = model.robot.use(one.effect.id, one.joint.number).place
+            raise InputError(place, problem, f"values of {one.effect.id} with which it is, or the effect left out")
 
 
 def _dependent(base: NDArray[np.float64], names: Sequence[str]) -> list[str]:

@@ -85,6 +85,14 @@ def test_refusal(old: str, new: str, message: str, tmp_path: Path) -> None:
     assert _refusal(file) == f"{file}:{message}"
 
 
+def test_units_that_a_message_recommends_are_known(tmp_path: Path) -> None:
+    (message,) = {told for _, _, told in CASES if "is no fraction of N m/A" in told}
+    for unit in re.fullmatch(r".*expected one such as (.+) or (.+)", message).groups():  # type: ignore[union-attr]
+        file = tmp_path / "arm.yaml"
+        file.write_text(GOOD.replace("unit: N m/A", f"unit: {unit}"))
+        assert read(file).drives is not None
+
+
 @pytest.mark.parametrize("content", ["", "\n\n", "# only a comment\n", "---\n", "\ufeff"])
 def test_empty_file(content: str, tmp_path: Path) -> None:
     file = tmp_path / "arm.yaml"
@@ -119,8 +127,9 @@ def test_control_characters(tmp_path: Path) -> None:
     assert _refusal(file) == f"{file}:2:1: not YAML: character 0, expected a robot file in YAML"
 
 
-def test_folder(tmp_path: Path) -> None:
-    folder = tmp_path / "arm.yaml"
+@pytest.mark.parametrize("name", ["arm.yaml", "arm"])
+def test_folder(name: str, tmp_path: Path) -> None:
+    folder = tmp_path / name
     folder.mkdir()
     assert _refusal(folder) == f"{folder}:1:1: this is a folder, expected a robot file"
 

@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import asin, atan, atan2, cos, pi, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
 from sympy import Integer, Rational
 
+from generator.errors import InputError
 from generator.resources import find_robot
 from generator.robot.description import EffectUse, Robot
 from generator.robot.readers import read
 from generator.units import Quantity
 from tests.chains import anthropomorphic
+from tests.commands import PENDULUM, command
 from tests.subject import Subject, Vector, close, slope, subject
 
 #: Balancer, inverse model and energy are all that these tests need.
@@ -226,3 +229,43 @@ def test_the_lever_arm_is_largest_where_the_rod_is_tangent_to_the_crank() -> Non
         x = side * tangent - phi
         seen = observed(arm, x)
         assert close(abs(seen["torque"]), seen["force"] * d22, 1e-9)
+
+
+def balancer(tmp_path: Path, effect: str, values: str, limits: str = "") -> Path:
+    """A pendulum with a balancer; ``limits`` of its joint."""
+    path = tmp_path / "pendulum.yaml"
+    use = f"  - {{effect: {effect}, joint: 1, values: {{{values}}}}}\n"
+    text = PENDULUM.replace("parameters:", f"{use}parameters:")
+    path.write_text(text.replace("r: 0}", f"r: 0, limits: [{limits}]}}" if limits else "r: 0}"))
+    return path
+
+
+def test_a_chamber_does_not_end_between_the_limits(tmp_path: Path) -> None:
+    """At q = 1 the pivots are 0.0361 m further apart than at q = 0, at both limits less than a chamber of 0.03 m."""
+    crank = "d21: 0.3 m, d22: 0.1 m, phi: -1 rad"
+    told = r":9:\d+: l0 is too small: within the joint's limits -0.00611 m is left, expected a longer one"
+    with pytest.raises(InputError, match=told):
+        subject(read(balancer(tmp_path, "gas_balancer", f"{crank}, l0: 0.03 m", "-0.1 rad, 2.1 rad")), names=())
+    for values, limits in (("0.03 m", "-0.1 rad, 0.5 rad"), ("0.037 m", "-0.1 rad, 2.1 rad")):
+        subject(read(balancer(tmp_path, "gas_balancer", f"{crank}, l0: {values}", limits)), names=())
+
+
+@pytest.mark.parametrize(
+    ("phi", "limits", "where"),
+    [("180 deg", "", "at q = 0"), ("90 deg", "0 deg, 100 deg", "within the joint's limits")],
+)
+@pytest.mark.parametrize("more", ["spring_balancer:", "gas_balancer:, l0: 1 m"])
+def test_the_pivots_of_a_balancer_do_not_meet(tmp_path: Path, phi: str, limits: str, where: str, more: str) -> None:
+    effect, _, length = more.partition(":")
+    path = balancer(tmp_path, effect, f"d21: 0.3 m, d22: 0.3 m, phi: {phi}{length}", limits)
+    with pytest.raises(InputError, match=f"d22 is equal to d21: {where} 0 m is left, expected pivots that stay apart"):
+        subject(read(path), names=())
+
+
+def test_check_tells_the_limits_that_a_balancer_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = balancer(tmp_path, "gas_balancer", "d21: 0.3 m, d22: 0.1 m, phi: 180 deg, l0: 0.05 m")
+    _, *notes = command("check", path, capsys=capsys).out.splitlines()
+    told = "l0 is too small for joint 1 without limits: over a turn -0.15 m is left"
+    assert notes == [f"note: {path}:9:89: {told}"]
+    path = balancer(tmp_path, "gas_balancer", "d21: 0.3 m, d22: 0.1 m, phi: 180 deg, l0: 0.21 m")
+    assert len(command("check", path, capsys=capsys).out.splitlines()) == 1

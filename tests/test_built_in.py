@@ -76,12 +76,25 @@ def test_the_library_goes_to_its_own_folder(tmp_path: Path, capsys: pytest.Captu
     assert "| Fv1 | 0.25 | N m s/rad |" in (folder / "review" / "groupings.md").read_text()
 
 
+_DRIVE = "drives: {gear_ratios: [50], torque_constants: {unit: N m/A, use: a, a: [1]}}\n"
+
+
 @pytest.mark.parametrize(
     ("text", "parameter_set", "expected"),
     [
         (PENDULUM, "heavy", "pendulum.yaml:1:1: no parameter set 'heavy', expected one of light"),
         (PENDULUM.split("parameters:")[0], "light", "no parameter set 'light', expected a robot with parameter sets"),
         (PENDULUM.replace("      ZZ1: 2 kg m2\n", ""), "light", "divides by a parameter that is zero"),
+        (
+            f"{PENDULUM}      Fv3: 1 N m s/rad\n",
+            "light",
+            "pendulum.yaml:18:7: the robot has no parameter 'Fv3', expected perhaps 'Fv1'",
+        ),
+        (
+            f"{PENDULUM}      kt1: 0 N m/A\n{_DRIVE}",
+            "light",
+            "pendulum.yaml:18:7: the torque constant kt1 of the set light is zero, expected one that a torque can be",
+        ),
     ],
 )
 def test_sets_that_cannot_be_built_in(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from generator.derivation import derive
 from generator.effects.library import effects_of, library
 from generator.errors import InputError, Place
 from generator.reference.joint_effects import LAWS
+from generator.reference.law import At
 from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, Length, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
@@ -119,6 +121,16 @@ def test_gradual_friction_rises_from_rest(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("speed", [1e-9, 3e-7, 2.0, -2.0])
+def test_friction_of_the_lowest_speeds_has_its_second_law(speed: float) -> None:
+    """At 2 rad/s the ratio to the speed of 1e-7 rad/s is beyond what an exponential of decimals can be of."""
+    shape = {"v0": Decimal("1e-7"), "vs": Decimal("1e-7"), "exponent": Decimal(2)}
+    at = At(shape, Decimal(0), Decimal(speed), Decimal(0), Decimal(np.sign(speed)), Decimal(1))
+    (gradual,), (stribeck,) = (LAWS[name].torque(at) for name in ("gradual_friction", "stribeck_friction"))
+    assert float(gradual) == pytest.approx(np.tanh(speed / 1e-7), rel=1e-12)
+    assert float(stribeck) == pytest.approx(np.sign(speed) * np.exp(-((speed / 1e-7) ** 2)), rel=1e-12)
+
+
 def test_load_friction_is_a_part_of_the_load(tmp_path: Path) -> None:
     model = arm(tmp_path, "load_friction")
     weight = {"MX1": 3, "ZZ1": 2}
@@ -218,6 +230,13 @@ def test_the_other_joint_of_a_rotor_is_another_that_moves(other: int) -> None:
         effects_of(one_slide(EffectUse("coupled_rotor", (1,), values)))
 
 
+def test_a_rotor_that_the_other_joint_does_not_turn_is_its_own_joints_rotor() -> None:
+    values = {"other": Quantity(Integer(2), "1"), "ratio": Quantity(Integer(0), "1", Place("arm.yaml", 9, 5))}
+    two = (joint(1, REVOLUTE), joint(2, REVOLUTE, pi / 2))
+    with pytest.raises(InputError, match=r"^arm.yaml:9:5: ratio is 0, expected a number other than zero$"):
+        effects_of(robot("arm", two, effects=(EffectUse("coupled_rotor", (1,), values),)))
+
+
 def test_a_rotor_that_bodies_imitate_by_symbolic_lengths_is_refused() -> None:
     values = {"other": Quantity(Integer(1), "1"), "ratio": Quantity(Rational(4, 5), "1")}
     joints = (joint(1, REVOLUTE), joint(2, PRISMATIC, pi / 2, d=symbol("a1")))
@@ -257,7 +276,7 @@ def test_what_loads_a_drive_and_what_does_not_are_not_grouped_under_friction_by_
     """An offset loads it, asymmetric dry friction does not, and the torque of both is the same."""
     model = arm(tmp_path, "offset", "", "asymmetric_coulomb")
     assert "Off1R" in {base.name for base in model.grouping.base}
-    told = "the torque of Fcn1 is one that Off1 make too, and friction by the load tells them apart"
+    told = "the torque of Fcn1 is one that Off1 makes too, and friction by the load tells them apart"
     with pytest.raises(InputError, match=told):
         arm(tmp_path, "offset", "", "asymmetric_coulomb", "load_friction")
 

@@ -163,6 +163,18 @@ def test_help_of_a_quantity_lists_its_inputs(capsys: pytest.CaptureFixture[str])
     assert command("evaluate", "scara", "inverse_dynamics", "-h", capsys=capsys).out == text
 
 
+def test_a_parameter_file_with_values_that_no_robot_has_is_told(
+    pendulum: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pendulum.write_text(f"{PENDULUM}drives: {{gear_ratios: [50], torque_constants: {{unit: N m/A, use: a, a: [1]}}}}\n")
+    values = pendulum.with_name("values.yaml")
+    for kt, given in (("-3", True), ("0", True), ("0.5", False)):
+        values.write_text(f"kt1: {kt}\nMX1: -1\n")
+        done = command("evaluate", pendulum, "gravity", "--q", "0", "--parameters", values, capsys=capsys)
+        assert json.loads(done.out) == {"Q": [pytest.approx(-9.81)]}
+        assert done.err == (f"note: {values}:1:1: kt1 is {kt}, which no robot can have\n" if given else "")
+
+
 def test_evaluating_does_not_import_casadi() -> None:
     done = process("evaluate", "kr500", "tool_transform", "--q", *"000000", PYTHONPROFILEIMPORTTIME="1")
     assert done.status == 0
@@ -198,6 +210,16 @@ def test_refused(pendulum: Path, arguments: list[str], message: str, capsys: pyt
     if "--parameters" not in arguments and "missing" not in message:
         arguments = [*arguments, "--parameters", "light"]
     assert refusal(pendulum, *arguments, capsys=capsys).startswith(f"error: counterpoise evaluate{message}")
+
+
+def test_a_balancer_that_is_grouped_with_the_bodies_has_no_force(
+    pendulum: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A spring from a point above the axis acts like the weight of the link."""
+    use = "  - {effect: spring_balancer, joint: 1, values: {d21: 0.3 m, d22: 80 mm, phi: 90 deg}}\n"
+    pendulum.write_text(PENDULUM.split("parameters:")[0] + use)
+    told = "pendulum has no quantity 'balancer': Kr1 is grouped into MX1R, expected "
+    assert told in refusal(pendulum, "balancer", "--q", "0", capsys=capsys)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import pi
 from pathlib import Path
 
+import numpy as np
 import pytest
 import sympy
 
@@ -27,6 +28,7 @@ from tests.reviewed import value
 from tests.subject import Subject
 
 x, d2, d3, d10, rl4, phi, q2, fc = sympy.symbols("x d2 d3 d10 rl4 phi q2 Fc2", real=True)
+TAN = sympy.tan(x / 2)
 #: What is left of irrational numbers, carried to sixty digits, that are one together.
 NOTHING = sympy.Rational(37, 10**59)
 ROOT = sympy.sqrt(d2**2 + d3**2 + 2 * d2 * d3 * sympy.cos(phi + q2))
@@ -120,6 +122,20 @@ def test_half_angles_become_sines_and_cosines(squares: tuple[int, int, int]) -> 
         assert float(result.subs(numbers)) == pytest.approx(float(expression.subs(numbers)), abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        (-2 * TAN / (TAN**2 - 1), sympy.tan(x)),
+        (d2 / TAN - d2 * TAN, 2 * d2 * sympy.cos(x) / sympy.sin(x)),
+        ((1 + TAN**2) / (1 - TAN**2), 1 / sympy.cos(x)),
+        (4 * d2 * TAN**2 / (1 - TAN**2) ** 2, d2 * sympy.tan(x) ** 2),
+    ],
+)
+def test_half_angles_below_a_line_become_tangents_too(written: sympy.Expr, read: sympy.Expr) -> None:
+    assert without_half_angles(written) == read
+    assert float(written.subs({x: 0.37, d2: 0.7})) == pytest.approx(float(read.subs({x: 0.37, d2: 0.7})), rel=1e-12)
+
+
 def test_joints_with_one_law_have_the_same_numbers_in_it(tmp_path: Path) -> None:
     """An exponent, another joint or a rotor of nothing stands in a law as it is."""
     (tmp_path / "arm.yaml").write_text(
@@ -144,25 +160,41 @@ def test_joints_with_one_law_have_the_same_numbers_in_it(tmp_path: Path) -> None
     ]
 
 
+def test_a_motor_that_two_joints_turn_shows_on_both(tmp_path: Path) -> None:
+    """Motor speed = N joint speed with N = [[10, 0], [-5, 10]]; motors 1 and 3 turn with their own joints alone."""
+    (tmp_path / "wrist.yaml").write_text(
+        "name: wrist\ngravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\njoints:\n"
+        + "".join(f"  - {{j: {j}, sigma: 0, alpha: pi/2, d: 0, theta: q{j}, r: 0}}\n" for j in (1, 2, 3))
+        + "drives: {gear_ratios: [10, 10, 10], coupling: {N21: 1/2}}\n"
+        "effects:\n  - {effect: motor_ripple, joints: all}\n"
+    )
+    groups = laws.alike(effects_of(read(tmp_path / "wrist.yaml")))
+    assert [[one.joint.number for one in group] for group in groups] == [[1, 3], [2]]
+    at = dict.fromkeys(("Rms2", "Rm2c2", "Rm2s2", "q2"), 0.0) | {"Rmc2": 1, "q1": 0.3, "order": 1, "N21": -5, "N22": 10}
+    found = {plain(one.left): value(one.right, at) for one in laws.torque(groups[1][0], "2")}
+    assert found == pytest.approx({"tau1": -0.5 * np.cos(-1.5), "tau2": np.cos(-1.5)})
+
+
 def test_laws_mean_what_the_effects_do(arm: Subject) -> None:
     """The printed torque of each effect, read back as a number, is its column times its parameters."""
     for instance in arm.model.effects:
         number = str(instance.joint.number)
-        # A motor that turns with several joints is written as with its own alone.
-        at = {f"{stem}{j.number}": 0.0 for j in arm.robot.moving for stem in ("q", "qd", "qdd")} | {"pi": pi}
+        at = {f"{stem}{j.number}": 0.1 * j.number for j in arm.robot.moving for stem in ("q", "qd", "qdd")} | {"pi": pi}
         at |= {f"q{number}": 0.4, f"qd{number}": -0.7, f"qdd{number}": 1.3}
         at |= {f"load{number}": -8.5, f"warmth{number}": 0.3}
         at |= {f"{state.stem}{number}": 0.45 for state in instance.effect.states}
-        at |= {f"N{j}": float(ratio) for j, ratio in instance.site.ratios.items()}
+        at |= {f"N{number}{j}": float(ratio) for j, ratio in instance.site.ratios.items()}
+        at[f"N{number}"] = float(instance.site.ratios.get(instance.joint.number, 0))
         at |= {name: float(v) for name, v in instance.site.values.items()}
         at |= {name: 2.0 + k for k, name in enumerate(instance.names)}
         symbols = {sympy.Symbol(name, real=True): v for name, v in at.items()}
-        (equation,) = (one for one in laws.torque(instance, number) if one.left == Name(f"tau{number}"))
-        exact = sum(
-            at[name] * float(sympy.sympify(column[instance.joint.number]).subs(symbols))
-            for name, column in zip(instance.names, instance.columns(), strict=True)
-        )
-        assert value(equation.right, at) == pytest.approx(exact, rel=1e-12)
+        torques = dict.fromkeys(sorted({j for column in instance.columns() for j in column}), 0.0)
+        for name, column in zip(instance.names, instance.columns(), strict=True):
+            for j, per_unit in column.items():
+                torques[j] += at[name] * float(sympy.sympify(per_unit).subs(symbols))
+        printed = {equation.left: value(equation.right, at) for equation in laws.torque(instance, number)}
+        assert printed == pytest.approx({Name(f"tau{j}"): one for j, one in torques.items()}, rel=1e-12)
+        exact = torques[instance.joint.number]
         told = dict(at)
         for equation in laws.observables(instance):
             assert isinstance(equation.left, Name)

@@ -16,10 +16,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Prints one line if the file is good, and one for each value that cannot be; raises InputError if not."""
+    """Prints one line if the file is good, and one for each limit it should have and each value that cannot be; raises
+    InputError if not.
+    """
     from generator.derivation import derive
+    from generator.effects.library import missing_limits
     from generator.robot.readers import read
-    from generator.symbolic.parameter_sets import impossible, resolved_sets
+    from generator.symbolic.parameter_sets import impossible, regrouped, resolved_sets
 
     path = find_robot(arguments.robot)
     with stage("reading and deriving"):
@@ -30,7 +33,8 @@ def run(arguments: argparse.Namespace) -> None:
         f"{path}: {robot.name} is good: {plural(len(robot.moving), 'moving joint')}, "
         f"{plural(len(model.base_parameters), 'base parameter')}, {plural(len(robot.parameter_sets), 'parameter set')}"
     )
+    for place, problem in missing_limits(robot):
+        print(f"note: {place}: {problem}")
     for title, one in robot.parameter_sets.items():
-        for name in impossible(model, one.values):
-            value = one.values[name]
-            print(f"note: {value.place}: {name} of the set {title} is {value.value:g}, which no robot can have")
+        for note in impossible(model, regrouped(model, one.values), f" of the set {title}"):
+            print(note)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,7 +63,9 @@ def _derived(robot: str, name: str) -> tuple[Model, Function]:
     model = derive(read(find_robot(robot)), names=(name,), check=False, plain=True)
     if name not in model.functions:
         known = [quantity.name for quantity in quantities().values() if quantity.applies(model)]
-        raise InputError(command_line(_COMMAND), f"{model.robot.name} has no quantity {name!r}", nearest(name, known))
+        why = quantities()[name].absence(model) if name in quantities() else ""
+        problem = f"{model.robot.name} has no quantity {name!r}" + (f": {why}" if why else "")
+        raise InputError(command_line(_COMMAND), problem, nearest(name, known))
     return model, model.functions[name]
 
 
@@ -86,10 +89,13 @@ def _outputs(model: Model, function: Function, given: dict[str, str]) -> dict[st
     from generator.symbolic.function import PARAMETERS
     from generator.symbolic.interpret import evaluate
     from generator.symbolic.model import STANDARD
-    from generator.symbolic.parameter_sets import parameter_vector, standard_vector
+    from generator.symbolic.parameter_sets import impossible, parameter_vector, regrouped, standard_vector
 
     values = _values(model, function, given.get("parameters"))
     inputs: dict[str, Vector] = {PARAMETERS: parameter_vector(model, values)}
+    if given.get("parameters") not in (None, *model.robot.parameter_sets):
+        for note in impossible(model, regrouped(model, values)):
+            print(note, file=sys.stderr)
     for signal in function.inputs:
         if signal.name == STANDARD:
             inputs[STANDARD] = standard_vector(model, values)

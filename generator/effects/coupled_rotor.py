@@ -39,7 +39,12 @@ EFFECT = Effect(
     kinetic_energy=lambda at: (_sum(at, at.qd, "qd") ** 2 / 2, sympy.S.Zero, sympy.S.Zero),
     shapes=(
         Shape("other", "1", "number of the other joint that turns the rotor", joint=True),
-        Shape("ratio", "1", "rotor speed per speed of the other joint, in units of that per speed of its own"),
+        Shape(
+            "ratio",
+            "1",
+            "rotor speed per speed of the other joint, in units of that per speed of its own",
+            nonzero=True,
+        ),
     ),
     needs=("qd", "qdd"),
     sign_convention="the motor supplies Iar s'' + Fvr s' + Fcr sign(s'), s = q + ratio q_other, shared by equal power",

@@ -57,7 +57,8 @@ class Shape:
     says "way", and ``within`` are ends between which it goes on from there in geometric steps; where ``whole`` nothing
     between whole numbers is a value, and where ``several`` every whole number up to that one can be. Where ``exact``
     what fits better between two whole numbers is another effect. Of a ``scale`` any value will do where none is known:
-    others count in units of it.
+    others count in units of it. One that is
+    ``nonzero`` may have either sign.
     """
 
     name: str
@@ -75,6 +76,7 @@ class Shape:
     several: int = 0
     exact: bool = False
     scale: bool = False
+    nonzero: bool = False
 
     def unit_on(self, joint: Joint) -> str:
         """The unit on this joint: ``prismatic``, if there is one, on a prismatic joint, else ``unit``."""
@@ -161,13 +163,26 @@ class Site:
 
 
 @dataclass(frozen=True)
+class Positive:
+    """A ``length`` [m] that must stay positive: the ``value`` to blame where it does not, what is wrong with it, and
+    what is expected instead.
+    """
+
+    value: str
+    length: sympy.Expr
+    problem: str
+    expected: str
+
+
+@dataclass(frozen=True)
 class Effect:
     """A physical effect.
 
     ``columns`` returns one column per linear parameter, in the order of ``parameters``. ``kinetic_energy`` and
     ``potential_energy`` return the energy per unit of each parameter [J/unit], where the effect stores any;
-    a potential is zero at q = 0 where it is finite there. ``positive`` names lengths that must stay positive over
-    the joint's limits, by the shape value to blame. ``observables`` names further outputs worth emitting, each an
+    a potential is zero at q = 0 where it is finite there. ``positive`` returns the lengths that must stay positive over
+    the joint's limits, ``extremes`` the positions between two others, and these, among which each length has its least
+    value. ``observables`` names further outputs worth emitting, each an
     expression that may contain the parameters' symbols (named by their stems), with its unit. ``needs`` says what the
     columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives), load, warmth, state.
     ``rates`` are the time derivatives of ``states``, in their order. ``drive_train`` effects sit on the motor side of
@@ -190,7 +205,8 @@ class Effect:
     shapes: tuple[Shape, ...] = ()
     kinetic_energy: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
     potential_energy: Callable[[Site], tuple[sympy.Expr, ...]] | None = None
-    positive: Callable[[Site], Mapping[str, sympy.Expr]] | None = None
+    positive: Callable[[Site], tuple[Positive, ...]] | None = None
+    extremes: Callable[[Site, sympy.Expr, sympy.Expr], list[sympy.Expr]] | None = None
     observables: Callable[[Site], Mapping[str, tuple[sympy.Expr, str, str]]] | None = None
     states: tuple[State, ...] = ()
     rates: Callable[[Site], tuple[sympy.Expr, ...]] | None = None

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from generator.effects.effect import BALANCER, Column, Effect, LinearParameter, Shape, Site
+from generator.effects.effect import BALANCER, Column, Effect, LinearParameter, Positive, Shape, Site
 from generator.effects.laws import gas
 from generator.effects.mechanisms import crank
 from generator.robot.description import REVOLUTE
@@ -29,6 +29,10 @@ def _energy(at: Site) -> tuple[sympy.Expr, ...]:
     return (gas.energy_column(_chamber(at), at.values["l0"], at.values["exponent"]),)
 
 
+def _positive(at: Site) -> tuple[Positive, ...]:
+    return crank.apart(at), Positive("l0", _chamber(at), "too small", "a longer one")
+
+
 def _observables(at: Site) -> Mapping[str, tuple[sympy.Expr, str, str]]:
     force = sympy.Symbol("F0", real=True) * _force(at)
     return {
@@ -44,7 +48,8 @@ EFFECT = Effect(
     parameters=(LinearParameter("F0", ("N", "N"), "force of the balancer at q = 0", 0.0),),
     columns=_columns,
     potential_energy=_energy,
-    positive=lambda at: {"l0": _chamber(at)},
+    positive=_positive,
+    extremes=crank.extremes,
     observables=_observables,
     shapes=(
         *crank.SHAPES,

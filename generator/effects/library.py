@@ -10,14 +10,11 @@ import sympy
 
 import generator.effects
 from generator.discovery import modules
-from generator.effects.effect import Column, Effect, Shape, Site, State
+from generator.effects.effect import Column, Effect, Positive, Shape, Site, State
 from generator.errors import InputError, Place
 from generator.robot.description import FIXED, EffectUse, Joint, Robot
-from generator.robot.fields import nearest
+from generator.robot.fields import check_size, nearest
 from generator.robot.parameters import Parameter
-
-#: Points at which a range is looked at.
-_STEPS = 200
 
 
 @dataclass(frozen=True)
@@ -139,19 +136,34 @@ def _check_joint(use: EffectUse, effect: Effect, robot: Robot, joint: Joint, the
 
 
 def _check_range(use: EffectUse, effect: Effect, site: Site) -> None:
-    """What must be positive is so over the joint's limits, where the file gives them."""
+    """What must be positive is so over the joint's limits; where the file gives none, at q = 0."""
     lower, upper = site.joint.lower, site.joint.upper
-    if effect.positive is None or lower is None or upper is None:
-        return
-    first, span = float(lower), float(upper - lower)
-    for name, expression in effect.positive(site).items():
-        value = sympy.lambdify(site.q, expression, "math")
-        least = min(value(first + span * step / _STEPS) for step in range(_STEPS + 1))
-        if least <= 0:
-            place = use.values[name].place if name in use.values else use.place
-            raise InputError(
-                place, f"{name} is too small: within the joint's limits {least:.3g} m is left", "a longer one"
-            )
+    where = "at q = 0" if lower is None or upper is None else "within the joint's limits"
+    for one, least in _not_positive(effect, site, lower or sympy.S.Zero, upper or sympy.S.Zero):
+        problem = f"{one.value} is {one.problem}: {where} {least:.3g} m is left"
+        raise InputError(use.values[one.value].place, problem, one.expected)
+
+
+def missing_limits(robot: Robot) -> list[tuple[Place, str]]:
+    """Where effects ask for limits that their joints lack, and why: what must be positive is not so over a turn."""
+    found: list[tuple[Place, str]] = []
+    for instance in effects_of(robot):
+        joint, effect = instance.joint, instance.effect
+        if joint.lower is None or joint.upper is None:
+            values = robot.use(effect.id, joint.number).values
+            for one, least in _not_positive(effect, instance.site, -sympy.pi, sympy.pi):
+                problem = f"{one.value} is {one.problem} for joint {joint.number} without limits"
+                found.append((values[one.value].place, f"{problem}: over a turn {least:.3g} m is left"))
+    return found
+
+
+def _not_positive(effect: Effect, site: Site, lower: sympy.Expr, upper: sympy.Expr) -> list[tuple[Positive, float]]:
+    """What must be positive and is not so from ``lower`` to ``upper``, with its least value [m]."""
+    if effect.positive is None or effect.extremes is None:
+        return []
+    positions = effect.extremes(site, lower, upper)
+    least = [(one, min(float(one.length.subs(site.q, at)) for at in positions)) for one in effect.positive(site)]
+    return [(one, value) for one, value in least if value <= 0]
 
 
 def _check_names(robot: Robot, instances: list[Instance]) -> None:
@@ -259,7 +271,10 @@ def _check_others(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) ->
 def _check_bounds(place: Place, shape: Shape, unit: str, value: sympy.Expr) -> None:
     if value == shape.default:
         return
+    check_size(place, shape.name, value, any_small=shape.lower is None and not shape.nonzero)
     if shape.lower is not None and not float(value) > shape.lower:
         raise InputError(place, f"{shape.name} is {value}", f"more than {shape.lower:g} {unit}")
+    if shape.nonzero and value == 0:
+        raise InputError(place, f"{shape.name} is 0", "a number other than zero")
     if shape.upper is not None and not float(value) < shape.upper:
         raise InputError(place, f"{shape.name} is {value}", f"less than {shape.upper:g} {unit}")

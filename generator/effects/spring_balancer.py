@@ -40,6 +40,8 @@ EFFECT = Effect(
     ),
     columns=_columns,
     potential_energy=lambda at: linear_spring.energy_columns(crank.length(at), crank.length_at_zero(at)),
+    positive=lambda at: (crank.apart(at),),
+    extremes=crank.extremes,
     observables=_observables,
     shapes=crank.SHAPES,
     kinds=(REVOLUTE,),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from generator.effects.effect import Effect
 from generator.effects.laws import ripple
-from generator.effects.mechanisms.motor_shaft import ripple_columns, ripple_energy
+from generator.effects.mechanisms.motor_shaft import SHARED, ripple_columns, ripple_energy
 from generator.robot.description import REVOLUTE
 
 EFFECT = Effect(
@@ -16,7 +16,7 @@ EFFECT = Effect(
     shapes=(ripple.order("wave generator", (2.0, 4.0), default=2),),
     kinds=(REVOLUTE,),
     needs=("motor",),
-    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) + the second harmonic; q_r = N q",
+    sign_convention="the motor supplies Rwc cos(order q_r) + Rws sin(order q_r) + the second harmonic; " + SHARED,
     assumptions="the wave generator sits on the motor; no dependence on the load",
     source=(
         "Tuttle and Seering, A nonlinear model of a harmonic drive gear transmission, IEEE Transactions on Robotics "

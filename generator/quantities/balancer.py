@@ -20,6 +20,15 @@ def observed(model: Model) -> list[Instance]:
     return [one for one in model.effects if one.effect.observables and all(name in known for name in one.names)]
 
 
+def _grouped(model: Model) -> str:
+    """Which parameters of balancers are grouped with others, for want of which there is nothing to tell."""
+    names = {name for one in model.effects if one.effect.observables for name in one.names}
+    gone = [
+        f"{one.name} is grouped into {' and '.join(one.into)}" for one in model.grouping.eliminated if one.name in names
+    ]
+    return ", ".join(gone)
+
+
 def _observables(instance: Instance) -> Mapping[str, tuple[sympy.Expr, str, str]]:
     assert instance.effect.observables is not None
     return instance.effect.observables(instance.site)
@@ -55,4 +64,5 @@ QUANTITY = Quantity(
     outputs=_signals,
     build=_build,
     applies=lambda model: bool(observed(model)),
+    absence=_grouped,
 )

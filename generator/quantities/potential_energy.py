@@ -18,8 +18,8 @@ def _build(model: Model) -> tuple[Array]:
 
 QUANTITY = Quantity(
     name="potential_energy",
-    summary="Potential energy of the weight and of the balancers, zero at q = 0.",
-    details="Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).",
+    summary="Potential energy of the weight and of what effects store, zero at q = 0.",
+    details="Its gradient is the gravity torque plus those of balancers, springs and ripple (report eq. 19 to 37).",
     inputs=signals.together(signals.q),
     outputs=lambda model: (signals.scalar("U", "J", "potential energy, zero at q = 0"),),
     build=_build,

@@ -32,7 +32,8 @@ class Quantity:
     ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); what effects read beside the
     motion (their states, warmth) follows the inputs where the outputs depend on it. ``build`` returns the output
     arrays, one per output signal, of nodes. ``applies`` tells for which models it exists. ``sparsity`` gives the
-    structure of a packed output, ``caveat`` what its user must know of it on a robot.
+    structure of a packed output, ``caveat`` what its user must know of it on a robot, ``absence`` why a robot that
+    might have it has it not.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Quantity:
     applies: Callable[[Model], bool] = always
     sparsity: Callable[[Model], Sparsity] | None = None
     caveat: Callable[[Model], str] = nothing
+    absence: Callable[[Model], str] = nothing
 
     def function(self, model: Model) -> Function:
         """The quantity of one robot. Raises ValueError if an array does not have the shape of its signal."""

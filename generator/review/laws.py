@@ -10,17 +10,18 @@ import sympy
 from generator.effects.effect import Site
 from generator.effects.library import Instance
 from generator.review.formula import Equation, Name, formula
+from generator.robot.sections.drives import element_name
 
 
 def torque(instance: Instance, index: str) -> list[Equation]:
     """The torque on each joint that the effect acts on; ``index`` is the joint's number or a letter that stands for it.
 
     An effect on the motor side of an elastic joint (parameters suffixed m) reads the motor's coordinate q_m, the
-    elasticity itself the elongation q_e. N stands for the motor's own ratio; its row of N may couple other joints in.
+    elasticity itself the elongation q_e. The motor's row of N is named element by element: N22 and N21, or N2
+    where it turns with its own joint alone.
     """
     site = _by_name(instance)
-    if site.ratios:
-        site = replace(site, ratios={instance.joint.number: sympy.Symbol(_indexed("N", index), real=True)})
+    site = replace(site, ratios={other: _ratio(site, other, index) for other in site.ratios})
     totals: dict[int, sympy.Expr] = {}
     for parameter, column in zip(instance.effect.parameters, instance.effect.columns(site), strict=True):
         symbol = sympy.Symbol(_indexed(f"{parameter.stem}{instance.suffix}", index), real=True)
@@ -32,6 +33,12 @@ def torque(instance: Instance, index: str) -> list[Equation]:
         Equation(Name(_indexed("tau", side) if number == here else f"tau{number}"), formula(total.subs(symbols)))
         for number, total in totals.items()
     ]
+
+
+def _ratio(site: Site, other: int, index: str) -> sympy.Symbol:
+    """The element of N by which the motor of the site's joint turns with joint ``other``."""
+    name = _indexed("N", index) if len(site.ratios) == 1 else element_name(site.joint.number, other)
+    return sympy.Symbol(name, real=True)
 
 
 def rates(instance: Instance, index: str) -> list[Equation]:
@@ -91,10 +98,11 @@ def numbers(instance: Instance) -> dict[str, sympy.Expr]:
 
 
 def alike(instances: Iterable[Instance]) -> list[list[Instance]]:
-    """Instances in groups whose law is the same."""
+    """Instances in groups whose law is the same; a motor that several joints turn has a law of its own."""
     groups: dict[tuple[object, ...], list[Instance]] = {}
     for instance in instances:
-        groups.setdefault((instance.effect.id, *sorted(numbers(instance).items())), []).append(instance)
+        coupled = instance.joint.number if len(instance.site.ratios) > 1 else 0
+        groups.setdefault((instance.effect.id, coupled, *sorted(numbers(instance).items())), []).append(instance)
     return list(groups.values())
 
 

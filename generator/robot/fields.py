@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import difflib
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
+from typing import SupportsFloat
 
 import sympy
 
 from generator import expressions
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.document import Entry, Items, Node, Table, Text
 from generator.units import Quantity
+
+#: Three such numbers make a product within the range of single precision, 1e-38 to 3e38.
+_LEAST, _MOST = 1e-12, 1e12
 
 _INTEGER = re.compile(r"[+-]?\d{1,9}\Z", re.ASCII)
 
@@ -56,8 +61,15 @@ def text(node: Node, what: str, expected: str = "a text") -> Text:
 
 
 def prose(entry: Entry | None, what: str) -> str:
-    """A text for people, its white space made single; empty where there is none."""
-    return "" if entry is None else " ".join(text(entry.value, what).content.split())
+    """A text for people, its white space made single; empty where there is none. Raises InputError for characters of
+    control and format, which change how others are shown.
+    """
+    line = "" if entry is None else " ".join(text(entry.value, what).content.split())
+    for character in line:
+        if entry is not None and unicodedata.category(character) in ("Cc", "Cf"):
+            problem = f"{what} holds U+{ord(character):04X}, a character of control or format"
+            raise InputError(entry.value.place, problem, "characters that are seen")
+    return line
 
 
 def integer(node: Node, what: str, expected: str = "an integer") -> int:
@@ -109,6 +121,16 @@ def quantity(node: Node, what: str, unit: str | None) -> Quantity:
         return expressions.parse_quantity(scalar.content, unit, scalar.inside or scalar.place)
     except InputError as error:
         raise _placed(error, scalar) from None
+
+
+def check_size(place: Place, what: str, value: SupportsFloat, any_small: bool = False) -> None:
+    """Raises InputError for a number of a size that code in single precision cannot compute with: with products of a
+    few of them, or divided by them. What nothing is divided by may be as small as it will.
+    """
+    size = abs(float(value))
+    if size > _MOST or (0 < size < _LEAST and not any_small):
+        expected = f"at most {_MOST:g} either way" if any_small else f"a size from {_LEAST:g} to {_MOST:g}"
+        raise InputError(place, f"{what} is {float(value):g}", expected)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

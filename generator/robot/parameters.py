@@ -29,7 +29,7 @@ class Parameter:
 
     ``name`` is the field's symbol and the joint's number ("ZZ1R", "Fv1", "k1"), or a length's name. ``joint`` is 0
     where it belongs to none. ``lower`` and ``upper`` are physical bounds on its value (a friction coefficient is not
-    negative), None where it has none.
+    negative), None where it has none; one that is ``positive`` is not at its lower bound either.
     """
 
     name: str
@@ -38,10 +38,15 @@ class Parameter:
     meaning: str
     lower: float | None = None
     upper: float | None = None
+    positive: bool = False
 
     def allows(self, value: float) -> bool:
         """Whether ``value`` is within the physical bounds."""
-        return (self.lower is None or value >= self.lower) and (self.upper is None or value <= self.upper)
+        return (
+            not (self.positive and value == self.lower)
+            and (self.lower is None or value >= self.lower)
+            and (self.upper is None or value <= self.upper)
+        )
 
 
 def inertial_parameters(joint: Joint) -> tuple[Parameter, ...]:

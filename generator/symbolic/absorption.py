@@ -62,10 +62,14 @@ def absorbed(
             pairs = {one: {name, one} for one, x in coefficients.items() if x}
             mixed = [one for one, pair in pairs.items() if pair & {*loading} and pair & {*rubbing}]
             if mixed:
-                problem = f"the torque of {name} is one that {' and '.join(mixed)} make too, and friction by the load"
+                problem = f"the torque of {name} is one that {_made_by(mixed)} too, and friction by the load"
                 raise NotGrouped(name, f"{problem} tells them apart", "one of these effects alone")
             grouping = _grouped(grouping, name, coefficients)
     return grouping
+
+
+def _made_by(names: Sequence[str]) -> str:
+    return f"{' and '.join(names)} make{'s' if len(names) == 1 else ''}"
 
 
 def _orthonormal(w: Mapping[str, NDArray[np.float64]], names: Sequence[str]) -> NDArray[np.float64]:
@@ -103,5 +107,5 @@ def _grouped(grouping: Grouping, name: str, coefficients: Mapping[str, sympy.Rat
         numbers[parameter.name] = terms
     gone = [replace(one, into=tuple(titles.get(title, title) for title in one.into)) for one in grouping.eliminated]
     into = tuple(titles.values())
-    rule = f"its torque is one that {' and '.join(into)} make too"
+    rule = f"its torque is one that {_made_by(into)} too"
     return Grouping(tuple(base), (*gone, Eliminated(name, rule, into)), numbers)

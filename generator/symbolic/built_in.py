@@ -25,7 +25,7 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
     It is called ``<robot>_<set>``. A length or torque constant that the set lacks is the robot's own. Joints are
     elastic where the set gives their stiffness, and rigid elsewhere.
 
-    Raises InputError if the robot has no such set or the set does not fit the robot.
+    Raises InputError if the robot has no such set, the set does not fit the robot or has a torque constant of zero.
     """
     if name not in robot.parameter_sets:
         expected = nearest(name, robot.parameter_sets) if robot.parameter_sets else "a robot with parameter sets"
@@ -47,6 +47,10 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
     values = {key: value for key, value in chosen.values.items() if key in known or key not in elsewhere}
     vector = parameter_vector(model, values)
     constants = {p.name: Fraction(str(float(x))) for p, x in zip(model.all_parameters, vector, strict=True)}
+    for kt in model.torque_constants:
+        if not constants[kt.name]:
+            problem = f"the torque constant {kt.name} of the set {name} is zero"
+            raise InputError(chosen.values[kt.name].place, problem, "one that a torque can be divided by")
     return Model(numeric, plain, constants)
 
 

@@ -148,7 +148,7 @@ class Model:
         if drives is None or not drives.torque_constants:
             return ()
         return tuple(
-            Parameter(f"kt{joint.number}", "N m/A", joint.number, "torque constant of the motor", 0.0)
+            Parameter(f"kt{joint.number}", "N m/A", joint.number, "torque constant of the motor", 0.0, positive=True)
             for joint in self.robot.moving
         )
 

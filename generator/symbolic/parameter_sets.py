@@ -94,10 +94,17 @@ def resolved(model: Model, values: Values) -> dict[str, float]:
     return dict(zip(names, parameter_vector(model, values).tolist(), strict=True))
 
 
-def impossible(model: Model, values: Values) -> list[str]:
-    """Names of those of ``values`` that are beyond physical bounds: a mass or a friction coefficient below zero."""
+def impossible(model: Model, values: Values, of: str = "") -> list[str]:
+    """A note on each of ``values`` that is beyond physical bounds: a mass or a friction coefficient below zero.
+
+    ``of`` tells whose values these are. The names are parameters of the model.
+    """
     known = {one.name: one for one in (*model.all_parameters, *model.standard_parameters)}
-    return [name for name, value in values.items() if not known[name].allows(value.value)]
+    return [
+        f"note: {value.place}: {name}{of} is {value.value:g}, which no robot can have"
+        for name, value in values.items()
+        if not known[name].allows(value.value)
+    ]
 
 
 #: Where a set's names are those of other groupings.

@@ -997,9 +997,10 @@ void kr270_payload_regressor(
     const kr270_real qdd[6], kr270_real W[60]);
 
 /**
- * Potential energy of the weight and of the balancers, zero at q = 0.
+ * Potential energy of the weight and of what effects store, zero at q = 0.
  *
- * Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).
+ * Its gradient is the gravity torque plus those of balancers, springs and ripple (report eq. 19 to
+ * 37).
  *
  * @param[in] prepared from kr270_prepare()
  * @param[in] q (6) joint positions [rad]

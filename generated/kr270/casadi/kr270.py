@@ -5373,9 +5373,10 @@ def _build_payload_regressor():
 
 
 def _build_potential_energy():
-    """Potential energy of the weight and of the balancers, zero at q = 0.
+    """Potential energy of the weight and of what effects store, zero at q = 0.
 
-    Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).
+    Its gradient is the gravity torque plus those of balancers, springs and ripple (report eq.
+    19 to 37).
 
     Inputs:
         parameters: (96) parameters, in the order of PARAMETERS [SI]

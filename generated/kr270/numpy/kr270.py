@@ -5254,9 +5254,10 @@ def payload_regressor(q, qd, qdd):
 
 
 def potential_energy(parameters, q):
-    """Potential energy of the weight and of the balancers, zero at q = 0.
+    """Potential energy of the weight and of what effects store, zero at q = 0.
 
-    Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).
+    Its gradient is the gravity torque plus those of balancers, springs and ripple (report eq.
+    19 to 37).
 
     Inputs:
         parameters: (96) parameters, in the order of PARAMETERS [SI]

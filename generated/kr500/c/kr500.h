@@ -999,9 +999,10 @@ void kr500_payload_regressor(
     const kr500_real qdd[6], kr500_real W[60]);
 
 /**
- * Potential energy of the weight and of the balancers, zero at q = 0.
+ * Potential energy of the weight and of what effects store, zero at q = 0.
  *
- * Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).
+ * Its gradient is the gravity torque plus those of balancers, springs and ripple (report eq. 19 to
+ * 37).
  *
  * @param[in] prepared from kr500_prepare()
  * @param[in] q (6) joint positions [rad]

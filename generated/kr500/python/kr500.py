@@ -1085,9 +1085,10 @@ class Robot:
         return W
 
     def potential_energy(self, q, out=None):
-        """Potential energy of the weight and of the balancers, zero at q = 0.
+        """Potential energy of the weight and of what effects store, zero at q = 0.
 
-        Its gradient is the gravity torque plus the balancers' torques (report eq. 19 to 37).
+        Its gradient is the gravity torque plus those of balancers, springs and ripple (report
+        eq. 19 to 37).
 
         Inputs:
             q: (6) joint positions [rad]

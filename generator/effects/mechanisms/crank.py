@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy
 
-from generator.effects.effect import Shape, Site
+from generator.effects.effect import Positive, Shape, Site
 
 _ANGLES = tuple(round(k * 0.5236 - 3.1416, 4) for k in range(12))
 
@@ -37,6 +37,20 @@ def length(at: Site) -> sympy.Expr:
 def length_at_zero(at: Site) -> sympy.Expr:
     """r24(0) [m]."""
     return length(at).subs(at.q, 0)
+
+
+def apart(at: Site) -> Positive:
+    """The pivots do not meet: where they do, the line of the force has no direction."""
+    return Positive("d22", length(at), "equal to d21", "pivots that stay apart")
+
+
+def extremes(at: Site, lower: sympy.Expr, upper: sympy.Expr) -> list[sympy.Expr]:
+    """Positions [rad] from ``lower`` to ``upper`` among which r24 has its least and its largest value: both ends and
+    the dead centres between them.
+    """
+    phi = at.values["phi"]
+    turns = range(int(sympy.ceiling((lower + phi) / sympy.pi)), int(sympy.floor((upper + phi) / sympy.pi)) + 1)
+    return [lower, *(k * sympy.pi - phi for k in turns), upper]
 
 
 def lever_arm(at: Site) -> sympy.Expr:

@@ -7,6 +7,9 @@ import sympy
 from generator.effects.effect import Column, Site
 from generator.effects.laws import ripple
 
+#: What a robot with coupled drives adds to the sign convention.
+SHARED = "q_r = N q; other joints j that turn motor i get the share N_ij/N_ii, by equal power"
+
 
 def ripple_columns(at: Site) -> tuple[Column, ...]:
     """Torque on the motor per unit of each part."""

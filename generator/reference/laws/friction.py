@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from decimal import Decimal
 
-from generator.reference.arithmetic import cosine, sine
+from generator.reference.arithmetic import cosine, sign, sine
 from generator.reference.law import At, Columns, Law
 
 
@@ -26,12 +26,13 @@ def _power(at: At) -> Columns:
 def _stribeck(at: At) -> Columns:
     speed = abs(at.qd)
     film = (speed / at.shape["vs"]) ** at.shape["exponent"] if speed else Decimal(0)
-    return (at.direction / film.exp(),)
+    return (at.direction * (-film).exp(),)
 
 
 def _gradual(at: At) -> Columns:
-    grown, shrunk = (at.qd / at.shape["v0"]).exp(), (-at.qd / at.shape["v0"]).exp()
-    return ((grown - shrunk) / (grown + shrunk),)
+    # exp(-2 |x|) vanishes far from rest, where exp(2 |x|) is no decimal.
+    shrunk = (-2 * abs(at.qd) / at.shape["v0"]).exp()
+    return (sign(at.qd) * (1 - shrunk) / (1 + shrunk),)
 
 
 def _of_position(at: At) -> Columns:

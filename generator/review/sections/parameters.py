@@ -61,7 +61,7 @@ def _table(parameters: Iterable[Parameter]) -> Markup:
             element("code", parameter.name),
             unit(parameter.unit),
             parameter.meaning,
-            "" if parameter.lower is None else f"≥\u00a0{parameter.lower:g}",
+            "" if parameter.lower is None else f"{'>' if parameter.positive else '≥'}\u00a0{parameter.lower:g}",
         )
         for index, parameter in enumerate(parameters)
     )

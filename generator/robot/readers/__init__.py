@@ -26,6 +26,7 @@ def read(path: Path | str) -> Robot:
     file = str(path)
     readers = {ending: module for module in modules(sys.modules[__name__]) for ending in module.EXTENSIONS}
     reader = readers.get(path.suffix.lower())
+    _check_file(path, file, "a robot file")
     if reader is None:
         raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(readers))
     return robot_from(reader.read(text_of(path, file), file))
@@ -46,10 +47,7 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
 
     Raises InputError, saying what was ``expected``, for what cannot be read as such a text.
     """
-    if os.path.isdir(path):
-        raise InputError(Place(file), "this is a folder", expected)
-    if os.path.exists(path) and not os.path.isfile(path):
-        raise InputError(Place(file), "this is not a regular file", expected)
+    _check_file(path, file, expected)
     try:
         if (size := path.stat().st_size) > _MAX_BYTES:
             raise InputError(Place(file), f"the file has {size} bytes", f"at most {_MAX_BYTES}")
@@ -63,6 +61,14 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
         place = Place(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
         problem = f"byte 0x{error.object[error.start]:02x} is not UTF-8"
         raise InputError(place, problem, "a text file in UTF-8") from None
+
+
+def _check_file(path: Path, file: str, expected: str) -> None:
+    """What there is at ``path`` is a file."""
+    if os.path.isdir(path):
+        raise InputError(Place(file), "this is a folder", expected)
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise InputError(Place(file), "this is not a regular file", expected)
 
 
 def with_single_ends(text: str) -> str:

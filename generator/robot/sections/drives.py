@@ -26,7 +26,7 @@ def drives(entry: Entry | None, joints: Sequence[Joint]) -> Drives | None:
 
     Raises InputError for a ratio that is zero or not rational, a list that does not have one value per moving joint, a
     coupling element that is not below the diagonal, a torque constant that is not positive, a drift that is not within
-    -1 and 1.
+    -1 and 1, a size that no drive has (``fields.check_size``).
     """
     if entry is None:
         return None
@@ -57,7 +57,7 @@ def _torque_drift(entry: Entry | None, constants: object, moving: Sequence[int])
 def _ratios(node: Node, moving: Sequence[int]) -> tuple[Fraction, ...]:
     ratios = []
     for number, item in zip(moving, fields.items(node, "gear_ratios", len(moving), "gear ratios"), strict=True):
-        ratio = _fraction(item, f"gear ratio of joint {number}")
+        ratio = _sized(item, f"gear ratio of joint {number}")
         if ratio == 0:
             raise InputError(item.place, f"gear ratio of joint {number} is zero", "a ratio other than zero")
         ratios.append(ratio)
@@ -82,7 +82,7 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
         if (row, column) in seen:
             raise InputError(one.key, f"coupling coefficient {key} is given twice", "it once")
         seen.add((row, column))
-        lower[row][column] = _fraction(one.value, key)
+        lower[row][column] = _sized(one.value, key)
     if convention == "direct":
         return tuple(tuple(ratios[i] if i == k else lower[i][k] for k in range(n)) for i in range(n))
     inverse = _inverse_of_unit_lower(lower)
@@ -97,6 +97,11 @@ def element(name: str) -> tuple[int, int] | None:
     """
     match = _ELEMENT.match(name)
     return None if match is None else (int(match[1] or match[3]), int(match[2] or match[4]))
+
+
+def element_name(row: int, column: int) -> str:
+    """The name that ``element`` reads."""
+    return f"N{row}{column}" if max(row, column) < 10 else f"N{row}_{column}"
 
 
 def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
@@ -132,7 +137,7 @@ def _torque_constants(entry: Entry | None, moving: Sequence[int]) -> tuple[dict[
     unit = fields.text(keys.pop("unit").value, "unit of torque_constants", "N m/A")
     factor = parse_unit(unit.content, unit.place, "N m/A").factor
     if not factor.is_Rational:
-        raise InputError(unit.place, f"unit {unit.content} is no fraction of N m/A", "one such as N m/A or mN m/A")
+        raise InputError(unit.place, f"unit {unit.content} is no fraction of N m/A", "one such as N m/A or kN m/A")
     use = keys.pop("use")
     found = {
         identifier(Text(key, one.key), "torque constants"): _constants(one.value, key, factor, moving)
@@ -144,11 +149,19 @@ def _torque_constants(entry: Entry | None, moving: Sequence[int]) -> tuple[dict[
 def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) -> tuple[Fraction, ...]:
     constants = []
     for number, item in zip(moving, fields.items(node, f"torque constants {key}", len(moving), "values"), strict=True):
-        value = _fraction(item, f"torque constant of joint {number}") * Fraction(int(factor.p), int(factor.q))
+        what = f"torque constant of joint {number}"
+        value = _fraction(item, what) * Fraction(int(factor.p), int(factor.q))
         if value <= 0:
-            raise InputError(item.place, f"torque constant of joint {number} is not positive", "a number above 0")
+            raise InputError(item.place, f"{what} is not positive", "a number above 0")
+        fields.check_size(item.place, what, value)
         constants.append(value)
     return tuple(constants)
+
+
+def _sized(node: Node, what: str) -> Fraction:
+    value = _fraction(node, what)
+    fields.check_size(node.place, what, value)
+    return value
 
 
 def _fraction(node: Node, what: str) -> Fraction:

@@ -61,8 +61,11 @@ def _length(name: str, entry: Entry) -> Length:
 
 
 def gravity(entry: Entry) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """Acceleration of free fall in the world frame [m/s2]."""
-    return _vector(entry.value, "gravity", "m/s2", "accelerations")
+    """Acceleration of free fall in the world frame [m/s2]; raises InputError for what no world has."""
+    fall = _vector(entry.value, "gravity", "m/s2", "accelerations")
+    for value in fall:
+        fields.check_size(entry.value.place, "gravity", value, any_small=True)
+    return fall
 
 
 def base(entry: Entry | None) -> sympy.ImmutableMatrix:

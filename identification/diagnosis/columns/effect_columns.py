@@ -85,9 +85,9 @@ class EffectColumns:
         ]
         states = [at.state(one.stem) for one in effect.states]
         self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
-        lengths = {} if effect.positive is None else effect.positive(at)
+        lengths = () if effect.positive is None else effect.positive(at)
         given = [*(at.values[name] for name in self._names), at.q]
-        self._positive = {name: sympy.lambdify(given, one, "numpy") for name, one in lengths.items()}
+        self._positive = {one.value: sympy.lambdify(given, one.length, "numpy") for one in lengths}
         if effect.rates is not None:
             self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 
