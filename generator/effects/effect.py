@@ -57,8 +57,7 @@ class Shape:
     says "way", and ``within`` are ends between which it goes on from there in geometric steps; where ``whole`` nothing
     between whole numbers is a value, and where ``several`` every whole number up to that one can be. Where ``exact``
     what fits better between two whole numbers is another effect. Of a ``scale`` any value will do where none is known:
-    others count in units of it. One that is
-    ``nonzero`` may have either sign.
+    others count in units of it. One that is ``nonzero`` may have either sign.
     """
 
     name: str
