@@ -70,6 +70,11 @@ class Run:
         return RunSource.of(self.name).path.name
 
     @property
+    def is_part(self) -> bool:
+        """Whether it is a part of what the file holds."""
+        return RunSource.of(self.name).is_part
+
+    @property
     def samples(self) -> int:
         """N."""
         return int(self.q.shape[-1])

@@ -41,10 +41,15 @@ class RunSource:
             raise InputError(Place(name), "this is no part of a run", "FILE@FROM:TO with times in s") from None
         return cls(name, Path(match["path"]), start, end)
 
+    @property
+    def is_part(self) -> bool:
+        """Whether it is a part of the file alone."""
+        return bool(np.isfinite(self.start) or np.isfinite(self.end))
+
     def rows_of(self, recording: Recording) -> Recording:
         """The rows of the file's ``recording`` that belong to the run; raises InputError where there are none."""
         start, end = self.start, self.end
-        if (np.isinf(start) and np.isinf(end)) or "t" not in recording.columns:
+        if not self.is_part or "t" not in recording.columns:
             return recording
         t = recording.columns["t"]
         inside = np.flatnonzero((t >= start - _CLOSE) & (t <= end + _CLOSE))

@@ -90,9 +90,12 @@ def _asked(one: Residual) -> str:
     return ", more than its mean leaves: is it in N m, or its current in A?" if one.relative_to_mean > 100 else ""
 
 
-def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
-    """Raises InputError where columns of two joints or motors are swapped."""
-    if bad := _doubtful(residuals):
+def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals | None = None) -> None:
+    """Raises InputError where columns of two joints or motors are swapped, one of which has large ``residuals``;
+    without any, each run is fitted by itself in some of its samples.
+    """
+    bad = None if residuals is None else _doubtful(residuals)
+    if bad is None or bad:
         for one in runs:
             _swapped(one, regressors, bad)
 
@@ -117,7 +120,8 @@ def directed(
         if len(likely) >= _SEVERAL and max(likely) < 0 and sure:
             whose = "" if joints == moving else f" of joint {min(joints)}"
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
-            raise InputError(place, problem, "torques of the drives on the joints; a sidecar can change their sign")
+            expected = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
+            raise InputError(place, problem, expected)
 
 
 def misread(one: Sampled, regressors: Regressors) -> list[str]:
@@ -184,10 +188,13 @@ def _thinned(one: Sampled) -> tuple[Motion, Array, NDArray[np.bool_], float]:
     return one.motion.at(thin), tau[:, thin], ~one.left_out[:, thin], independent
 
 
-def _swapped(one: Sampled, regressors: Regressors, bad: Sequence[int]) -> None:
+def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) -> None:
     motion, tau, used, independent = _thinned(one)
     same = np.eye(len(tau))
     given = _Thinned(regressors, motion, tau, used, independent)
+    if bad is None:
+        spread = {k: float(np.std(tau[k, used[k]])) for k in range(len(tau)) if used[k].any()}
+        bad = {k for k, left in given.left(same).items() if 100 * left > _DOUBTFUL * spread.get(k, np.inf)}
     best, what, of = given.misfit(same) - np.log(_BETTER), "", ""
     robot = regressors.model.robot
     for i, k in combinations(range(len(tau)), 2):
@@ -239,9 +246,12 @@ class _Thinned:
 
     def misfit(self, mix: Array) -> float:
         """Sum of the logarithms of the joints' residuals with torques that are ``mix`` (n x n) times the given ones."""
+        return float(np.log(list(self.left(mix).values())).sum())
+
+    def left(self, mix: Array) -> Mapping[int, float]:
+        """The joints' residuals [N m, N] with torques that are ``mix`` (n x n) times the given ones."""
         factors = []
         for k, (R, names) in enumerate(zip(self._factors, self._structure, strict=True)):
             mixed = np.column_stack([R[:, : len(names)], R[:, len(names) :] @ mix[k]])
             factors.append(Factor(k, names, mixed, int(self._rows[k]), 0.0))
-        sigma = Problem(tuple(factors), self._names, {}, weighted=True).solve().sigma
-        return float(np.log(list(sigma.values())).sum())
+        return Problem(tuple(factors), self._names, {}, weighted=True).solve().sigma

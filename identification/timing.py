@@ -97,7 +97,7 @@ def clock(recording: Recording) -> Clock:
             start, period = _line(t, np.arange(len(t)))
             return Clock(start, period, t, np.arange(len(t)))
         k = int(gaps[0])
-        problem = f"time steps by {steps[k]:.6g} s to {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
+        problem = f"time steps by {steps[k]:.6g} s, at {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
         raise InputError(recording.where(k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part")
     return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
 

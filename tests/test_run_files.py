@@ -181,7 +181,7 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
     ),
     "nan": (lambda r: put(r, "tau1", 77, np.nan), r":79:\d+: tau1 is nan, expected a finite number"),
     "infinite": (lambda r: put(r, "q1", 5, np.inf), r":7:\d+: q1 is inf, expected a finite number"),
-    "gap": (gap, r":502:1: time steps by 0.505 s to 3 s, where it stepped by 0.005 s, expected one rate without gaps"),
+    "gap": (gap, r":502:1: time steps by 0.505 s, at 3 s, where it stepped by 0.005 s, expected one rate without gaps"),
     "jump in time": (
         lambda r: put(r, "t", slice(900, None), 0).with_columns(t=r.columns["t"] + 3 * (np.arange(1600) >= 900)),
         r":902:1: time steps by 3.005 s",
@@ -192,7 +192,7 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
     ),
     "two rates": (
         two_rates,
-        r":802:1: time steps by 0.01 s to 4.005 s, where it stepped by 0.005 s|:803:1: time steps",
+        r":802:1: time steps by 0.01 s, at 4.005 s, where it stepped by 0.005 s|:803:1: time steps",
     ),
     "constant torque": (
         lambda r: put(r, "tau2", slice(None), 4.0),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from generator.errors import InputError
+from identification.diagnosis.command import Request, diagnosed
 from identification.drive_train import constants, coupling
 from identification.inverse_model import identify
 from identification.observation import Regressors
@@ -28,6 +29,18 @@ def test_swapped_columns_are_found_out(change: str, links: Regressors, tmp_path:
     path = run.with_columns(**columns).save(tmp_path / f"swapped_{change}.csv")
     with pytest.raises(InputError, match=f"the {change} of joints 1 and 2 look swapped"):
         identify(links.model.robot, [path], regressors=links)
+
+
+def test_a_diagnosis_refuses_them_before_it_looks_for_anything(
+    links: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    runs = [recorded(links, TRUTH, seed=seed, noise=0.03) for seed in (7, 8)]
+    swapped = runs[1].with_columns(q1=runs[1].columns["q2"], q2=runs[1].columns["q1"])
+    paths = [run.save(tmp_path / f"{name}.csv") for name, run in (("right", runs[0]), ("wrong", swapped))]
+    file = Path(links.model.robot.place.file)
+    with pytest.raises(InputError, match=r"wrong.csv:1:1: the positions of joints 1 and 2 look swapped"):
+        diagnosed(file, links.model.robot, Request(paths), tmp_path / "out", lambda *about: {})
+    assert "columns of every candidate" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

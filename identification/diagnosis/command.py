@@ -25,6 +25,7 @@ from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.roles import Roles, roles
 from identification.observation import Regressors
 from identification.results import written
+from identification.suspicion import ordered
 
 #: Name of the machine-readable result.
 RESULTS = "diagnosis.json"
@@ -53,8 +54,8 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used and for a ``folder`` in which the mended robot would replace a file that is read, before anything is looked
-    for; and at the end for runs that are not of this robot (``plausibility``).
+    used, for swapped columns and for a ``folder`` in which the mended robot would replace a file that is read, before
+    anything is looked for; and at the end for runs that are not of this robot (``plausibility``).
     """
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
@@ -64,6 +65,7 @@ def diagnosed(
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     given = _runs(wanted, robot, regressors)
     notes += [note for run in given.recorded for note in run.notes]
+    ordered([run.sampled for run in given.runs], regressors)
 
     with replacing(folder, GENERATED) as fresh:
         tests = given.tests if given.roles.untouched else ()

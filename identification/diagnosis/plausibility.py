@@ -11,7 +11,7 @@ from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.residuals import Residual, Residuals
-from identification.suspicion import directed, misread, ordered, suspect
+from identification.suspicion import directed, misread, suspect
 
 #: Correlation of a run's torques with what the model makes of them from which their signs are others.
 _REVERSED = -0.5
@@ -22,15 +22,14 @@ _RANK, _NOTHING = 1e-9, 1e-300
 def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
-    Raises InputError where columns are swapped, where the torques have the other sign, in all runs or in one of them,
-    and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques unexplained. Parameters
-    that are known beforehand (``prior``) tell a sign as well.
+    Raises InputError where columns are swapped beside what was found, where the torques have the other sign, in all
+    runs or in one of them, and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques
+    unexplained. Parameters that are known beforehand (``prior``) tell a sign as well.
     """
     bank = found.search.bank
     runs = [run.sampled for run in bank.runs]
     regressors, left = bank.scenes[0].regressors, _left(found)
     if dry:
-        ordered(runs, regressors, left)
         return []
     for r in _reversed(bank):
         raise _another_sign(bank.runs[r], "those of the other runs")

@@ -87,17 +87,18 @@ def test_a_joint_that_is_held_does_not_count() -> None:
 
 
 @pytest.mark.parametrize(
-    ("period", "rows", "note"),
+    ("name", "period", "rows", "note"),
     [
-        (2000, 200, ""),
-        (2003, 0, "repeats after 2003 samples, of which one in 10 is looked at: periods are not compared"),
-        (0, 0, "does not repeat after a whole number of samples"),
+        ("A", 2000, 200, ""),
+        ("A", 2003, 0, "repeats after 2003 samples, of which one in 10 is looked at: periods are not compared"),
+        ("A", 0, 0, "does not repeat after a whole number of samples"),
+        ("A@:12", 0, 0, "shows no two periods in a part of it"),
     ],
 )
-def test_why_periods_are_not_compared_is_told(period: int, rows: int, note: str) -> None:
+def test_why_periods_are_not_compared_is_told(name: str, period: int, rows: int, note: str) -> None:
     regressors = Regressors(read(find_robot("emps")))
     q = 0.1 * (series(3 * period, period)[:1] if period else np.linspace(0, 8, 6000)[None] ** 1.5)
-    one = prepared(Run("A", Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
+    one = prepared(Run(name, Place("A"), 0.0, 0.002, q, np.zeros_like(q)), Recipe(), regressors)
     assert (one.period, one.repeats) == (rows, period)
     assert one.unlike == note
 

@@ -82,6 +82,7 @@ def test_what_hardly_shows_is_told() -> None:
     assert told.startswith("elasticity hardly shows on the untouched runs")
     assert not [*hardly_shown({1: tried(1.05, 1.2)}, RUNS, found)]
     assert not [*hardly_shown({1: tried(1.4, 1.02)}, RUNS, found[:1])]
+    assert not [*hardly_shown({1: tried(1.05, 1.04), 3: tried(5.0, 1.0)}, RUNS, found)]
     one.hypothesis.kind = VALUE
     assert not [*hardly_shown({1: tried(1.05, 1.04)}, RUNS, found[:1])]
 

@@ -132,13 +132,15 @@ def objections(tried: Mapping[int, Untouched], runs: str, unwritten: Collection[
 
 
 def hardly_shown(tried: Mapping[int, Untouched], runs: str, found: Sequence[Finding]) -> Iterator[str]:
-    """Findings without which their joints are as near to the noise as with them: ``runs`` tell nothing of them.
+    """Findings without which their joints are as near to the noise as with them, and joints on which nothing else was
+    found: ``runs`` tell nothing of them. A fit without a finding may spoil other joints to make up for it.
 
     It is not asked of another value than the known one, which a fit without the finding takes up.
     """
     for one in found:
         if one.hypothesis.kind == VALUE:
             continue
-        mine = [tried[number] for number in one.amplitude if number in tried]
+        others = {number for other in found if other is not one for number in other.amplitude}
+        mine = [each for number, each in tried.items() if number in one.amplitude or number not in others]
         if mine and all(each.closed is None and each.alike for each in mine):
             yield f"{one.hypothesis.named} hardly shows on the {runs}: without it little more than noise is left there"

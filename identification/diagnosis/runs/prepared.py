@@ -86,6 +86,8 @@ class Prepared:
         """Why no periods of the run are compared; empty where they are."""
         if self.period:
             return ""
+        if not self.repeats and self.sampled.run.is_part:
+            return "shows no two periods in a part of it"
         if not self.repeats:
             return "does not repeat after a whole number of samples"
         factor = self.sampled.filters.factor
