@@ -30,12 +30,16 @@ def document(found: Comparison) -> dict[str, Any]:
     }
 
 
-def spare_reports(found: Comparison, folder: Path) -> None:
-    """Raises InputError where ``folder`` holds results that are compared: their report has the name of this one's."""
+def spare_reports(found: Comparison, folder: Path, report: str) -> None:
+    """Raises InputError where ``folder`` holds results that are compared and their ``report``, which has the name of
+    this one's.
+    """
+    if not (folder / report).exists():
+        return
     for source in (found.a, found.b):
         path = Path(source.file)
         beside = path.suffix == JSON or (folder / RESULTS).exists()
-        if beside and folder.exists() and path.parent.samefile(folder):
+        if beside and path.parent.samefile(folder):
             problem = f"the report of {path.name} is here, which is compared"
             raise InputError(Place(str(folder)), problem, "another --out")
 

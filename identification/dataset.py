@@ -115,9 +115,10 @@ def load(
 ) -> Run:
     """The run that ``source`` names: a path, or ``PATH@FROM:TO`` (``run_source``).
 
-    ``columns`` are formulas for a file with names of its own; each is used where the file has what it needs and lacks
-    what it makes. A sidecar's come on top. ``efforts`` are the stems that will do, the first one present is taken.
-    ``resting`` says that the robot may stand on purpose. What section ``signals`` of the robot file says is applied.
+    ``columns`` are formulas for a file with names of its own; each is used where the file lacks what it makes and has
+    what it and those of the same signal of other joints need. A sidecar's come on top. ``efforts`` are the stems that
+    will do, the first one present is taken. ``resting`` says that the robot may stand on purpose. What section
+    ``signals`` of the robot file says is applied.
 
     Raises InputError, with file and row, for everything that would make the result wrong.
     """
@@ -127,15 +128,18 @@ def load(
     if beside.robot and beside.robot != robot.name:
         place = Place(str(sidecar.path_of(named.path)))
         raise InputError(place, f"this is a run of {beside.robot}", f"one of {robot.name}")
-    wanted = {
-        name: one
-        for name, one in (columns or {}).items()
-        if name not in recording.columns and _possible(one, recording)
-    }
+    wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
+    lacking = {_signal(name) for name, one in wanted.items() if not _possible(one, recording)}
+    wanted = {name: one for name, one in wanted.items() if _signal(name) not in lacking}
     recording = numbered(renamed(renamed(recording, wanted), beside.columns), robot)
     recorded = _recorded(source, named.rows_of(recording), robot, efforts, resting)
     known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording, robot))
     return _corrected(known, robot)
+
+
+def _signal(column: str) -> str:
+    """What a column is of its joint: ``tau`` of ``tau2``."""
+    return column.rstrip("0123456789")
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:

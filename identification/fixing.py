@@ -14,6 +14,7 @@ from generator.robot.fields import nearest
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import regrouped, resolved
+from identification.set_values import told
 
 #: Word for all base parameters that stand for the bodies' inertia and weight.
 BODIES = "bodies"
@@ -28,7 +29,7 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
     given_once(requests, place)
     names = [parameter.name for parameter in model.base_parameters]
     values = {} if prior is None else resolved(model, prior.values)
-    told = set() if prior is None else _told(model, prior)
+    known = set() if prior is None else _known(model, prior)
     result: dict[str, float] = {}
     for request in requests:
         wanted, equals, value = request.partition("=")
@@ -42,7 +43,7 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
                 result[name] = float(expressions.parse_number(value, place))
             elif prior is None:
                 raise InputError(place, f"{name} has no value", f"{name}=VALUE, or a set of values to take it from")
-            elif name not in told:
+            elif name not in known:
                 problem = f"the set {prior.name} does not tell {name}"
                 raise InputError(place, problem, f"{name}=VALUE, or a set of values that has it")
             else:
@@ -50,11 +51,11 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
     return result
 
 
-def _told(model: Model, prior: ParameterSet) -> set[str]:
+def _known(model: Model, prior: ParameterSet) -> set[str]:
     """Base parameters that a set tells, by themselves or by what they hold. A set of bodies tells those of all: what it
-    lacks is zero.
+    lacks is zero. What only serves a sum is not told.
     """
-    given = regrouped(model, prior.values).keys()
+    given = regrouped(model, {name: one for name, one in prior.values.items() if told(one)}).keys()
     bodies, effects = set(_chosen(BODIES, (), model)), names_of_effects(model.robot)
     parts = {name: {name, *terms} for name, terms in model.grouping.numeric().items()}
     of_bodies = {part for name in bodies for part in parts[name]} - effects

@@ -17,6 +17,7 @@ from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved
 from identification.named_set import named_set
 from identification.recording import digest
+from identification.set_values import told
 
 #: How the name of a results file ends.
 JSON = ".json"
@@ -149,5 +150,5 @@ def _base(robot: Robot, one: ParameterSet, values: Mapping[str, Known]) -> dict[
 
 
 def _known(one: ParameterValue) -> Known:
-    std = None if one.relative_std is None else abs(one.value) * one.relative_std / 100
+    std = None if one.relative_std is None or not told(one) else abs(one.value) * one.relative_std / 100
     return Known(one.value, std, one.unit)

@@ -18,6 +18,11 @@ _UNKNOWN = 1e5
 _GIVEN = "given, not identified"
 
 
+def told(one: ParameterValue) -> bool:
+    """Whether a value of a set is one by itself, and does not only serve a sum."""
+    return one.relative_std is None or one.relative_std < _UNKNOWN
+
+
 def _identified(value: float, std: float, unit: str) -> ParameterValue | None:
     """A value [``unit``] with its standard deviation, infinite where it is hidden; None where it shows in no sum."""
     if not value:

@@ -127,6 +127,14 @@ def test_control_characters(tmp_path: Path) -> None:
     assert _refusal(file) == f"{file}:2:1: not YAML: character 0, expected a robot file in YAML"
 
 
+def test_joiners_of_letters_are_no_control_characters(tmp_path: Path) -> None:
+    """Persian has one between letters, and some pictures are made of two."""
+    file = tmp_path / "arm.yaml"
+    told = "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645 \U0001f469\u200d\U0001f527"
+    file.write_text(GOOD.replace("a small arm", told), encoding="utf-8")
+    assert read(file).description == told
+
+
 @pytest.mark.parametrize("name", ["arm.yaml", "arm"])
 def test_folder(name: str, tmp_path: Path) -> None:
     folder = tmp_path / name

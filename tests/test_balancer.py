@@ -269,3 +269,9 @@ def test_check_tells_the_limits_that_a_balancer_needs(tmp_path: Path, capsys: py
     assert notes == [f"note: {path}:9:89: {told}"]
     path = balancer(tmp_path, "gas_balancer", "d21: 0.3 m, d22: 0.1 m, phi: 180 deg, l0: 0.21 m")
     assert len(command("check", path, capsys=capsys).out.splitlines()) == 1
+
+
+def test_limits_of_many_turns_are_looked_at_in_a_moment(tmp_path: Path) -> None:
+    path = balancer(tmp_path, "spring_balancer", "d21: 0.3 m, d22: 0.3 m, phi: 0 rad", "-1e7 rad, 1e7 rad")
+    with pytest.raises(InputError, match="d22 is equal to d21: within the joint's limits 0 m is left"):
+        subject(read(path), names=())

@@ -151,6 +151,8 @@ def test_the_report_of_what_is_compared_is_spared(b: str, tmp_path: Path, capsys
     assert (tmp_path / "report.html").read_text() == "of the identification"
     for _ in range(2):
         assert command(*words, tmp_path / "compared", capsys=capsys).status == 0
+    (tmp_path / "report.html").unlink()
+    assert command(*words, tmp_path, capsys=capsys).status == 0
 
 
 def test_nothing_is_printed_where_the_files_cannot_be_written(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from generator.errors import InputError, Place
+from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
 from identification.consistent_fit import consistent_fit
@@ -240,6 +241,15 @@ def test_a_value_is_taken_from_a_set_that_tells_it(
     told = f"--fix:1:1: the set {name} does not tell {values}, expected {values}=VALUE, or a set of values that has it"
     with pytest.raises(InputError, match=f"^{told}$"):
         fixed(requests, prior, model, Place("--fix"))
+
+
+def test_what_only_serves_a_sum_is_not_told_by_a_set(links: Regressors) -> None:
+    unit = "N m s/rad"
+    values = {"Fv1": ParameterValue(14.0, unit, 2.0), "Fv2": ParameterValue(-7000.0, unit, 1e5)}
+    prior = ParameterSet("sums", "", "", values)
+    assert fixed(["Fv1"], prior, links.model, Place("--fix")) == {"Fv1": 14.0}
+    with pytest.raises(InputError, match="the set sums does not tell Fv2"):
+        fixed(["Fv*"], prior, links.model, Place("--fix"))
 
 
 def test_a_set_that_does_not_tell_what_is_given_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -39,6 +39,15 @@ def test_each_formula_of_a_recipe_is_used_where_it_can_be(good: Recorded, robot:
     assert "temp1" not in run.others
 
 
+def test_formulas_of_one_signal_are_used_together(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    """Of the torques one cannot be made: the currents are there."""
+    (tmp_path / "recipe.yaml").write_text("columns: {tau1: 100 * i1, tau2: 90 * i2 - 5 * brake2}\n")
+    columns = recipe.read(tmp_path / "recipe.yaml").columns
+    motors = {"t": good.columns["t"], "qm1": good.columns["q1"], "qm2": good.columns["q2"]}
+    path = str(Recorded(motors | {f"i{j}": good.columns[f"tau{j}"] / 100 for j in (1, 2)}).save(tmp_path / "a.csv"))
+    np.testing.assert_array_equal(load(path, robot, columns).tau, load(path, robot).tau)
+
+
 @pytest.mark.parametrize("first", [0.0, 1700000000.0])
 def test_a_part_between_two_samples_holds_both(good: Recorded, robot: Robot, tmp_path: Path, first: float) -> None:
     """Also at a rate whose period is no whole number of microseconds."""

@@ -164,13 +164,14 @@ class Site:
 @dataclass(frozen=True)
 class Positive:
     """A ``length`` [m] that must stay positive: the ``value`` to blame where it does not, what is wrong with it, and
-    what is expected instead.
+    what is expected instead. No machine leaves less than the part ``room`` of that value.
     """
 
     value: str
     length: sympy.Expr
     problem: str
     expected: str
+    room: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,10 @@ def _chamber(at: Site) -> sympy.Expr:
     return at.values["l0"] - crank.length(at) + crank.length_at_zero(at)
 
 
+#: Part of the chamber's length that is left at least: no cylinder is squeezed to a tenth.
+_ROOM = 0.1
+
+
 def _force(at: Site) -> sympy.Expr:
     return gas.force_column(_chamber(at), at.values["l0"], at.values["exponent"])
 
@@ -30,7 +34,7 @@ def _energy(at: Site) -> tuple[sympy.Expr, ...]:
 
 
 def _positive(at: Site) -> tuple[Positive, ...]:
-    return crank.apart(at), Positive("l0", _chamber(at), "too small", "a longer one")
+    return crank.apart(at), Positive("l0", _chamber(at), "too small", "a longer one", _ROOM)
 
 
 def _observables(at: Site) -> Mapping[str, tuple[sympy.Expr, str, str]]:

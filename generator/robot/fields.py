@@ -18,6 +18,9 @@ from generator.units import Quantity
 #: Three such numbers make a product within the range of single precision, 1e-38 to 3e38.
 _LEAST, _MOST = 1e-12, 1e12
 
+#: Characters that embed, override or isolate a direction of writing (Unicode annex 9): text is not what it looks like.
+_TURNING = frozenset(map(chr, (*range(0x202A, 0x202F), *range(0x2066, 0x206A))))
+
 _INTEGER = re.compile(r"[+-]?\d{1,9}\Z", re.ASCII)
 
 
@@ -62,12 +65,12 @@ def text(node: Node, what: str, expected: str = "a text") -> Text:
 
 def prose(entry: Entry | None, what: str) -> str:
     """A text for people, its white space made single; empty where there is none. Raises InputError for characters of
-    control and format, which change how others are shown.
+    control, among them those that turn how others are shown.
     """
     line = "" if entry is None else " ".join(text(entry.value, what).content.split())
     for character in line:
-        if entry is not None and unicodedata.category(character) in ("Cc", "Cf"):
-            problem = f"{what} holds U+{ord(character):04X}, a character of control or format"
+        if entry is not None and (unicodedata.category(character) == "Cc" or character in _TURNING):
+            problem = f"{what} holds U+{ord(character):04X}, a character of control"
             raise InputError(entry.value.place, problem, "characters that are seen")
     return line
 

@@ -32,14 +32,14 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.comparison import compare
         from identification.comparison_results import save, spare_reports
         from identification.parameter_source import parameters
+        from identification.report.page import REPORT
 
     found = compare(parameters(arguments.a), parameters(arguments.b))
     if arguments.out is not None:
-        spare_reports(found, arguments.out)
+        spare_reports(found, arguments.out, REPORT)
     lines = [_table(found)]
     if arguments.out is not None:
         from identification.report.compare.report import report
-        from identification.report.page import REPORT
 
         files = save(found, arguments.out, {REPORT: report(found)})
         lines.append(f"files            {', '.join(files)} in {arguments.out}/")

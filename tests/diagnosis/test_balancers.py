@@ -81,6 +81,18 @@ def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> Non
         effects_of(read(path))
 
 
+def test_a_spring_may_pass_its_dead_centre_closely(tmp_path: Path) -> None:
+    """As near as the file may have it: pivots need no room beside each other."""
+    arm = known(ROBOTS[HEAVY], tmp_path)
+    scene, _, _ = played(arm, Effect("offset", 1, 0.0), WAY)
+    q = scene.motion.q[2]
+    shape = {"d21": 1.0, "d22": 0.93, "phi": np.pi - float(q[len(q) // 3])}
+    columns = EffectColumns(
+        effects()["spring_balancer"], arm.regressors.model.robot.moving[2], 2, arm.regressors.model.robot
+    )
+    assert np.isfinite(columns(scene, shape)).all()
+
+
 def test_a_spring_without_stiffness_is_not_thought_of_first(tmp_path: Path) -> None:
     scene, _, _ = played(known(ROBOTS["small_wrist"], tmp_path), Effect("offset", 1, 0.0), WAY)
     (spring,) = (

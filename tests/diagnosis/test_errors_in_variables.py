@@ -150,6 +150,18 @@ def test_what_drowns_a_direction_does_not_swell_the_noise(tmp_path: Path) -> Non
     assert told.deviations[0] == pytest.approx(exact.deviations[0], rel=0.1)
 
 
+@pytest.mark.parametrize(("deviation", "told"), [(0.01, True), (1.0, False)])
+def test_what_drowns_a_direction_pretends_no_parameter(deviation: float, told: bool, tmp_path: Path) -> None:
+    regressors, (source,) = recorded(tmp_path, 1, 0.4, rounded(FINE))
+    run = ready(source, regressors)
+    bank = Bank([run], [Scene(run.sampled, regressors, TRUTH)])
+    bank.whiten([[WHITE]])
+    p = len(bank.base)
+    drowned = cast("Mapping[int, Redrawn]", {0: Drowned(bank, deviation)})
+    pretended = Pretence(bank, drowned, bank.grams[0][:p, :p]).base
+    assert (np.linalg.norm(pretended) > 1e-6) == told
+
+
 def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
     one = alone(tmp_path, FINE)
     (hypothesis,) = elasticity.hypotheses(one.scenes)

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from identification.diagnosis.columns.normal_equations import Normal, Prior, bounded, inverse
+from identification.diagnosis.columns.normal_equations import Normal, Prior, bounded, directions, inverse
 
 Array = NDArray[np.float64]
 
@@ -205,3 +205,16 @@ def test_a_column_of_which_nothing_is_left_is_not_used() -> None:
     x, drop = bounded(np.array([[1e-6]]), np.array([1.0]), np.array([-np.inf]), np.array([np.inf]), np.array([1e-4]))
     assert x.tolist() == [0.0]
     assert drop == 0.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_rounding_of_what_others_explain_is_no_direction(seed: int) -> None:
+    """Ten columns that three others explain wholly, and five that they do not."""
+    draw = np.random.default_rng(seed)
+    others, real = draw.normal(size=(2000, 3)), draw.normal(size=(2000, 5))
+    columns = np.hstack([real, others @ draw.normal(size=(3, 10))])
+    solution, *_ = np.linalg.lstsq(others, columns, rcond=None)
+    left = columns.T @ columns - columns.T @ others @ solution
+    along = directions((left + left.T) / 2, 1e-7, np.sum(columns**2, axis=0))
+    rows = (columns - others @ solution) @ along
+    np.testing.assert_allclose(rows.T @ rows, np.eye(5), atol=1e-9)

@@ -46,11 +46,13 @@ def apart(at: Site) -> Positive:
 
 def extremes(at: Site, lower: sympy.Expr, upper: sympy.Expr) -> list[sympy.Expr]:
     """Positions [rad] from ``lower`` to ``upper`` among which r24 has its least and its largest value: both ends and
-    the dead centres between them.
+    the dead centres between them, of which two in a row stand for all.
     """
     phi = at.values["phi"]
-    turns = range(int(sympy.ceiling((lower + phi) / sympy.pi)), int(sympy.floor((upper + phi) / sympy.pi)) + 1)
-    return [lower, *(k * sympy.pi - phi for k in turns), upper]
+    first, last = (
+        int(turns) for turns in (sympy.ceiling((lower + phi) / sympy.pi), sympy.floor((upper + phi) / sympy.pi))
+    )
+    return [lower, *(k * sympy.pi - phi for k in range(first, min(last, first + 1) + 1)), upper]
 
 
 def lever_arm(at: Site) -> sympy.Expr:

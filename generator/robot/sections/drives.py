@@ -82,7 +82,7 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
         if (row, column) in seen:
             raise InputError(one.key, f"coupling coefficient {key} is given twice", "it once")
         seen.add((row, column))
-        lower[row][column] = _sized(one.value, key)
+        lower[row][column] = _sized(one.value, key, any_small=True)
     if convention == "direct":
         return tuple(tuple(ratios[i] if i == k else lower[i][k] for k in range(n)) for i in range(n))
     inverse = _inverse_of_unit_lower(lower)
@@ -158,9 +158,9 @@ def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) 
     return tuple(constants)
 
 
-def _sized(node: Node, what: str) -> Fraction:
+def _sized(node: Node, what: str, any_small: bool = False) -> Fraction:
     value = _fraction(node, what)
-    fields.check_size(node.place, what, value)
+    fields.check_size(node.place, what, value, any_small)
     return value
 
 

@@ -20,9 +20,8 @@ from identification.effect_states import beginning
 NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 #: Steps a second in which states are integrated.
 _STEPS = 500.0
-#: Positions over a joint's limits at which lengths are looked at that must be positive; and the part of the value by
-#: whose name they go that is left of them at least: no cylinder is squeezed to a tenth.
-_STEPS_OVER, _ROOM = 200, 0.1
+#: Positions over a joint's limits at which lengths are looked at that must be positive.
+_STEPS_OVER = 200
 #: Slope times step below which (e^x - 1)/x is 1.
 _LINEAR = 1e-9
 #: What the rates of states are made of, by the names that they are printed with.
@@ -53,7 +52,7 @@ class EffectColumns:
 
     def __call__(self, scene: Scene, shape: Mapping[str, float], warm: bool = False) -> Array:
         """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
-        limits in the robot's file, or squeezes a cylinder to less than a tenth.
+        limits in the robot's file, or leaves less room than a machine has.
         """
         if self._function is None:
             self._prepare()
@@ -64,7 +63,7 @@ class EffectColumns:
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
         anywhere = self._anywhere(motion.q[self._k])
-        if any(np.min(left(*values, anywhere)) < _ROOM * shape[name] for name, left in self._positive.items()):
+        if any(np.min(left(*values, anywhere)) < one.room * shape[one.value] for one, left in self._positive):
             return np.full_like(result, np.nan)
         with np.errstate(invalid="ignore", over="ignore"):
             found = self._function(*values, *signals, *states)
@@ -87,7 +86,7 @@ class EffectColumns:
         self._function = sympy.lambdify([*inputs, *states], torques, "numpy", cse=True)
         lengths = () if effect.positive is None else effect.positive(at)
         given = [*(at.values[name] for name in self._names), at.q]
-        self._positive = {one.value: sympy.lambdify(given, one.length, "numpy") for one in lengths}
+        self._positive = [(one, sympy.lambdify(given, one.length, "numpy")) for one in lengths]
         if effect.rates is not None:
             self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 

@@ -238,11 +238,13 @@ def inverse(A: Array, rank: float = _RANK) -> Array:
     return np.asarray(along @ along.T)
 
 
-def directions(A: Array, rank: float = _RANK) -> Array:
+def directions(A: Array, rank: float = _RANK, whole: Array | None = None) -> Array:
     """Combinations of columns with the products ``A`` (k x k), each of unit length over the rows and at right angles to
     the others (k x m), those last that most of the columns share: their products are the pseudo-inverse of A.
+
+    Where A is what others leave of the columns, ``whole`` are their squares (k) before: rounding is no direction.
     """
-    size = np.sqrt(np.maximum(A.diagonal(), 0.0))
+    size = np.sqrt(np.maximum(A.diagonal() if whole is None else whole, 0.0))
     live = size > 1e-12 * size.max(initial=0.0)
     scale = np.where(live, np.maximum(size, 1e-300), 1.0)
     scaled = np.where(np.outer(live, live), A / np.outer(scale, scale), 0.0)
