@@ -27,7 +27,7 @@ from identification.own_load import settled
 from identification.recipe import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of, notes_of
-from identification.sampling import Sampled, sampled
+from identification.sampling import SPOILED, Sampled, sampled
 from identification.shared_samples import unshared
 from identification.sidecar import Payload, check_carried
 from identification.total_least_squares import Fit, Part, solve
@@ -281,7 +281,7 @@ def _observable(
         if not any(len(each[m].i) for _, each in rows):
             spoiled = any(one.spoiled(m) for one, _ in rows)
             slow = "its joint is never faster than the standstill threshold"
-            refused[m] = f"it has no rows: {'each would hold a sample that was lost or cut off' if spoiled else slow}"
+            refused[m] = f"it has no rows: {SPOILED if spoiled else slow}"
     while len(refused) < n:
         parts = _parts(rows, names, refused, {})
         fit = solve(parts, n)

@@ -24,7 +24,7 @@ from identification.recipe import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of, notes_of
-from identification.sampling import Rows, Sampled, sampled
+from identification.sampling import SPOILED, Rows, Sampled, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload, check_carried
@@ -184,8 +184,7 @@ def _check_rows(factors: Sequence[Factor], runs: Sequence[Sampled]) -> None:
         return
     place = runs[0].run.place
     if any(run.spoiled(one.joint) for run in runs for one in factors):
-        spoiled = "no row is left: each would hold a sample that was lost or cut off"
-        raise InputError(place, spoiled, "longer stretches without any, a smaller factor")
+        raise InputError(place, f"no row is left: {SPOILED}", "longer stretches without any, a smaller factor")
     slow = "no row is left: joints are never faster than the standstill threshold"
     raise InputError(place, slow, "faster motion, a smaller threshold")
 
@@ -266,7 +265,7 @@ def _notes_on(one: Observed, robot: Robot, recipe: Recipe) -> list[str]:
         notes.append(f"{name}: {listed(slow)} {verb} never faster than the standstill threshold; {they_have} no rows")
     if spoiled:
         verb = "has" if len(spoiled) == 1 else "have"
-        notes.append(f"{name}: {listed(spoiled)} {verb} no rows: each would hold a sample that was lost or cut off")
+        notes.append(f"{name}: {listed(spoiled)} {verb} no rows: {SPOILED}")
     return notes
 
 

@@ -41,6 +41,10 @@ class Rows:
         return np.asarray(self.Y - self.W @ np.array([values[name] for name in self.names]))
 
 
+#: Why a joint that is ``Sampled.spoiled`` has no rows.
+SPOILED = "each would hold a sample that was lost or cut off"
+
+
 @dataclass(frozen=True)
 class Sampled:
     """A run ready to be observed: its filtered motion, without the ends; ``still`` are joints without motion.

@@ -192,10 +192,11 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) 
     motion, tau, used, independent = _thinned(one)
     same = np.eye(len(tau))
     given = _Thinned(regressors, motion, tau, used, independent)
+    left = given.left(same)
     if bad is None:
-        spread = {k: float(np.std(tau[k, used[k]])) for k in range(len(tau)) if used[k].any()}
-        bad = {k for k, left in given.left(same).items() if 100 * left > _DOUBTFUL * spread.get(k, np.inf)}
-    best, what, of = given.misfit(same) - np.log(_BETTER), "", ""
+        spread = {k: float(np.std(tau[k, used[k]])) for k in left if used[k].any()}
+        bad = {k for k, x in left.items() if 100 * x > _DOUBTFUL * spread.get(k, np.inf)}
+    best, what, of = _size(left) - np.log(_BETTER), "", ""
     robot = regressors.model.robot
     for i, k in combinations(range(len(tau)), 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
@@ -227,6 +228,11 @@ def _exchanges(robot: Robot, i: int, k: int, by_motors: bool) -> Iterator[tuple[
             yield "motors", np.asarray(motion), np.asarray(torques)
 
 
+def _size(left: Mapping[int, float]) -> float:
+    """Sum of the logarithms of the joints' residuals."""
+    return float(np.log(list(left.values())).sum())
+
+
 class _Thinned:
     """Factors of a few rows, each joint's with the torques of all joints beside; a part of them is ``independent``."""
 
@@ -245,8 +251,8 @@ class _Thinned:
         return bool(self._rows[k] > _FEWEST * len(self._structure[k]))
 
     def misfit(self, mix: Array) -> float:
-        """Sum of the logarithms of the joints' residuals with torques that are ``mix`` (n x n) times the given ones."""
-        return float(np.log(list(self.left(mix).values())).sum())
+        """The ``_size`` of what is left with torques that are ``mix`` (n x n) times the given ones."""
+        return _size(self.left(mix))
 
     def left(self, mix: Array) -> Mapping[int, float]:
         """The joints' residuals [N m, N] with torques that are ``mix`` (n x n) times the given ones."""

@@ -182,9 +182,9 @@ class Effect:
     ``potential_energy`` return the energy per unit of each parameter [J/unit], where the effect stores any;
     a potential is zero at q = 0 where it is finite there. ``positive`` returns the lengths that must stay positive over
     the joint's limits, ``extremes`` the positions between two others, and these, among which each length has its least
-    value. ``observables`` names further outputs worth emitting, each an
-    expression that may contain the parameters' symbols (named by their stems), with its unit. ``needs`` says what the
-    columns are made of: q, qd, qdd, qe (elongation), motor (its position; the robot needs drives), load, warmth, state.
+    value. ``observables`` names further outputs worth emitting, each an expression that may contain the parameters'
+    symbols (named by their stems), with its unit. ``needs`` says what the columns are made of: q, qd, qdd, qe
+    (elongation), motor (its position; the robot needs drives), load, warmth, state.
     ``rates`` are the time derivatives of ``states``, in their order. ``drive_train`` effects sit on the motor side of
     an elastic joint. ``on_link`` effects act on the link past the transmission, whose load they are part of; they
     depend on q alone. What reads the load is proportional to |load - rotor qdd|, ``rotor`` a shape value.

@@ -11,14 +11,13 @@ from generator.effects.laws import gas
 from generator.effects.mechanisms import crank
 from generator.robot.description import REVOLUTE
 
+#: Part of the chamber's length that is left at least: no cylinder is squeezed to a tenth.
+_ROOM = 0.1
+
 
 def _chamber(at: Site) -> sympy.Expr:
     """Length L of the gas chamber [m] (report eq. 35)."""
     return at.values["l0"] - crank.length(at) + crank.length_at_zero(at)
-
-
-#: Part of the chamber's length that is left at least: no cylinder is squeezed to a tenth.
-_ROOM = 0.1
 
 
 def _force(at: Site) -> sympy.Expr:

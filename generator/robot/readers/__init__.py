@@ -26,8 +26,8 @@ def read(path: Path | str) -> Robot:
     file = str(path)
     readers = {ending: module for module in modules(sys.modules[__name__]) for ending in module.EXTENSIONS}
     reader = readers.get(path.suffix.lower())
-    _check_file(path, file, "a robot file")
     if reader is None:
+        _check_file(path, file, "a robot file")
         raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(readers))
     return robot_from(reader.read(text_of(path, file), file))
 

@@ -108,8 +108,9 @@ class Pretence:
         result, noise = np.zeros(len(self._bank.base)), []
         for r, k in product(self._redrawn, range(self._bank.dof)):
             numbers, change = self._redrawn[r].base(self._bank, r, k)
-            result[numbers] += self._products(r, k, change)
-            noise.append((np.array(numbers, dtype=int), np.sqrt(self._believed[k]) * self._white(r, k, change)))
+            white = self._white(r, k, change)
+            result[numbers] += self._products(r, k, white)
+            noise.append((np.array(numbers, dtype=int), np.sqrt(self._believed[k]) * white))
         along = clear(directions(self._base), noise)
         return np.asarray(self._base @ along @ (along.T @ result))
 
@@ -117,7 +118,7 @@ class Pretence:
         """Of a variant's columns (k)."""
         if variant.columns not in self._known:
             parts = [
-                self._products(r, k, one.of(variant, self._bank, r, k))
+                self._products(r, k, self._white(r, k, one.of(variant, self._bank, r, k)))
                 for r, one in self._redrawn.items()
                 for k in variant.coordinates
             ]
@@ -128,8 +129,8 @@ class Pretence:
         """Of the base columns and of those of ``variants`` (p + k)."""
         return np.concatenate([self.base, *map(self.of, variants)])
 
-    def _products(self, r: int, k: int, change: Array) -> Array:
-        return np.asarray(-self._believed[k] * (self._white(r, k, change) @ self._torques[r][k]))
+    def _products(self, r: int, k: int, white: Array) -> Array:
+        return np.asarray(-self._believed[k] * (white @ self._torques[r][k]))
 
     @cached_property
     def _torques(self) -> dict[int, list[Array]]:

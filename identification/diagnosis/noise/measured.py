@@ -164,9 +164,8 @@ def _directions(gram: Array, base: int, most: int) -> Array:
     T = np.concatenate([-D @ (D.T @ gram[:base, base:]), np.eye(len(gram) - base)])
     S = gram[base:, base:] + gram[base:, :base] @ T[:base]
     V = directions((S + S.T) / 2, _RANK, gram.diagonal()[base:])
-    return np.concatenate(
-        [np.concatenate([D, np.zeros((len(gram) - base, D.shape[1]))]), T @ V[:, max(V.shape[1] - most, 0) :]], axis=1
-    )
+    first = np.vstack([D, np.zeros((len(gram) - base, D.shape[1]))])
+    return np.hstack([first, T @ V[:, max(V.shape[1] - most, 0) :]])
 
 
 def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
