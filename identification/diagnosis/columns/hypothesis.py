@@ -25,6 +25,8 @@ VALUE = "value"
 LOAD = "load"
 #: What it becomes in an effect that the file has: other shape values.
 SHAPE = "shape"
+#: What it becomes in the geometry: another length.
+LENGTH = "length"
 
 #: How a correction is called that the file has another one of already.
 BEYOND = " beyond the stated one"

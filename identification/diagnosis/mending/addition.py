@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from generator.effects.library import library
-from identification.diagnosis.columns.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, SHAPE, SIGNAL, Hypothesis
+from identification.diagnosis.columns.hypothesis import BASE, DRIVE, EFFECT, ELASTIC, LENGTH, SHAPE, SIGNAL, Hypothesis
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,7 @@ class Addition:
       a gain multiplies it, a limit, time or rise replaces it.
     - DRIVE: ``gear_ratio``, a factor of the joints' ratios; ``torque_drift``, added to the motors'; the rest as SIGNAL.
     - BASE: ``tilt_x``, ``tilt_y``, ``tilt_z`` [rad], the rotation vector in the world that follows the file's rotation.
+    - LENGTH: ``d`` or ``r``, how much longer [m] that of the joint is than in the file.
     - ELASTIC: ``gap`` where there is backlash. The joints' drive trains become elastic.
     - BODY: a payload, which base parameters hold; the file's text does not change.
     - LOAD: what runs carry beyond the payload that their sidecars state; the file's text does not change.
@@ -61,6 +62,8 @@ def addition(
         values = {one.effect: 1 + found[0]} if one.effect == "gear_ratio" else _drift(found, {**one.given, **shape})
     elif one.kind == BASE:
         values = {name: coefficients[name] for name in ("tilt_x", "tilt_y", "tilt_z") if name in coefficients}
+    elif one.kind == LENGTH:
+        values = {one.effect.removeprefix("length_"): found[0]}
     elif one.kind == ELASTIC:
         values, parameters = _elastic(one, found[0], {**one.given, **shape})
     else:

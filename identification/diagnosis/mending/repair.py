@@ -26,6 +26,7 @@ from identification.diagnosis.columns.hypothesis import (
     DRIVE,
     EFFECT,
     ELASTIC,
+    LENGTH,
     LOAD,
     SHAPE,
     SIGNAL,
@@ -223,6 +224,24 @@ def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     ]
 
 
+def _add_length(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
+    """To a length with a name where that is nobody else's; else into the joint."""
+    (number,), ((field, longer),) = one.joints, one.values.items()
+    length: sympy.Expr = getattr(robot.joints[number - 1], field)
+    stated = float(length.subs({sympy.Symbol(each.name, real=True): each.value for each in robot.lengths}))
+    path: list[str | int] = ["joints", number - 1, field]
+    others = [
+        getattr(each, key) for each in robot.joints for key in ("d", "r") if (each.number, key) != (number, field)
+    ]
+    if length.is_Symbol and not any(each.has(length) for each in others):
+        path = ["geometry", str(length)]
+        path += ["nominal"] if any(each.symbolic for each in robot.lengths if each.name == str(length)) else []
+    text = with_value(text, path, _with_unit(stated + longer, "m"))
+    return text, [
+        f"the length {field} of joint {number} is {stated + longer:.4g} m in the robot file, not {stated:.4g} m"
+    ]
+
+
 def _add_shape(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     """Into the entry that one joint has; from an entry of several joints into one of its own."""
     (number,) = one.joints
@@ -297,6 +316,7 @@ _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] =
     BASE: _add_base,
     ELASTIC: _add_elastic,
     SHAPE: _add_shape,
+    LENGTH: _add_length,
     BODY: _add_body,
     VALUE: _keep,
     LOAD: _of_sidecars,

@@ -9,6 +9,7 @@ import numpy as np
 
 from identification.arrays import Array
 from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.columns import lengths
 from identification.diagnosis.columns.acting import Acting
 from identification.diagnosis.columns.bank import Bank, Lasting, Variant, columns_of
 from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis
@@ -25,7 +26,7 @@ from identification.diagnosis.runs import stated_elasticity
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search import doubling
-from identification.diagnosis.search.other_shapes import searched
+from identification.diagnosis.search.other_lengths import searched
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.weighing import Weighing
@@ -112,6 +113,7 @@ def search(
         values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting, lasting = Acting(), Lasting()
+    longer = lengths.hypotheses(regressors.model.robot)
     for turn in range(_PASSES + 1):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
@@ -125,7 +127,7 @@ def search(
         bank.whiten(colours(bank, rounded, may_follow, noisy))
         weighing = Weighing(bank, train, validate, prior, noisy, free)
         progress("weighing the evidence")
-        choices = [] if dry else searched(weighing, chosen, later)
+        choices = [] if dry else searched(weighing, chosen, later, longer)
         chosen = [one.evidence.variant for one in choices]
         solution, covariance = weighing.fitted(chosen)
         before, acting, old = acting, Acting.found(bank, chosen, solution), values

@@ -95,7 +95,7 @@ class Selection:
                 refused.clear()
         found = self.choices(self._exchanged(chosen, None, _ROUNDS), replacing=True)
         lost = {one.key for one in start} - {one.evidence.variant.key for one in found}
-        begun = self._standing(start) if lost else []
+        begun = self.standing(start) if lost else []
         return self.choices(begun) if self._lost([one.evidence.variant for one in found], begun) else found
 
     def _lost(self, found: Sequence[Variant], begun: Sequence[Variant]) -> bool:
@@ -109,9 +109,9 @@ class Selection:
 
     def choices(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Choice]:
         """Those that pass beside each other, with what may stand in their places; none that tells the same twice and
-        not alike. ``replacing`` is that of ``_standing``.
+        not alike. ``replacing`` is that of ``standing``.
         """
-        standing = self._standing(chosen, replacing)
+        standing = self.standing(chosen, replacing)
         found = [self._choice(one, [other for other in standing if other is not one]) for one in standing]
         alike = [one for one in found if _agrees(one.evidence)]
         return found if len(alike) == len(found) else self.choices([one.evidence.variant for one in alike], replacing)
@@ -122,7 +122,7 @@ class Selection:
         """
         variants = self.weighing.bank.variants
         told = [one for one in variants if one.preset is not None and len(one.hypothesis.joints) > 1]
-        return self._with_common(self._standing(told))
+        return self._with_common(self.standing(told))
 
     def _with_common(self, told: Sequence[Variant]) -> list[Variant]:
         """What is ``told``, and where far more is missing than one effect beside it: all common ones together and the
@@ -139,10 +139,10 @@ class Selection:
         balancers = [one for (effect, _), shapes in offered.items() if balances(effect) for one in shapes]
         if balancers:
             chosen.append(self.weighing.best_shape(balancers, chosen).variant)
-        chosen = self._standing(chosen)
+        chosen = self.standing(chosen)
         return [self._shaped(one, [other for other in chosen if other is not one]) for one in chosen]
 
-    def _standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
+    def standing(self, chosen: Sequence[Variant], replacing: bool = False) -> list[Variant]:
         """Those that pass beside each other: the weakest that does not is taken away, one after the other. Where
         ``replacing``, what passes on its joints takes its place: beside all that it leaves unexplained, others would
         seem too small.
