@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from generator.effects.effect import BALANCER, EVERYWHERE, OFTEN, SPRING
 from generator.effects.library import library
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, LENGTH, Hypothesis
 
 
 def balances(effect: str) -> bool:
@@ -22,7 +22,7 @@ def pulls(effect: str) -> bool:
 
 def misplaces(hypothesis: Hypothesis) -> bool:
     """Whether with it the links stand elsewhere than the model says."""
-    return hypothesis.effect in ("base_tilt", "gear_ratio", "position_offset")
+    return hypothesis.kind == LENGTH or hypothesis.effect in ("base_tilt", "gear_ratio", "position_offset")
 
 
 def common(variant: Variant) -> bool:
