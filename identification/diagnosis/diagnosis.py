@@ -142,14 +142,15 @@ def _where(before: Where, named: Sequence[Finding], rest: Where, last: Where) ->
 
 def _of_rest(found: Search, last: Where, left: Unexplained, named: bool) -> Iterator[str]:
     """In words, what else is to be told of joints on which more than noise stays."""
-    lacking = {one.joint for one in left.lacks}
+    lacks = {one.joint: one.size for one in left.lacks}
+    lacking = set(lacks)
     yield from left.notes
     yield from remarks.of_lacks(last.lack, left, named)
     if lacking:
         yield from odd_run.notes(found, lacking)
     yield from remarks.of_swings(found, lacking)
     yield from remarks.of_links(found, lacking)
-    yield from trembling.notes(found, lacking)
+    yield from trembling.notes(found, lacks)
 
 
 def _invisible(found: Search) -> tuple[Hypothesis, ...]:

@@ -19,7 +19,7 @@ def bump(q: Array, qd: Array) -> Array:
 
 
 @pytest.mark.parametrize("step", [pytest.param(0.0, marks=pytest.mark.long), 2e-4])
-def test_coarse_steps_are_told_of_joints_that_keep_something(step: float, tmp_path: Path) -> None:
+def test_coarse_steps_are_told_of_joints_that_keep_no_more_than_they_may_make(step: float, tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [bump] * 3)
     for source in sources:
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
@@ -29,4 +29,6 @@ def test_coarse_steps_are_told_of_joints_that_keep_something(step: float, tmp_pa
     told = [note for note in found.notes if note.startswith("positions come in steps")]
     assert len(told) == bool(step)
     assert all("in steps, 0.0002 rad on joint 1, whose rounding" in note for note in told)
-    assert trembling.notes(found.search, ()) == []
+    (lack,) = found.search.bank.robot.numbers
+    assert trembling.notes(found.search, {}) == []
+    assert trembling.notes(found.search, {lack: 1e3}) == []

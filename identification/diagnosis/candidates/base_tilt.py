@@ -23,7 +23,6 @@ from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import BASE, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import generated_module
-from identification.sidecar import Payload
 
 #: Largest angle [rad].
 _LARGEST = 0.3
@@ -98,11 +97,9 @@ class Weight:
         w = self._regressor(q)
         return np.asarray(sum((x * w[..., p] for p, x in columns), start=np.zeros_like(q.T)).T)
 
-    def carried(self, q: Array, payload: Payload | None) -> Array:
-        """Torques (n x N) at rest in q (n x N) of a known payload; zero without one."""
-        if payload is None:
-            return np.zeros_like(q)
-        return np.asarray(self._payload(q) @ np.array([payload.known[stem] for stem in payload.names()])).T
+    def carried(self, q: Array, body: Array) -> Array:
+        """Torques (n x N) at rest in q (n x N) of a body in the tool's frame, by its inertial parameters (10) [SI]."""
+        return np.asarray(self._payload(q) @ body).T if body.any() else np.zeros_like(q)
 
 
 def _at_rest(model: Model, name: str) -> Callable[[Array], Array]:
@@ -124,8 +121,7 @@ class _Columns:
         # Standard parameters that make the base parameters: those that give them their names have their values.
         heads = {base.head: scene.values.get(base.name, 0.0) for base in self.model.grouping.base}
         q = scene.motion.q
-        payload = scene.sampled.run.payload
-        known = [weight(q, heads) + weight.carried(q, payload) for weight in self.weights.values()]
+        known = [weight(q, heads) + weight.carried(q, scene.body) for weight in self.weights.values()]
         unknown = [self.weights[axis](q, _unseen(self.model, name)) for name, axis in self.hidden]
         return np.stack([*known, *unknown])
 

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.effects.library import library
+from generator.symbolic.bodies import INERTIAL
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, SHAPE, VALUE, Coefficient, Hypothesis
+from identification.diagnosis.columns.payload_body import PARAMETERS, states, within
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
 
@@ -63,6 +65,17 @@ class Acting:
     def load(self, scene: Scene) -> Array:
         """What of them loads the drives (n x N) [N m, N]: bodies, inertias of rotors, effects on the links, offsets."""
         return self._sum(scene, _loads)
+
+    def body(self, scene: Scene) -> Array:
+        """Inertial parameters (10) [SI], in the tool's frame, of the payload that was found along a scene."""
+        values, result = self.coefficients, dict.fromkeys(INERTIAL, 0.0)
+        for one in self.variants:
+            there = one.hypothesis.kind == BODY or states(scene.sampled.run.payload, one.shape)
+            if there and one.hypothesis.kind in (BODY, LOAD):
+                for c in one.coefficients:
+                    for stem in PARAMETERS[within(c.name)]:
+                        result[stem] += values[c.name]
+        return np.array([*result.values()])
 
     @property
     def _torques(self) -> tuple[Variant, ...]:

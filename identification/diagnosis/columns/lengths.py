@@ -74,8 +74,7 @@ class _Columns:
         return f"{self.which}{self.joint.number}_longer"
 
     def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
-        before = {} if scene.beside is None else scene.beside.coefficients
-        step = sympy.Rational(f"{before.get(self.name) or _STEP:.7f}")
+        step = sympy.Rational(f"{scene.found(self.name) or _STEP:.7f}")
         return (self._longer(step).torques(scene) - self.stated.torques(scene))[None] / float(step)
 
     def _longer(self, step: sympy.Rational) -> _Bodies:
@@ -103,7 +102,7 @@ def _standard(scene: Scene) -> dict[str, float]:
 
 
 class _Bodies:
-    """The bodies of ``robot``, and what runs are known to carry, without effects."""
+    """The bodies of ``robot``, and what its tool carries, without effects."""
 
     def __init__(self, robot: Robot) -> None:
         lengths = tuple(replace(one, symbolic=False) for one in robot.lengths)
@@ -115,9 +114,8 @@ class _Bodies:
         model, bodies = self._of_bodies
         known = _standard(scene)
         result = bodies(*signals, np.array([known.get(one.name, 0.0) for one in model.standard_parameters]))
-        payload = scene.sampled.run.payload
-        if payload is not None:
-            result = result + self._of_payload(*signals) @ np.array([payload.known[stem] for stem in payload.names()])
+        if (carried := scene.body).any():
+            result = result + self._of_payload(*signals) @ carried
         return np.asarray(result.T)
 
     @cached_property

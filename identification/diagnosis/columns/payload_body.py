@@ -30,6 +30,9 @@ COEFFICIENTS = (
 #: The mass [kg] that sidecars state of it.
 STATED_MASS = "stated_mass"
 
+#: What the names of those end with that add to what sidecars state.
+_BEYOND = "_beyond"
+
 #: Those that are not called as the one inertial parameter, in the tool frame, of which they are so much.
 _OTHERS = {"I": ("XX", "YY", "ZZ"), "XX-I": ("XX",), "YY-I": ("YY",)}
 
@@ -46,7 +49,12 @@ def columns(scene: Scene) -> Array:
 
 def beyond(name: str) -> str:
     """How a coefficient is called that adds to what sidecars state."""
-    return f"{name}_beyond"
+    return f"{name}{_BEYOND}"
+
+
+def within(name: str) -> str:
+    """The coefficient that is called so, or so ``beyond`` what sidecars state."""
+    return name.removesuffix(_BEYOND)
 
 
 def states(payload: Payload | None, shape: Mapping[str, float]) -> bool:

@@ -36,6 +36,9 @@ class Beside(Protocol):
     def load(self, scene: Scene) -> Array:
         """The part of these torques that loads the drives (n x N) [N m, N]."""
 
+    def body(self, scene: Scene) -> Array:
+        """Inertial parameters (10) [SI] of what the tool carries of it, in the tool's frame, along the scene."""
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -128,6 +131,15 @@ class Scene:
     def torque_of(self, values: Mapping[str, float], motion: Motion) -> Array:
         """Torques of the model with other ``values`` along another motion (n x N) [N m, N]."""
         return self.regressors.torques(values, motion) + self.carried(motion)
+
+    @property
+    def body(self) -> Array:
+        """Inertial parameters (10) [SI] of what the tool carries, in its frame: the run's known payload, and what was
+        found.
+        """
+        payload = self.sampled.run.payload
+        known = np.zeros(len(INERTIAL)) if payload is None else np.array([payload.known[stem] for stem in INERTIAL])
+        return known if self.beside is None else known + self.beside.body(self)
 
     def carried(self, motion: Motion) -> Array:
         """Torques of the run's known payload along a motion (n x N) [N m, N] (report eq. 50); zero without one."""

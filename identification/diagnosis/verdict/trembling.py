@@ -6,7 +6,7 @@ in every period alike: what is left looks like something that the model lacks.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Mapping
 from math import sqrt
 
 import numpy as np
@@ -18,12 +18,15 @@ from identification.diagnosis.noise.rounding import deviations, rounding
 from identification.diagnosis.search.loop import Search
 from identification.residuals import rms
 
-#: Part of the noise that the steps of positions make, from which a drive may tremble by as much as the noise.
+#: Part of the noise that the steps of positions make, from which a drive may tremble by as much as the noise; in these
+#: parts a drive trembles at most.
 _COARSE = 0.1
 
 
-def notes(found: Search, joints: Collection[int]) -> list[str]:
-    """What is to be told of ``joints`` (numbers) that keep something unexplained, if their positions are coarse."""
+def notes(found: Search, lacks: Mapping[int, float]) -> list[str]:
+    """What is to be told of joints (numbers) that keep something unexplained, as large as in ``lacks`` in parts of the
+    noise's rms, if their positions are so coarse that a drive may make it.
+    """
     bank = found.bank
     repeating = [(run, scene) for run, scene in zip(bank.runs, bank.scenes, strict=True) if run.times]
     if not repeating:
@@ -31,10 +34,10 @@ def notes(found: Search, joints: Collection[int]) -> list[str]:
     steps = sqrt(12) * np.max([deviations(run.sampled.run, bank.robot) for run, _ in repeating], axis=0)
     coarse = []
     for k, joint in enumerate(bank.robot.moving):
-        if joint.number in joints:
+        if joint.number in lacks:
             torques = [rounding(run, scene)[k] / sqrt(run.times) for run, scene in repeating]
             part = rms(np.concatenate(torques)) / noise_floor(bank, k, repeating[0][0].rate)
-            if part > _COARSE:
+            if part > _COARSE * max(1.0, lacks[joint.number]):
                 coarse.append(f"{part:.2g} of the noise on joint {joint.number}")
     if not coarse:
         return []
