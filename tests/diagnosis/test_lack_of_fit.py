@@ -22,12 +22,14 @@ def one_run(
     unsettled_at: slice = slice(0),
     left_out: slice = slice(0),
     rate: float = 50.0,
+    speed: Array | None = None,
 ) -> Any:
     kept = np.arange(COUNT) % 17 != 0
     kept[left_out] = False
     unsettled = np.zeros((1, COUNT), dtype=bool)
     unsettled[0, unsettled_at] = True
-    sampled = SimpleNamespace(run=SimpleNamespace(name=name))
+    motion = SimpleNamespace(qd=(np.ones(COUNT) if speed is None else speed)[None])
+    sampled = SimpleNamespace(run=SimpleNamespace(name=name), motion=motion)
     return SimpleNamespace(
         period=period,
         times=COUNT / period if period else 0.0,
@@ -36,6 +38,7 @@ def one_run(
         kept=kept[None],
         unsettled=unsettled,
         sampled=sampled,
+        decimated=lambda x: x,
     )
 
 
@@ -167,4 +170,17 @@ def test_a_swing_that_comes_late_is_no_event(size: float, told: bool) -> None:
     swing[600:650] = size
     run = one_run()
     found = lack_of_fit([run], [e[run.kept[0]]], 0, 3, [swing[run.kept[0]]])
+    assert (found.burst is not None) == told
+
+
+@pytest.mark.parametrize(("hit", "told"), [(0.0, False), (40.0, True)])
+def test_noise_that_grows_with_the_speed_is_no_event(hit: float, told: bool) -> None:
+    """In two short moves the joint is fast; in one of them it may hit something."""
+    draw = np.random.default_rng(12)
+    speed = np.full(COUNT, 0.1)
+    speed[300:340], speed[700:740] = 1.0, 0.9
+    e = draw.normal(size=COUNT) * np.where(speed > 0.5, 5.0, 0.7)
+    e[310:314] += hit
+    run = one_run(period=0, speed=speed)
+    found = lack_of_fit([run], [e[run.kept[0]]], 0, 3)
     assert (found.burst is not None) == told

@@ -1,4 +1,6 @@
-"""What happens on a joint for a moment: where its residual is far above the noise and above itself a period away."""
+"""What happens on a joint for a moment: where its residual is far above the noise, above itself a period away, and
+above what it is where the joint moves as fast.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +22,8 @@ _BURST = 10
 _OUTSTANDING = 12.0
 #: By how much its power is above that of what may come late at the time.
 _BEYOND = 4.0
+#: Part of a speed from which rows are as fast, and how many times the rows of a burst there must be to be compared.
+_FAST, _COMPARED = 0.8, 3
 #: Chance of all rows together beyond which noise makes none.
 _CHANCE = 1e-12
 #: Time [s] within which bursts of a run are one.
@@ -44,8 +48,9 @@ class Burst:
 
 
 def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Sequence[Array]) -> Burst | None:
-    """Where the white residual of coordinate k is far above the noise, above what may be ``late`` then, and above
-    itself a period before or after, for a short time; not where a joint is unsettled.
+    """Where the white residual of coordinate k is far above the noise, above what may be ``late`` then, above itself a
+    period before or after, and above what it is in other rows as fast, for a short time; not where a joint is
+    unsettled.
     """
     found: list[tuple[float, str, float]] = []
     rows = sum(map(len, residuals))
@@ -60,6 +65,8 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         least = np.maximum(least, _a_period_away(power, place, run.period))
         power[power < _BEYOND * least] = 0.0
         far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
+        speed = np.abs(run.decimated(run.sampled.motion.qd[k])[kept])
+        far = far[power[far] >= _OUTSTANDING * _BURST * _as_fast(e**2, speed, far)]
         # The rows about a short burst hold the same power wherever it is in them.
         times = run.t[kept[np.array([i + np.argmax(square[i : i + _BURST]) for i in far], dtype=int)]]
         apart = max(_APART, _BURST / run.rate)
@@ -72,6 +79,20 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         return None
     _, name, time = max(sure)
     return Burst(name, time, len(sure))
+
+
+def _as_fast(square: Array, speed: Array, at: NDArray[np.int64]) -> Array:
+    """Means of squares where a joint moves as fast as in the rows from ``at`` on, but not in these or within a burst of
+    them; zero where too few do: noise may grow with the speed.
+    """
+    near = maximum_filter1d(speed, _BURST)[np.minimum(at + _BURST // 2, len(speed) - 1)]
+    result = np.zeros(len(at))
+    for i, (start, fast) in enumerate(zip(at.tolist(), near.tolist(), strict=True)):
+        others = speed >= _FAST * fast
+        others[max(start - _BURST, 0) : start + 2 * _BURST] = False
+        if np.count_nonzero(others) >= _COMPARED * _BURST:
+            result[i] = np.mean(square[others])
+    return result
 
 
 def _a_period_away(power: Array, place: NDArray[np.int64], period: int) -> Array:
