@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence, Set
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import ELASTIC, Key, on_joints
 from identification.diagnosis.runs.prepared import Prepared
-from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
 from identification.diagnosis.runs.swings import watched
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
@@ -52,14 +52,22 @@ def of_elasticity(found: Search) -> list[str]:
     trains = stated(found.bank.robot)
     if not trains:
         return []
-    where = on_joints(one.number for one in trains)
     notes = [
-        f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
+        f"{_drive_trains(trains)} elastic in the robot's file: what that adds to the torques is taken from its "
         "stiffnesses, beside the inverse dynamics of rigid joints"
     ]
     if (shown := stiffer(found)) is not None:
         notes.append(f"the runs show {100 * shown:.0f} % of that torque: these drive trains are stiffer than stated")
+    column = {one: found.bank.base.index(f"{BOUNCING}{one.number}") for one in trains if one.gap}
+    if fast := [one for one, at in column.items() if not found.weighing.all.gram[at, at]]:
+        notes.append(f"{_drive_trains(fast)} too stiff for the samples to follow, and taken as rigid")
     return notes
+
+
+def _drive_trains(trains: Sequence[Stated]) -> str:
+    """Those of some joints, in words, as what a sentence is about."""
+    are = "drive train of {} is" if len(trains) == 1 else "drive trains of {} are"
+    return f"the {are.format(on_joints(one.number for one in trains))}"
 
 
 def of_swings(found: Search, lacking: Set[int]) -> Iterator[str]:
