@@ -9,6 +9,7 @@ from identification.diagnosis.columns.hypothesis import ELASTIC, Key, on_joints
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
 from identification.diagnosis.runs.swings import watched
+from identification.diagnosis.runs.told_files import told_files
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.swings_heard import heard
@@ -109,14 +110,15 @@ def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
     that a finding may be too small to be firm without periods.
     """
     unlike: dict[str, list[str]] = {}
-    for run in runs:
+    files = told_files([run.sampled.run for run in runs])
+    for run, file in zip(runs, files, strict=True):
         if run.unlike:
-            unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
+            unlike.setdefault(run.unlike, []).append(file)
     more = ", and what is small beside it is not firm" if small else ""
     parts = [
-        f"the motion of {run.sampled.run.file} repeats for {run.repeating / run.rate:.3g} s: the other "
+        f"the motion of {file} repeats for {run.repeating / run.rate:.3g} s: the other "
         f"{(len(run.t) - run.repeating) / run.rate:.3g} s are left out"
-        for run in runs
+        for run, file in zip(runs, files, strict=True)
         if run.repeating < _WHOLE * len(run.t)
     ]
     return [
