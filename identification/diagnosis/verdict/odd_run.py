@@ -8,6 +8,7 @@ from generator.review.words import listed
 from identification.diagnosis.runs.told_files import paths, told_files
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, lack_of_fit
+from identification.diagnosis.verdict.of_rounding import of_rounding
 from identification.diagnosis.verdict.own_range import own_range
 
 #: Part of what is unexplained, in squares, that stays without the odd run, and without any other one; and by how much
@@ -47,6 +48,7 @@ def _unexplained(found: Search, runs: Sequence[int], joints: Collection[int]) ->
     result = 0.0
     for k, number in enumerate(bank.robot.numbers):
         if number in joints:
-            lack = lack_of_fit([bank.runs[r] for r in runs], [bank.residual(r, k, weights) for r in runs], k, number)
+            left, rounded = [bank.residual(r, k, weights) for r in runs], of_rounding(found, k, runs)
+            lack = lack_of_fit([bank.runs[r] for r in runs], left, k, number, rounded=rounded)
             result += lack.size**2 if lack.p < CHANCE else 0.0
     return result
