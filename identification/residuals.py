@@ -10,6 +10,9 @@ import numpy as np
 from identification.arrays import Array
 from identification.factors import Factor, added
 
+#: Median of the size of normal noise, in parts of its rms.
+MEDIAN_SIZE = 0.6745
+
 
 def rms(x: Array) -> float:
     """Root mean square of numbers; 0 of none."""

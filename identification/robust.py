@@ -16,12 +16,11 @@ import numpy as np
 from identification.factors import added, factors
 from identification.least_squares import Problem, Solution
 from identification.observed import Observed
+from identification.residuals import MEDIAN_SIZE
 from identification.sampling import Rows
 
 #: Standard deviations from which a residual counts less: 95 % efficient where the noise is Gaussian (Huber 1964).
 _KNEE = 1.345
-#: Median absolute deviation of unit Gaussian noise.
-_MAD = 0.6745
 _ITERATIONS = 30
 #: Change, in standard deviations, that ends the iteration.
 _SETTLED = 1e-3
@@ -86,7 +85,7 @@ def _bounds(runs: Sequence[Observed], values: Mapping[str, float], sought: Seque
         if not sizes:
             result[joint] = Bound(0.0, 1.0)
             continue
-        end = _KNEE * (float(np.median(sizes)) / _MAD + 1e-300)
+        end = _KNEE * (float(np.median(sizes)) / MEDIAN_SIZE + 1e-300)
         within = float(np.mean(np.array(sizes) <= end))
         result[joint] = Bound(end, (1 + unknowns[joint] / len(sizes) * (1 - within) / within) / within)
     return result

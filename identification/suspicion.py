@@ -30,6 +30,8 @@ from identification.sampling import Sampled
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.
 _DOUBTFUL, _REFUSED = 10.0, 50.0
+#: Correlation of a run's torques with what a model makes of them from which their signs are others.
+REVERSED = -0.5
 #: How many times what is fitted leaves of a torque a test may leave.
 _FURTHER = 3.0
 #: Standard deviations from which a parameter's sign is told for sure and from which it is likely; how many must be.
@@ -122,6 +124,22 @@ def directed(
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
             expected = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
             raise InputError(place, problem, expected)
+
+
+def opposed(place: Place, run: Sequence[Factor], values: Mapping[str, float]) -> None:
+    """Raises InputError where the torques of a ``run``, each joint's in parts of its size, are the other way than those
+    that ``values`` of all parameters make along it.
+    """
+    pairs = [(one.R[:, -1] / one.norm, one.with_torques(values).R[:, -1] / one.norm) for one in run if one.norm]
+    product, made = (sum(float(a @ b) for a, b in each) for each in (pairs, [(b, b) for _, b in pairs]))
+    if product < REVERSED * np.sqrt(len(pairs) * made):
+        raise another_sign(place, "those that are fitted")
+
+
+def another_sign(place: Place, whose: str) -> InputError:
+    """That torques of a run have another sign than ``whose``."""
+    problem = f"the torques have another sign than {whose}"
+    return InputError(place, problem, "one sign in all runs; a sidecar can change it")
 
 
 def misread(one: Sampled, regressors: Regressors) -> list[str]:

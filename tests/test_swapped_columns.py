@@ -31,6 +31,19 @@ def test_swapped_columns_are_found_out(change: str, links: Regressors, tmp_path:
         identify(links.model.robot, [path], regressors=links)
 
 
+def test_those_of_a_run_that_tests_are_found_out(links: Regressors, tmp_path: Path) -> None:
+    right, wrong = (recorded(links, TRUTH, seed=seed, noise=0.03) for seed in (7, 8))
+    wrong = wrong.with_columns(tau1=wrong.columns["tau2"], tau2=wrong.columns["tau1"])
+    paths = [run.save(tmp_path / f"{name}.csv") for name, run in (("right", right), ("wrong", wrong))]
+    message = r"wrong.csv:1:1: the torques of joints 1 and 2 look swapped"
+    with pytest.raises(InputError, match=message):
+        identify(links.model.robot, paths[:1], paths[1:], regressors=links)
+    file = Path(links.model.robot.place.file)
+    wanted = Request([str(paths[0])], test=[str(paths[1])])
+    with pytest.raises(InputError, match=message):
+        diagnosed(file, links.model.robot, wanted, tmp_path / "out", lambda *about: {})
+
+
 def test_a_diagnosis_refuses_them_before_it_looks_for_anything(
     links: Regressors, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

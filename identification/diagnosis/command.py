@@ -19,13 +19,12 @@ from identification.diagnosis.columns.priors import notes_of, preferring, prior_
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending.mended import GENERATED, Mended, mended
 from identification.diagnosis.noise import effort_rounding, noise_floor, torque_band
-from identification.diagnosis.plausibility import doubts
+from identification.diagnosis.plausibility import alike, explained
 from identification.diagnosis.results import document
 from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.roles import Roles, roles
 from identification.observation import Regressors
 from identification.results import written
-from identification.suspicion import ordered
 
 #: Name of the machine-readable result.
 RESULTS = "diagnosis.json"
@@ -54,8 +53,9 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used, for swapped columns and for a ``folder`` in which the mended robot would replace a file that is read, before
-    anything is looked for; and at the end for runs that are not of this robot (``plausibility``).
+    used, for swapped columns and torques of another sign (``plausibility.alike``), and for a ``folder`` in which the
+    mended robot would replace a file that is read, before anything is looked for; and at the end, unless it is a dry
+    request, for runs that are not of this robot (``plausibility.explained``).
     """
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
@@ -65,13 +65,13 @@ def diagnosed(
     notes = [] if wanted.prior is None else notes_of(regressors.model, wanted.prior)
     given = _runs(wanted, robot, regressors)
     notes += [note for run in given.recorded for note in run.notes]
-    ordered([run.sampled for run in given.runs], regressors)
+    tests = given.tests if given.roles.untouched else ()
+    alike([*given.runs, *tests], regressors, prior)
 
     with replacing(folder, GENERATED) as fresh:
-        tests = given.tests if given.roles.untouched else ()
         with stages() as progress:
             found = diagnose(regressors, given.runs, given.roles, prior, progress, wanted.dry, tests)
-        ended = [*doubts(found, prior, wanted.dry), *_of_noise(found, wanted.dry)]
+        ended = [*(() if wanted.dry else explained(found)), *_of_noise(found, wanted.dry)]
         found = changed(found, notes=(*notes, *found.notes, *ended))
         new = None if wanted.dry else mended(path, found, wanted.prior, fresh, stage)
         with stage("writing the report"):

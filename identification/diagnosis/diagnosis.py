@@ -94,12 +94,12 @@ def diagnose(
     left = NOT_JUDGED if dry else unexplained(found, gone, trial, last, disagreeing, other)
     verdict = LOCATED if dry else UNEXPLAINED if left.missing else NAMED if found.choices else NOTHING
     beyond = {one.joint: one.size for one in last.lack if one.told}
-    named = findings(found, not left.lacks, disagreeing, beyond)
+    alone = findings(found, not left.lacks, disagreeing, beyond)
+    named = doubted(found, few_rows.doubted(few, robot, alone, small), other)
     rest, reason = left.where or last, left.reason
     if verdict == NAMED and (number := patched(named)):
         verdict, reason = UNEXPLAINED, PATCHED
         rest = located(last, [one for one in last.lack if one.joint == number])
-    named = doubted(found, few_rows.doubted(few, robot, named, small), other)
     notes = [
         *roles.notes,
         *few_rows.notes(few, robot, small),

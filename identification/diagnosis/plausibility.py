@@ -2,54 +2,61 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from generator.errors import InputError
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.runs.prepared import Prepared, joined
+from identification.diagnosis.runs.scene import Scene
+from identification.observation import Regressors
 from identification.residuals import Residual, Residuals
-from identification.suspicion import directed, misread, suspect
+from identification.suspicion import REVERSED, another_sign, directed, misread, ordered, suspect
 
-#: Correlation of a run's torques with what the model makes of them from which their signs are others.
-_REVERSED = -0.5
 #: Least singular value that a run tells parameters from, and a product that is none.
 _RANK, _NOTHING = 1e-9, 1e-300
 
 
-def doubts(found: Diagnosis, prior: Prior | None, dry: bool) -> list[str]:
+def alike(runs: Sequence[Prepared], regressors: Regressors, prior: Prior | None) -> None:
+    """Raises InputError where columns of one of ``runs`` are swapped, and where its torques have another sign than
+    those of the others, or than parameters that are known beforehand (``prior``) make of its motion.
+    """
+    ordered([run.sampled for run in runs], regressors)
+    scenes = [Scene(run.sampled, regressors, {}) for run in runs]
+    for r in _reversed(Bank(runs, scenes)):
+        raise another_sign(runs[r].sampled.run.place, "those of the other runs")
+    if prior is None:
+        return
+    known = dict(zip(regressors.names, prior.mean.tolist(), strict=True))
+    for run, scene in zip(runs, scenes, strict=True):
+        expected = run.decimated(scene.torque_of(known, scene.motion))
+        tau, like = run.tau[run.kept], expected[run.kept]
+        if tau @ like < REVERSED * np.linalg.norm(tau) * np.linalg.norm(like):
+            raise another_sign(run.sampled.run.place, "the known parameters")
+
+
+def explained(found: Diagnosis) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
-    Raises InputError where columns are swapped beside what was found, where the torques have the other sign, in all
-    runs or in one of them, and where all that was found, unless the diagnosis was ``dry``, leaves most of the torques
-    unexplained. Parameters that are known beforehand (``prior``) tell a sign as well.
+    Raises InputError where columns are swapped beside what was found, where friction and inertia have the other sign,
+    and where all that was found leaves most of the torques unexplained.
     """
     bank = found.search.bank
     runs = [run.sampled for run in bank.runs]
     regressors, left = bank.scenes[0].regressors, _left(found)
-    if dry:
-        return []
-    for r in _reversed(bank):
-        raise _another_sign(bank.runs[r], "those of the other runs")
-    if prior is not None:
-        mean = dict(zip(bank.base, prior.mean.tolist(), strict=False))
-        for run, scene in zip(bank.runs, bank.scenes, strict=True):
-            expected = run.decimated(scene.torque_of({**scene.values, **mean}, scene.motion))
-            tau, like = run.tau[run.kept], expected[run.kept]
-            if tau @ like < _REVERSED * np.linalg.norm(tau) * np.linalg.norm(like):
-                raise _another_sign(run, "the known parameters")
     base, values = bank.base, found.search.values
     std = np.sqrt(np.diag(found.search.covariance))[: len(base)]
     # Beside another law of its joint the model's own friction may come out as what that one has too much.
     rest = {one.joint: one.size for one in found.after.lack if one.told}
-    explained = {
+    aside = {
         one.joints[0]
         for one in found.findings
         if len(one.joints) == 1 and one.evidence.size > rest.get(one.joints[0], 0.0)
     }
-    directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), explained)
+    directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), aside)
     return [*suspect(runs, regressors, left), *(misread(runs[0], regressors) if found.verdict == UNEXPLAINED else ())]
 
 
@@ -65,11 +72,6 @@ def _left(found: Diagnosis) -> Residuals:
     )
 
 
-def _another_sign(run: Prepared, whose: str) -> InputError:
-    problem = f"the torques have another sign than {whose}"
-    return InputError(run.sampled.run.place, problem, "one sign in all runs; a sidecar can change it")
-
-
 def _reversed(bank: Bank) -> list[int]:
     """Runs whose torques are the other way than those of most: base parameters of each of two such runs alone make
     torques that are far from the other's.
@@ -77,7 +79,7 @@ def _reversed(bank: Bank) -> list[int]:
     products = [_products(bank, r) for r in range(len(bank.runs))]
     alone = [np.linalg.lstsq(A, b, rcond=_RANK)[0] for A, b, _ in products]
     made = [[x @ b / np.sqrt(max(float(x @ A @ x) * square, _NOTHING)) for A, b, square in products] for x in alone]
-    away = np.array(made) < _REVERSED
+    away = np.array(made) < REVERSED
     opposite = away & away.T
     usual = int(np.argmin(opposite.sum(axis=1)))
     return np.flatnonzero(opposite[usual]).tolist()

@@ -68,6 +68,8 @@ def test_load_friction_past_a_rotor_of_which_the_file_knows_nothing(tmp_path: Pa
     assert one.hypothesis.effect == "load_friction"
     assert abs((one.parameters["Fl1"].value or 0.0) - 0.1) < 4 * (one.parameters["Fl1"].std or 0.0)
     assert abs(one.shape["rotor"] - 4.0) < 4 * one.shape_std["rotor"]
+    assert (one.parameters["Fl1"].std or 0.0) < 0.01
+    assert one.shape_std["rotor"] < 0.8
 
 
 def test_much_that_counts_as_noise_is_told(tmp_path: Path) -> None:

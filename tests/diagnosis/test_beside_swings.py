@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from generator.derivation import derive
+from generator.effects.library import effects_of
 from generator.robot.description import ParameterSet, ParameterValue
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, SIGNAL
 from identification.diagnosis.mending.addition import Addition
@@ -16,6 +17,7 @@ from identification.diagnosis.mending.beside_swings import (
     beside_swings,
     drive_trains,
     has_swings,
+    swinging_alone,
     swinging_joints,
     without_findings,
 )
@@ -148,3 +150,16 @@ def test_what_was_found_goes_before_what_the_file_said() -> None:
     assert drive_trains(swings, found) == {"elasticity": 0.9, "backlash2": 1.0, "damping2": 0.0}
     assert swinging_joints(swings, [soft("joint_elasticity", 1)], (1, 2)) == (1, 2)
     assert swinging_joints(still, [soft("joint_elasticity", 1)], (1, 2)) == (1,)
+
+
+def test_a_drive_train_that_does_not_swing_has_no_gap() -> None:
+    """The library refuses a gap on a joint that is not elastic."""
+    robot = robot_of(
+        STATED.replace("effects:\n", "effects:\n  - {effect: joint_elasticity, joint: 2, values: {gap: 1 mrad}}\n"),
+        "two_links",
+    )
+    assert robot.has("joint_elasticity", 2)
+    rigid = swinging_alone(robot, searched(STATED, 0.2, 0.05), [])
+    assert effects_of(rigid) == effects_of(robot)
+    assert (rigid.flexible, rigid.has("joint_elasticity", 2)) == ((), False)
+    assert swinging_alone(robot, searched(STATED, 0.9, 0.05), []) == robot

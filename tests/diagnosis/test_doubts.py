@@ -20,12 +20,38 @@ from identification.diagnosis.columns.hypothesis import (
     ShapeRange,
 )
 from identification.diagnosis.columns.payload_body import COEFFICIENTS as PAYLOAD
+from identification.diagnosis.verdict import named
 from identification.diagnosis.verdict.alternatives import OTHER_BODY
 from identification.diagnosis.verdict.doubts import beside_drive_trains, beside_warming, doubted
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.outcome import Value
 from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
 from tests.matrices import Array
+
+
+@pytest.mark.parametrize(
+    ("taken", "size", "said"),
+    [
+        (True, 0.6, ""),
+        (True, 0.4, "it is smaller than 0.5 of the noise's rms: no motion repeats, so noise is not told from what the"),
+        (
+            False,
+            0.6,
+            "it is smaller than the noise's rms: no motion repeats and rows are few, so noise is not told from",
+        ),
+        (False, 1.1, ""),
+    ],
+)
+def test_what_is_small_beside_noise_that_no_motion_tells_apart_is_doubtful(
+    taken: bool, size: float, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(named, "maps_taken", lambda *_: taken)
+    found: Any = SimpleNamespace(repeats=False, bank=None, maps=())
+    one: Any = SimpleNamespace(size=size, variant=SimpleNamespace(coordinates=(0,)))
+    doubts = named._small(found, one)
+    assert [doubt[: len(said)] for doubt in doubts] == ([said] if said else [])
+    found.repeats = True
+    assert named._small(found, one) == []
 
 
 def test_a_drive_train_is_elastic_or_loose() -> None:

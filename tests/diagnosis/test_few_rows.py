@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from identification.diagnosis.search.evidence import SMALL
 from identification.diagnosis.search.few_rows import small
 from identification.diagnosis.verdict import few_rows
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
@@ -46,11 +45,11 @@ def test_what_is_small_there_is_left_out_but_for_what_every_robot_has_or_another
 def test_of_what_was_left_out_the_best_is_told_on_each_joint() -> None:
     def evidence(_: Any) -> list[Any]:
         return [
-            SimpleNamespace(variant=variant("torque_delay", (0, 1)), why_not=SMALL),
-            SimpleNamespace(variant=variant("stribeck_friction", (1,)), why_not=SMALL),
-            SimpleNamespace(variant=variant("coupled_rotor", (1, 3)), why_not=SMALL),
-            SimpleNamespace(variant=variant("dahl_friction", (2,)), why_not="within chance"),
-            SimpleNamespace(variant=variant("stribeck_friction", (2,)), why_not=SMALL),
+            SimpleNamespace(variant=variant("torque_delay", (0, 1)), small=True),
+            SimpleNamespace(variant=variant("stribeck_friction", (1,)), small=True),
+            SimpleNamespace(variant=variant("coupled_rotor", (1, 3)), small=True),
+            SimpleNamespace(variant=variant("dahl_friction", (2,)), small=False),
+            SimpleNamespace(variant=variant("stribeck_friction", (2,)), small=True),
         ]
 
     found: Any = SimpleNamespace(variants=[], weighing=SimpleNamespace(few={**FEW, 2: (80, 11)}, evidence=evidence))

@@ -36,6 +36,7 @@ class Run:
     unsettled: NDArray[np.bool_]
     sampled: Any
     rate: float = RATE
+    times: float = 5.0
 
 
 def run(period: int, *left_out: int) -> Run:
@@ -45,8 +46,17 @@ def run(period: int, *left_out: int) -> Run:
     return Run(kept, period, rows / RATE, np.zeros((2, ROWS), dtype=bool), sampled)
 
 
-def left(column: Array, rest: Array, runs: list[Run], stays: Mapping[int, float], explains: float = 4.0) -> Any:
-    """Beside a backlash whose torque is the ``column`` on either joint, where ``rest`` and noise stay in each run."""
+def left(
+    column: Array,
+    rest: Array,
+    runs: list[Run],
+    stays: Mapping[int, float],
+    explains: float = 4.0,
+    rounding: Array = NOTHING,
+) -> Any:
+    """Beside a backlash whose torque is the ``column`` on either joint, where ``rest`` and noise stay in each run, of
+    which ``rounding`` may make as much.
+    """
     noise = np.random.default_rng(3).normal(size=(len(runs), 2, ROWS))
 
     def residual(r: int, k: int, values: Mapping[int, float]) -> Array:
@@ -54,7 +64,10 @@ def left(column: Array, rest: Array, runs: list[Run], stays: Mapping[int, float]
         return np.asarray(torque[runs[r].kept[k]])
 
     found: Any = SimpleNamespace(
-        bank=SimpleNamespace(runs=runs, residual=residual, robot=SimpleNamespace(numbers=NUMBERS)),
+        bank=SimpleNamespace(
+            runs=runs, residual=residual, robot=SimpleNamespace(numbers=NUMBERS), whitened=lambda r, k, rows: rows
+        ),
+        rounded=[np.array([rounding, rounding])] * len(runs),
         weights={COLUMN: 1.0},
     )
     one = Hypothesis("backlash", "", 4, (Coefficient("gap4", "rad"),), lambda *_: np.zeros((1, 2, ROWS)), kind=ELASTIC)
@@ -94,3 +107,12 @@ def test_what_counts_is_left_between_the_crossings(rest: Array, size: float) -> 
 def test_otherwise_all_rows_count(column: Array, period: int, explains: float) -> None:
     stays = {4: 1.6, 7: 1.5}
     assert left(column, -0.6 * column, [run(period, 21, 430)] * 2, stays, explains) == stays
+
+
+@pytest.mark.parametrize(("part", "stays"), [(0.0, True), (1.0, False)])
+def test_what_rounding_makes_of_it_does_not_count(part: float, stays: bool) -> None:
+    """It is the same in each period."""
+    runs, rest = [run(PERIOD, 0, 0)] * 2, 0.6 * np.random.default_rng(4).normal(size=PERIOD)
+    rest = np.where(CROSSES, 0.0, np.tile(rest, ROWS // PERIOD))
+    found = left(TORQUE, rest, runs, {4: 0.6}, rounding=part * rest * np.sqrt(ROWS / PERIOD))
+    assert (found[4] > 0) == stays

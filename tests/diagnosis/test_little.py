@@ -30,6 +30,7 @@ def test_friction_is_named_beside_far_more_friction(tmp_path: Path) -> None:
     assert set(told) == {"Fc1", "Fst1"}
     for name, true in (("Fc1", 25.0), ("Fst1", 6.0)):
         assert abs((told[name].value or 0.0) - true) < 3 * (told[name].std or 0.0)
+        assert (told[name].std or 0.0) < 0.4
     assert not found.notes
 
 

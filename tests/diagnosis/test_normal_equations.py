@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from identification.diagnosis.columns.normal_equations import Normal, Prior, bounded, directions, inverse
+from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior, bounded, directions, inverse
 
 Array = NDArray[np.float64]
 
@@ -218,3 +218,19 @@ def test_rounding_of_what_others_explain_is_no_direction(seed: int) -> None:
     along = directions((left + left.T) / 2, 1e-7, np.sum(columns**2, axis=0))
     rows = (columns - others @ solution) @ along
     np.testing.assert_allclose(rows.T @ rows, np.eye(5), atol=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 3.0])
+def test_a_value_is_far_from_a_known_one_by_the_deviations_of_their_difference(ratio: float) -> None:
+    """Of runs that tell it ``ratio`` times as badly as it is known, alone and in a fit near the known value."""
+    known = Prior(np.zeros(1), np.eye(1))
+    for y in np.array([0.5, 2.0, -6.0]) * np.hypot(1.0, ratio):
+        fit = Normal(np.array([[1.0, y], [y, y * y]]) / ratio**2, 1, 1, known)
+        assert known.far(*fit.solution([])) == pytest.approx(abs(y) / np.hypot(1.0, ratio))
+
+
+def test_a_value_that_runs_hardly_tell_is_not_far() -> None:
+    known = Prior(np.zeros(3), np.diag([1.0, 1.0, 0.0]))
+    far = known.far(np.array([0.99, 2.0, 9.0]), np.diag([1.0, np.inf, 1.0]))
+    assert 0 < far[0] < FAR
+    assert far[1:].tolist() == [0.0, 0.0]

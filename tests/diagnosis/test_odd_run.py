@@ -52,6 +52,16 @@ def test_the_run_that_differs_from_the_others_is_told(hidden: list[Hidden], told
     assert all((told or "") in note for note in notes)
 
 
+def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque(""), loaded, torque("")])
+    renamed = [Path(source).with_suffix("") / "run.csv" for source in sources]
+    for source, path in zip(sources, renamed, strict=True):
+        path.parent.mkdir()
+        Path(source).rename(path)
+    notes = diagnosis_of([str(path) for path in renamed], regressors).notes
+    assert any(note.startswith("without 2/run.csv the other runs agree: look for another load") for note in notes)
+
+
 def test_the_speed_that_one_run_alone_reaches_is_told_of_both_directions(tmp_path: Path) -> None:
     """It is played half as fast again, and slips there."""
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
@@ -100,7 +110,7 @@ def test_only_a_run_that_stands_out_is_the_odd_one(
     left: tuple[float, ...], alone: float, where: str, told: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """By what stays without each of three runs, in parts of all; and what stays of it where it is fitted ``alone``."""
-    runs = [SimpleNamespace(sampled=SimpleNamespace(run=SimpleNamespace(file=f"{r}.csv"))) for r in range(3)]
+    runs = [SimpleNamespace(sampled=SimpleNamespace(run=SimpleNamespace(name=f"{r}.csv"))) for r in range(3)]
     found: Any = SimpleNamespace(train=(0, 1), validate=(2,), bank=SimpleNamespace(runs=runs))
 
     def unexplained(found: Any, kept: Sequence[int], joints: Collection[int]) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -10,7 +11,7 @@ import pytest
 
 from identification.diagnosis.diagnosis import NAMED, UNEXPLAINED
 from identification.diagnosis.results import document
-from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.diagnosis.verdict.patchwork import PATCHED, patched
 from identification.report.diagnose.report import report
 from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
@@ -47,3 +48,26 @@ def test_a_joint_that_is_patched_is_unexplained(tmp_path: Path, monkeypatch: pyt
     page = report(one, None).decode()
     assert "joint 1 takes several effects of which none is firm" in page
     assert "The findings below are: viscous friction that depends on the direction" in page
+
+
+def test_the_last_doubts_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is doubted because rows are few, or because a value is contradicted, is not firm either."""
+    regressors, sources = recorded(tmp_path, [torque("stribeck asymmetry")] * 3)
+    assert {one.status for one in diagnosis_of(sources, regressors).findings} == {FIRM}
+    for rule in ("few_rows.doubted", "doubted"):
+        with monkeypatch.context() as changed:
+            changed.setattr(f"identification.diagnosis.diagnosis.{rule}", _all_doubted)
+            changed.setattr("identification.diagnosis.diagnosis.patched", _of_several)
+            one = diagnosis_of(sources, regressors)
+        assert {each.status for each in one.findings} == {TENTATIVE}
+        assert (one.verdict, one.reason, one.after.joint) == (UNEXPLAINED, PATCHED, 1)
+
+
+def _all_doubted(*given: Any) -> tuple[Finding, ...]:
+    (findings,) = (one for one in given if isinstance(one, tuple) and one and isinstance(one[0], Finding))
+    return tuple(one.doubted("late") for one in findings)
+
+
+def _of_several(findings: Sequence[Finding]) -> int:
+    """As a joint that takes a finding more."""
+    return patched([*findings, findings[0]])

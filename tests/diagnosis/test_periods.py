@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of, repeating
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
+from identification.diagnosis.runs.told_files import told_files
 from identification.diagnosis.verdict.remarks import of_motion
 from identification.observation import Regressors
 from identification.recipe import Recipe
@@ -202,6 +205,36 @@ def test_short_runs_test_too_and_that_is_said() -> None:
     assert found.test == found.searched == found.train == ("A", "B")
     assert not found.untouched
     assert "tells nothing new" in found.notes[0]
+
+
+def test_the_end_of_a_long_run_tests_beside_a_short_one() -> None:
+    found = roles([recorded("A", seconds=19.0), recorded("B", seconds=40.0)], [], [])
+    assert found.untouched
+    assert (found.train[0], found.searched) == ("A", found.train)
+    ((path, start, end),) = parts(found.test)
+    assert (path, start, end) == ("B", pytest.approx(30.0, abs=0.01), pytest.approx(40.0, abs=0.01))
+    assert parts(found.train[1:])[0][2] < start
+    assert found.notes[0].startswith("the last 25 % of B test, and what is shorter is fitted as a whole")
+
+
+def test_a_run_that_is_too_short_to_tell_much_tests_and_that_is_said() -> None:
+    told = "tests for 1.2 s, which tells little"
+    apart = roles([recorded("A"), recorded("B"), recorded("C", seconds=1.2)], [], [])
+    assert (apart.test, sum(note.startswith(f"C {told}") for note in apart.notes)) == (("C",), 1)
+    given = roles([recorded("A"), recorded("B")], [], [recorded("C", seconds=1.2), recorded("D")])
+    assert [note for note in given.notes if "tells little" in note] == [f"C {told}: 5 s or more are better"]
+
+
+def test_files_of_one_name_are_told_with_their_folders() -> None:
+    runs = [recorded(name) for name in ("1/a/run.csv", "2/a/run.csv@1:5", "2/b/run.csv@5:9", "2/b/run.csv", "b.csv")]
+    assert told_files(runs) == ["1/a/run.csv", "2/a/run.csv", "b/run.csv", "b/run.csv", "b.csv"]
+    assert told_files([recorded("run.csv"), recorded("x/run.csv")]) == ["run.csv", "x/run.csv"]
+    (note,) = of_motion([prepared_like(run) for run in runs[:2]], False)
+    assert note.startswith("the motion of 1/a/run.csv and 2/a/run.csv ")
+
+
+def prepared_like(run: Run) -> Any:
+    return SimpleNamespace(sampled=SimpleNamespace(run=run), unlike="changes", repeating=5, rate=1.0, t=np.zeros(5))
 
 
 @pytest.mark.parametrize(("samples", "untouched"), [(19990, False), (20000, True)])

@@ -25,14 +25,14 @@ _VALUES = "".join(f"      {name}: {{value: {value}, unit: {_UNITS[name]}}}\n" fo
 SET = f"parameters:\n  known:\n    description: d\n    source: s\n    values:\n{_VALUES}"
 
 
-def diagnose(folder: Path, factors: list[float], prior: str | None = None) -> None:
+def diagnose(folder: Path, factors: list[float], prior: str | None = None, dry: bool = False) -> None:
     """Of runs whose torques are multiplied by ``factors``, with a set of the true parameters as ``prior``."""
     _, sources = recorded(folder, [torque("")] * len(factors), ARM + SET)
     for source, factor in zip(sources, factors, strict=True):
         t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
         Recorded({"t": t, "q1": q, "tau1": factor * tau}).save(Path(source))
     path = folder / "arm.yaml"
-    diagnosed(path, read(path), Request(sources, prior=prior), folder / "out", lambda *about: {})
+    diagnosed(path, read(path), Request(sources, prior=prior, dry=dry), folder / "out", lambda *about: {})
 
 
 def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
@@ -40,6 +40,23 @@ def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=message):
         diagnose(tmp_path, [1.0, -1.0, 1.0, 1.0])
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("dry", [False, True])
+def test_the_sign_of_a_run_that_tests_is_looked_at_too(dry: bool, tmp_path: Path) -> None:
+    """The last of three runs tests, or is fitted like the others where nothing is tested."""
+    with pytest.raises(InputError, match=r"3.csv:1:1: the torques have another sign than those of the other runs"):
+        diagnose(tmp_path, [1.0, 1.0, -1.0], dry=dry)
+    fitted, test = [[tmp_path / name] for name in ("1.csv", "3.csv")]
+    with pytest.raises(InputError, match=r"3.csv:1:1: the torques have another sign than those that are fitted"):
+        identify(read(tmp_path / "arm.yaml"), fitted, test)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_a_run_that_tests_with_torques_of_another_size_is_no_mistake(factor: float, tmp_path: Path) -> None:
+    diagnose(tmp_path, [1.0, 1.0, factor])
+    fitted, test = [[tmp_path / name] for name in ("1.csv", "3.csv")]
+    assert identify(read(tmp_path / "arm.yaml"), fitted, test).full.test is not None
 
 
 def test_runs_of_which_most_stays_unexplained_are_refused(tmp_path: Path) -> None:
@@ -55,9 +72,10 @@ def test_torques_that_all_have_the_other_sign_are_refused(tmp_path: Path) -> Non
         identify(read(tmp_path / "arm.yaml"), [tmp_path / "1.csv"])
 
 
-def test_torques_of_another_sign_than_what_was_known_are_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("dry", [False, True])
+def test_torques_of_another_sign_than_what_was_known_are_refused(dry: bool, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"1.csv:1:1: the torques have another sign than the known parameters"):
-        diagnose(tmp_path, [-1.0], "known")
+        diagnose(tmp_path, [-1.0], "known", dry)
 
 
 def test_torques_of_one_joint_that_have_the_other_sign_are_refused(tmp_path: Path) -> None:

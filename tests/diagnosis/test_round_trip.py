@@ -124,4 +124,4 @@ def test_a_drive_train_that_was_found_elastic_is_played_with_the_model(
     assert tried.closed is not None
     assert tried.closed > 0.9 or tried.after.rms < 1.15 * tried.floor
     assert (again.verdict, again.findings) == (NOTHING, ())
-    assert any("the drive trains of joint 2 are elastic in the robot's file" in note for note in again.notes)
+    assert any("the drive train of joint 2 is elastic in the robot's file" in note for note in again.notes)

@@ -9,10 +9,15 @@ import pytest
 from numpy.typing import NDArray
 
 from generator.robot.readers import read
-from identification.diagnosis.runs.prepared import Prepared
+from identification.dataset import load
+from identification.diagnosis.candidates import hypotheses
+from identification.diagnosis.columns.hypothesis import EFFECT
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.scene import Scene
 from identification.observation import Regressors
+from identification.recipe import Recipe
 from tests.diagnosis.diagnosed_arm import ARM, ready
-from tests.recorded import Recorded
+from tests.recorded import Recorded, as_recorded, fourier, two_links
 
 
 def moved(folder: Path, t: NDArray[np.float64], q: NDArray[np.float64]) -> Prepared:
@@ -40,3 +45,17 @@ def test_a_joint_that_swings_keeps_rows(frequency: float, rate: float, tmp_path:
     t = np.arange(round(20 * rate)) / rate
     run = moved(tmp_path, t, 0.4 * np.cos(2 * np.pi * frequency * t))
     assert np.mean(run.kept[0]) > 0.25
+
+
+@pytest.mark.parametrize(("step", "moves"), [(0.0, False), (1e-5, False), (5e-4, False), (5e-3, True)])
+def test_a_joint_that_stands_has_no_rows_and_no_candidates_of_its_own(step: float, moves: bool, tmp_path: Path) -> None:
+    """Its encoder flickers by a step."""
+    regressors, draw = two_links(tmp_path), np.random.default_rng(1)
+    t, motion = fourier(regressors.model.robot, 10.0, 250.0, 1)
+    q = np.stack([motion.q[0], 0.3 + step * (draw.random(len(t)) < 0.3)])
+    path = as_recorded(regressors, t, q, draw.normal(size=q.shape)).save(tmp_path / "held.csv")
+    run = prepared(load(str(path), regressors.model.robot), Recipe(), regressors)
+    scene = Scene(run.sampled, regressors, dict.fromkeys(regressors.names, 1.0))
+    assert [scene.moves(k) for k in (0, 1)] == [True, moves]
+    assert run.kept[1].any() == moves
+    assert any(one.kind == EFFECT and one.joints == (2,) for one in hypotheses([scene])) == moves

@@ -30,6 +30,9 @@ from identification.diagnosis.runs.stated_elasticity import (
 )
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed import CLEAN, Known, known, rows, with_robot
+from tests.diagnosis.diagnosed_arm import ARM as ARM_OF_ONE
+from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded
+from tests.diagnosis.diagnosed_arm import torque as hidden
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
 from tests.plant.robot_file import robot_file
@@ -39,6 +42,7 @@ from tests.plant.simulate import make_run, own_effects
 from tests.plant.trajectories.fourier import fourier
 from tests.plant.trajectories.point_to_point import point_to_point
 from tests.plant.trajectory import Trajectory
+from tests.recorded import parameters_text
 
 ARM = "three_axis"
 SOFT = 2.0
@@ -146,6 +150,22 @@ def test_columns_are_nothing_before_the_model_has_values(arm: Known) -> None:
     for values in ({}, dict.fromkeys(arm.values, 0.0)):
         assert not columns(replace(scene, values=values)).any()
     assert columns(scene).any(axis=(1, 2)).all()
+
+
+def test_a_gap_whose_link_swings_faster_than_the_samples_adds_nothing(tmp_path: Path) -> None:
+    """A link slow enough fills the same columns."""
+    text = ARM_OF_ONE.replace("joints:\n", "flexible: [1]\njoints:\n", 1)
+    gap = "  - {effect: joint_elasticity, joint: 1, values: {gap: 1 mrad}}\n"
+    for stiffness, follows in ((1e4, True), (1e9, False)):
+        regressors, sources = recorded(
+            tmp_path, [hidden("")] * 2, text + gap + parameters_text({"s": {"k1": stiffness}})
+        )
+        found = diagnosis_of(sources, regressors)
+        assert found.verdict == NOTHING
+        told = "the drive train of joint 1 is too stiff for the samples to follow, and taken as rigid"
+        assert (told in found.notes) != follows
+        scene = found.search.bank.scenes[0]
+        assert columns(scene).any(axis=(1, 2)).all() == follows
 
 
 def test_values_move_by_what_the_columns_weigh() -> None:

@@ -19,7 +19,7 @@ from identification.corrections import NEVER, drifting
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import constants, coupling, motor_torques
-from identification.residuals import rms
+from identification.residuals import MEDIAN_SIZE, rms
 
 #: Parts of a run's samples that stay below the lowest and the highest limit that is tried.
 _LOWEST, _HIGHEST = 0.8, 0.999
@@ -27,8 +27,8 @@ _LOWEST, _HIGHEST = 0.8, 0.999
 _LEAST = 0.8
 #: Time [s] for which a limit clips at least: what is shorter is a sample gone wrong.
 _LASTS = 0.02
-#: How many times the noise what exceeds the limit must be, in its rms; rms of normal noise over its median size.
-_CLEAR, _NORMAL = 3.0, 1.4826
+#: How many times the noise what exceeds the limit must be, in its rms.
+_CLEAR = 3.0
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -75,7 +75,7 @@ def _columns(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
     over = excess != 0
     # Noise may be as slow as the motion is: it is all that the model leaves where nothing is clipped.
     noise = _current(scene, k, scene.tau - scene.torque)[~over]
-    clear = _CLEAR * _NORMAL * np.median(np.abs(noise)) if noise.size else np.inf
+    clear = _CLEAR * np.median(np.abs(noise)) / MEDIAN_SIZE if noise.size else np.inf
     if not over.any() or rms(excess[over]) < clear:
         excess = np.zeros_like(excess)
     return np.outer(coupling(scene.robot)[k], _torque_per_recorded(scene, k) * excess)[None]

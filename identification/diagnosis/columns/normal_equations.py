@@ -65,10 +65,13 @@ class Prior:
         return Prior(self.mean[kept], self.precision[np.ix_(kept, kept)])
 
     def far(self, values: Array, covariance: Array) -> Array:
-        """How far values (p) with a covariance (p x p) are from the known ones, in standard deviations of both (p);
-        zero where nothing is known.
+        """How far values (p) of a fit near the known ones, with a covariance (p x p), are from these, in standard
+        deviations of the difference (p): such a fit holds what is known already, and is nearer to it than the runs
+        alone are. Zero where nothing is known, or found; below ``FAR`` within the deviation that is known.
         """
-        variance = np.where(self.known, np.diag(inverse(self.precision)) + np.diag(covariance), np.inf)
+        before, after = np.diag(inverse(self.precision)), np.diag(covariance)
+        variance = np.maximum(before - after, before / FAR**2)
+        variance = np.where(self.known & np.isfinite(after), variance, np.inf)
         return np.asarray(np.abs(values - self.mean) / np.sqrt(variance))
 
     def products(self, rows: Sequence[int], columns: Sequence[int], torque: int) -> Array:

@@ -9,8 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from generator.effects.joint_elasticity import EFFECT as ELASTICITY
 from generator.effects.rotor_inertia import EFFECT as ROTOR
-from generator.robot.description import ParameterSet
+from generator.robot.description import ParameterSet, Robot
 from generator.symbolic.model import Model
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
@@ -94,6 +95,17 @@ def swinging_joints(found: Search, findings: Sequence[Finding], flexible: Sequen
     """Of the ``flexible`` joints, by number, those of ``findings``, and the file's where they swing."""
     own = {number for one in findings if one.hypothesis.kind == ELASTIC for number in one.joints}
     return tuple(number for number in flexible if number in own or swing(found))
+
+
+def swinging_alone(robot: Robot, found: Search, findings: Sequence[Finding]) -> Robot:
+    """The ``robot`` of which the ``swinging_joints`` alone are elastic: without the gaps of the others."""
+    elastic = swinging_joints(found, findings, robot.flexible)
+    rigid = set(robot.flexible).difference(elastic)
+    uses = [
+        replace(use, joints=tuple(j for j in use.joints if j not in rigid)) if use.effect == ELASTICITY.id else use
+        for use in robot.effects
+    ]
+    return replace(robot, flexible=elastic, effects=tuple(use for use in uses if use.joints))
 
 
 def _variants(found: Search, findings: Sequence[Finding]) -> list[Variant]:

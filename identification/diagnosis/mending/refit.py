@@ -112,7 +112,8 @@ def refit(
         f"diagnosed with the inverse dynamic model, weighted {how}, from {names}",
         identified_values(units, values, std.__getitem__, {}),
     )
-    far = () if prior is None else _far(prior, regressors, values, std)
+    near_prior = {name: 0.0 if name in given else coloured.std(name) for name in regressors.names}
+    far = () if prior is None else _far(prior, regressors, values, near_prior)
     return Refit(values, std, written, regressors, tuple(notes), far)
 
 

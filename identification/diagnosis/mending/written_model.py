@@ -19,7 +19,7 @@ from identification.diagnosis.mending.beside_swings import (
     beside_swings,
     drive_trains,
     has_swings,
-    swinging_joints,
+    swinging_alone,
 )
 from identification.diagnosis.mending.flexible_set import SET as FLEXIBLE
 from identification.diagnosis.mending.flexible_set import flexible_set
@@ -109,7 +109,7 @@ def _as_played(robot: Robot, flexible: ParameterSet | None, found: Search, findi
     sets = robot.parameter_sets
     if flexible is not None:
         sets = {FLEXIBLE: flexible, **{name: one for name, one in sets.items() if name != FLEXIBLE}}
-    return replace(robot, parameter_sets=sets, flexible=swinging_joints(found, findings, robot.flexible))
+    return swinging_alone(replace(robot, parameter_sets=sets), found, findings)
 
 
 def prepared_runs(

@@ -104,14 +104,14 @@ class LinkSide:
 
     def _played(self, train: Train, start: tuple[Value, Value]) -> Motion:
         """No numbers where the samples do not follow the swings all along: they would grow without end."""
-        if not self._follows(train):
+        if not self.follows(train):
             return alone(self.scene.motion, self.k, np.full((3, self.scene.motion.samples), np.nan))
         given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
         _, played = _many_steps(self.scene.motion.samples)(list(start), self.along, given)
         return alone(self.scene.motion, self.k, np.asarray(played))
 
-    def _follows(self, train: Train) -> bool:
-        """Whether the differences are stable all along, of the lightest link too."""
+    def follows(self, train: Train) -> bool:
+        """Whether the samples follow the swings: the differences are stable all along, of the lightest link too."""
         least = float(np.min(self.inertia))
         if least <= 0:
             return False

@@ -12,9 +12,10 @@ from identification.diagnosis.runs.scene import Scene
 from identification.filtering import flat_derivative, smoothed
 from identification.neighbours import ARITHMETIC
 from identification.observation import Motion
+from identification.residuals import MEDIAN_SIZE
 
-#: Order of the differences that leave nothing of a motion, and the median of a normal deviate's size.
-_ORDER, _MEDIAN = 8, 0.6745
+#: Order of the differences that leave nothing of a motion.
+_ORDER = 8
 #: Samples between those that are compared, at most: what was logged more slowly repeats, or lies on lines; and the part
 #: of the noise that those farther apart have where it is not white.
 _STRIDES, _WHITE = 25, 0.8
@@ -42,7 +43,7 @@ def _rough(q: Array, stride: int) -> Array:
     rough = q
     for _ in range(_ORDER):
         rough = rough[:, stride:] - rough[:, :-stride]
-    return np.asarray(np.median(np.abs(rough), axis=-1) / (_MEDIAN * sqrt(comb(2 * _ORDER, _ORDER))))
+    return np.asarray(np.median(np.abs(rough), axis=-1) / (MEDIAN_SIZE * sqrt(comb(2 * _ORDER, _ORDER))))
 
 
 def drawn(scene: Scene, deviations: Array, number: int) -> Motion:

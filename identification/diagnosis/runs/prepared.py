@@ -17,6 +17,7 @@ from generator.errors import InputError
 from identification.arrays import Array
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import repeating
+from identification.diagnosis.runs.scene import STILL
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.filtering import flat_derivative
 from identification.observation import Jump, Regressors, followed
@@ -40,8 +41,6 @@ _SWINGING, _FADING = 1.5, 0.2
 _SETTLING = 0.03
 #: Times as long as what a reversal costs of the rows, between two reversals, from which they are not of a swing.
 _APART = 1.5
-#: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
-_STILL = 2e-3
 #: Shortest run, or part of one, that anything can be told from [s].
 SHORTEST = 1.0
 #: Periods that rows hold from which they are compared: a run of two loses some rows at its ends.
@@ -202,7 +201,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     slow = _SLOW * usual
     apart = _apart(run.rate, factor)
     left_out = np.stack([_standing(x, limit, apart) for x, limit in zip(speed, slow, strict=True)])
-    left_out |= (np.ptp(one.motion.q, axis=-1) < _STILL)[:, None]
+    left_out |= (np.ptp(one.motion.q, axis=-1) < STILL)[:, None]
     left_out |= _at_rest(speed, regressors.signs, apart)
     # Whole samples: the period of written times is a little short of what it is.
     if round(_FORGOTTEN * run.samples) >= round(_MEMORY * run.rate):

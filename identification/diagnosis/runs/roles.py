@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from generator.errors import InputError
+from generator.review.words import listed
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of
 from identification.diagnosis.runs.prepared import SHORTEST
+from identification.diagnosis.runs.told_files import told_files
 from identification.run_source import part_of
 from identification.shared_samples import unshared
 
@@ -48,7 +50,8 @@ class Roles:
 
 
 def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
-    """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one.
+    """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one
+    that is long enough.
 
     Where none validates every run is held against what the others predict, or every block of time of a single one.
     Where nothing is ``tested`` no run is spent on it. Raises InputError for runs that have samples in common, and for
@@ -64,14 +67,16 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
         notes.append(f"{data[-1].file}, the last run, tests: nothing is fitted to it or chosen by it")
         del fitted[-1]
     elif tested and not test:
-        last = tuple(_tail(run) for run in data)
-        if _TESTED * min(map(_recorded, data), default=0.0) < _ENOUGH:
-            last = fit
-            notes.append("the runs are short and test too, which tells nothing new; runs apart are stronger evidence")
-        else:
-            ends = {run.name: run.start + (1 - _TESTED) * run.length - _gap(run) for run in data}
-            notes.append(f"the last {100 * _TESTED:.0f} % of every run test; runs apart are stronger evidence")
-    whole = tuple(part_of(run.name, run.start, ends[run.name]) if ends else run.name for run in fitted)
+        long = [run for run in data if _TESTED * _recorded(run) >= _ENOUGH]
+        ends = {run.name: run.start + (1 - _TESTED) * run.length - _gap(run) for run in long}
+        last = tuple(_tail(run) for run in long) or fit
+        notes.append(f"{_what_tests(data, long)}; runs apart are stronger evidence")
+    notes += [
+        f"{run.file} tests for {_recorded(run):.2g} s, which tells little: {_ENOUGH:g} s or more are better"
+        for run in (*data, *test)
+        if tested and run.name in last and fit != last and _recorded(run) < _ENOUGH
+    ]
+    whole = tuple(part_of(run.name, run.start, ends[run.name]) if run.name in ends else run.name for run in fitted)
     train = whole
     if not validate and len(fitted) == 1:
         (run,) = fitted
@@ -80,6 +85,15 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     elif not validate:
         notes.append("each run is held against what the others predict")
     return Roles(train, validating, last, (*whole, *validating), tuple(notes))
+
+
+def _what_tests(data: Sequence[Run], long: Sequence[Run]) -> str:
+    """In words, which of the runs ``data`` test: the ends of those that are ``long``."""
+    if not long:
+        return "the runs are short and test too, which tells nothing new"
+    which = "every run" if len(long) == len(data) else listed(told_files(long))
+    rest = "" if len(long) == len(data) else ", and what is shorter is fitted as a whole"
+    return f"the last {100 * _TESTED:.0f} % of {which} test{rest}"
 
 
 def _tail(run: Run) -> str:

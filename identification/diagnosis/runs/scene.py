@@ -19,8 +19,8 @@ from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
 
-#: Range [rad, m] that is the rounding of a joint which stands.
-_STILL = 1e-9
+#: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
+STILL = 2e-3
 
 
 class Beside(Protocol):
@@ -115,8 +115,8 @@ class Scene:
         return self.sampled.run.period
 
     def moves(self, k: int) -> bool:
-        """Whether coordinate ``k`` moves at all."""
-        return bool(np.ptp(self.motion.q[k]) > _STILL)
+        """Whether coordinate ``k`` moves, and has rows."""
+        return bool(np.ptp(self.motion.q[k]) >= STILL)
 
     @cached_property
     def torque(self) -> Array:

@@ -167,17 +167,21 @@ def _together(scene: Scene, trains: Sequence[Stated]) -> Iterator[Array]:
 
 
 def _loose(scene: Scene, one: Stated) -> Iterator[Array]:
-    """Alone: what crosses a gap is not linear in its load."""
+    """Alone: what crosses a gap is not linear in its load. A link too light for its stiffness swings faster than the
+    samples follow, and adds nothing.
+    """
     side = link_side(scene, one.k, rotor_inertia(scene, one.k))
-    if not np.min(side.inertia) > 0:
+    own = [_factor(scene, what, one) for what in _ABOUT]
+
+    def train(stiffer: float = 1.0, damped: float = 1.0, wider: float = 1.0) -> Train:
+        return Train(one.stiffness * own[0] * stiffer, _DAMPING * own[1] * damped, one.gap * own[2] * wider)
+
+    if not side.follows(train(stiffer=_STIFFER)):
         yield from np.zeros((4, *scene.motion.q.shape))
         return
 
-    own = [_factor(scene, what, one) for what in _ABOUT]
-
-    def torque(stiffer: float = 1.0, damped: float = 1.0, wider: float = 1.0) -> Array:
-        train = Train(one.stiffness * own[0] * stiffer, _DAMPING * own[1] * damped, one.gap * own[2] * wider)
-        return side.torque_per(side.deflection(train))
+    def torque(**other: float) -> Array:
+        return side.torque_per(side.deflection(train(**other)))
 
     usual = torque()
     yield usual

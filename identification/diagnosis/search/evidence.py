@@ -9,16 +9,13 @@ from math import hypot
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant
 
-#: Why an effect is not taken that would be, were rows not few.
-SMALL = "small beside what noise of few rows may hold"
-
 
 @dataclass(frozen=True)
 class Evidence:
     """What a variant explains beside the chosen ones: drop of the sum of squares, its p-value, BIC, validation.
 
     ``sizes`` are the rms beside the noise's, by the coordinate on which it acts; what is not ``believed`` is as large
-    as a free fit makes it of other things.
+    as a free fit makes it of other things, and what is ``small`` would be taken were rows not few.
     """
 
     variant: Variant
@@ -31,6 +28,7 @@ class Evidence:
     passes: bool
     why_not: str = ""
     believed: bool = True
+    small: bool = False
 
     @property
     def score(self) -> float:

@@ -30,7 +30,7 @@ from identification.diagnosis.columns.normal_equations import (
 )
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction, more_friction
-from identification.diagnosis.search.evidence import SMALL, Evidence
+from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
 from identification.diagnosis.search.imperfect_laws import lacking
@@ -238,7 +238,7 @@ class Weighing:
         if at_end(variant):
             return replace(one, why_not="its shape is at the end of what was tried")
         if small(one, self.few):
-            return replace(one, why_not=SMALL)
+            return replace(one, why_not="small beside what noise of few rows may hold", small=True)
         return replace(one, passes=True)
 
     def cost(self, chosen: Sequence[Variant]) -> float:

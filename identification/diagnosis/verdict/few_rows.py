@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from generator.review.words import listed
 from generator.robot.description import Robot
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.search.evidence import SMALL
 from identification.diagnosis.search.few_rows import LEAST, Few
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
@@ -23,7 +22,7 @@ def left_out(found: Search) -> list[Variant]:
     told: set[int] = set()
     for one in weighed:
         there = found.weighing.few.keys() & {*one.variant.coordinates}
-        if one.why_not == SMALL and not there <= told:
+        if one.small and not there <= told:
             result.append(one.variant)
             told |= there
     return result

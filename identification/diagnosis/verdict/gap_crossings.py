@@ -11,6 +11,7 @@ from scipy.ndimage import maximum_filter1d
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import lack_of_fit
+from identification.diagnosis.verdict.of_rounding import of_rounding
 
 #: What may be left where a link bounces in a gap, in parts of what was explained.
 BOUNCED = 0.7
@@ -45,7 +46,7 @@ def left_between(found: Search, backlash: Evidence, left: Mapping[int, float]) -
             rest.append(white[kept[k][run.kept[k]]])
             quiet.append(replace(run, kept=kept))
         if sum(map(len, rest)) > _ENOUGH * rows:
-            lack = lack_of_fit(quiet, rest, k, number)
+            lack = lack_of_fit(quiet, rest, k, number, rounded=of_rounding(found, k, range(len(bank.runs))))
             if lack.repeats:
                 result[number] = lack.size if lack.told else 0.0
     return result

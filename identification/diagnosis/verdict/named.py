@@ -104,12 +104,11 @@ def _small(found: Search, one: Evidence) -> list[str]:
         return []
     bank = found.bank
     taken = all(maps_taken(bank, found.maps, k) for k in one.variant.coordinates)
-    least, rows = (_APERIODIC, "") if taken else (_SHORT, " and rows are few")
+    least, why = (_APERIODIC, "no motion repeats") if taken else (_SHORT, "no motion repeats and rows are few")
     if one.size >= least:
         return []
-    return [
-        f"it is smaller than {least:g} times the noise's rms, which no motion that repeats tells from the model{rows}"
-    ]
+    part = "" if least == 1 else f"{least:g} of "
+    return [f"it is smaller than {part}the noise's rms: {why}, so noise is not told from what the model lacks"]
 
 
 def _remains(found: Search, one: Finding, left: Mapping[int, float]) -> float:

@@ -7,8 +7,9 @@ from collections.abc import Collection, Iterator, Sequence, Set
 from generator.review.words import listed
 from identification.diagnosis.columns.hypothesis import ELASTIC, Key, on_joints
 from identification.diagnosis.runs.prepared import Prepared
-from identification.diagnosis.runs.stated_elasticity import stated
+from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
 from identification.diagnosis.runs.swings import watched
+from identification.diagnosis.runs.told_files import told_files
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.swings_heard import heard
@@ -52,14 +53,22 @@ def of_elasticity(found: Search) -> list[str]:
     trains = stated(found.bank.robot)
     if not trains:
         return []
-    where = on_joints(one.number for one in trains)
     notes = [
-        f"the drive trains of {where} are elastic in the robot's file: what that adds to the torques is taken from its "
+        f"{_drive_trains(trains)} elastic in the robot's file: what that adds to the torques is taken from its "
         "stiffnesses, beside the inverse dynamics of rigid joints"
     ]
     if (shown := stiffer(found)) is not None:
         notes.append(f"the runs show {100 * shown:.0f} % of that torque: these drive trains are stiffer than stated")
+    column = {one: found.bank.base.index(f"{BOUNCING}{one.number}") for one in trains if one.gap}
+    if fast := [one for one, at in column.items() if not found.weighing.all.gram[at, at]]:
+        notes.append(f"{_drive_trains(fast)} too stiff for the samples to follow, and taken as rigid")
     return notes
+
+
+def _drive_trains(trains: Sequence[Stated]) -> str:
+    """Those of some joints, in words, as what a sentence is about."""
+    are = "drive train of {} is" if len(trains) == 1 else "drive trains of {} are"
+    return f"the {are.format(on_joints(one.number for one in trains))}"
 
 
 def of_swings(found: Search, lacking: Set[int]) -> Iterator[str]:
@@ -101,14 +110,15 @@ def of_motion(runs: Sequence[Prepared], small: bool) -> list[str]:
     that a finding may be too small to be firm without periods.
     """
     unlike: dict[str, list[str]] = {}
-    for run in runs:
+    files = told_files([run.sampled.run for run in runs])
+    for run, file in zip(runs, files, strict=True):
         if run.unlike:
-            unlike.setdefault(run.unlike, []).append(run.sampled.run.file)
+            unlike.setdefault(run.unlike, []).append(file)
     more = ", and what is small beside it is not firm" if small else ""
     parts = [
-        f"the motion of {run.sampled.run.file} repeats for {run.repeating / run.rate:.3g} s: the other "
+        f"the motion of {file} repeats for {run.repeating / run.rate:.3g} s: the other "
         f"{(len(run.t) - run.repeating) / run.rate:.3g} s are left out"
-        for run in runs
+        for run, file in zip(runs, files, strict=True)
         if run.repeating < _WHOLE * len(run.t)
     ]
     return [

@@ -14,6 +14,7 @@ from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
 from identification.diagnosis.verdict.lack_of_fit import Lack, lack_of_fit
+from identification.diagnosis.verdict.of_rounding import of_rounding
 from identification.diagnosis.verdict.views import View, strongest, views
 
 #: Part of the residual's variance that a variable must order to be a signature.
@@ -73,18 +74,11 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
         if elastic:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
             doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
-        lack = lack_of_fit(bank.runs, white, k, number, doubtful, _rounded(found, k))
+        lack = lack_of_fit(bank.runs, white, k, number, doubtful, of_rounding(found, k, everything))
         lacks.append(following(bank, white, found.maps, k, lack))
         raw = [bank.residual(r, k, weights, white=False) for r in everything]
         shown[number] = views(bank.runs, bank.scenes, raw, k, [one[k] for one in bank.colours])
     return Where(0, "", "", {}, tuple(lacks), shown)
-
-
-def _rounded(found: Search, k: int) -> float:
-    """Mean square of what rounding of positions and efforts makes of white rows of a joint, in runs that repeat."""
-    bank = found.bank
-    rows = [bank.whitened(r, k, one[k][None])[0] for r, one in enumerate(found.rounded) if bank.runs[r].times]
-    return float(np.mean(np.concatenate(rows) ** 2)) if any(map(len, rows)) else 0.0
 
 
 def late(found: Search, r: int, k: int) -> Array:
