@@ -10,7 +10,6 @@ is left at a frequency is divided by its part that is free there.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,9 +31,8 @@ from identification.diagnosis.noise.may_act import (
     without_record,
 )
 from identification.diagnosis.noise.outstanding import outstanding
+from identification.diagnosis.runs.phases import between_periods, by_period
 from identification.side_by_side import side_by_side
-
-_Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
@@ -168,25 +166,9 @@ def _directions(gram: Array, base: int, most: int) -> Array:
     return np.hstack([first, T @ V[:, max(V.shape[1] - most, 0) :]])
 
 
-def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
-    """What differs between the periods of rows (... x N), of which the last may be a part."""
-    if not period:
-        return x
-    there = by_period(kept, period)
-    mean = np.where(there, by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
-    return np.asarray(np.where(kept, x - np.tile(mean, len(there))[..., : x.shape[-1]], x))
-
-
 def _common(kept: NDArray[np.bool_], period: int) -> float:
     """Rows' worth of noise that is in what periods have in common."""
     return float(by_period(kept, period).any(axis=0).sum()) if period else 0.0
-
-
-def by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
-    """Rows (... x N) in periods (... x P x period), zero after the last."""
-    count = -(-x.shape[-1] // period)
-    padded = np.pad(x, (*((0, 0) for _ in x.shape[:-1]), (0, count * period - x.shape[-1])))
-    return np.asarray(padded.reshape(*x.shape[:-1], count, period), dtype=x.dtype)
 
 
 def _power(x: Array, inside: Array) -> Array:

@@ -17,7 +17,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from generator.robot.description import Robot
 from identification.arrays import Array
-from identification.diagnosis.noise.measured import by_period
+from identification.diagnosis.runs.phases import by_period
 from identification.diagnosis.runs.prepared import Prepared, windowed
 from identification.run_source import RunSource
 from identification.sampling import Sampled

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.stats import f
 
 from identification.arrays import Array
-from identification.diagnosis.noise.measured import by_period
+from identification.diagnosis.runs.phases import by_period
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 
