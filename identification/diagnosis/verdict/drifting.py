@@ -38,9 +38,12 @@ class _Means:
 
     def add(self, e: Array, kept: NDArray[np.bool_], period: int) -> None:
         """The rows (N) of one run, of which those that are ``kept`` count."""
-        count = len(e) // period
-        by_phase, there = by_period(e, period)[:count], by_period(kept, period)[:count].all(axis=0)
-        if count < 2 or there.mean() < _SHARE:
+        whole, rows = by_period(kept, period), by_period(e, period)
+        # A last period that is a part counts if more rows can be compared with it than without it.
+        counts = [count for count in (len(e) // period, len(whole)) if count > 1]
+        count = max(counts, key=lambda one: one * int(whole[:one].all(axis=0).sum()), default=0)
+        by_phase, there = rows[:count], whole[:count].all(axis=0)
+        if not count or there.mean() < _SHARE:
             return
         differing = by_phase[:, there] - by_phase[:, there].mean(axis=0)
         mean = differing.mean(axis=1)
