@@ -83,6 +83,11 @@ class Prepared:
         return self.sampled.filters.rate / self.sampled.filters.factor
 
     @property
+    def factor(self) -> int:
+        """Samples a row."""
+        return self.sampled.filters.factor
+
+    @property
     def unlike(self) -> str:
         """Why no periods of the run are compared; empty where they are."""
         if self.period:
