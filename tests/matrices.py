@@ -30,6 +30,7 @@ def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int
         sampled=SimpleNamespace(motion=W[:, None, :]),
         t=np.arange(len(tau), dtype=float) / RATE,
         rate=RATE,
+        factor=20,
         tau=tau[None],
         kept=rows[None],
         period=period,

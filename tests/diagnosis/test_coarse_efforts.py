@@ -7,14 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 
 from generator.robot.readers import read
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.noise import noise_floor
-from identification.diagnosis.noise.effort_rounding import effort_rounding, notes, told
+from identification.diagnosis.noise.effort_rounding import _between, effort_rounding, notes, told
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.observation import Regressors
+from identification.observation import Motion, Regressors
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, ready, recorded, torque
 from tests.recorded import TRUTH as TWO
 from tests.recorded import Recorded, fourier, stacked, two_links
@@ -56,6 +57,39 @@ def test_what_periods_have_in_common_is_as_large_as_it_says(noise: float, tmp_pa
     common = np.mean(periods.mean(axis=0) ** 2) - np.mean(periods.var(axis=0, ddof=1)) / len(periods)
     said = effort_rounding(run, Scene(run.sampled, regressors, TRUTH))
     assert np.mean(said**2) / (len(run.t) / run.period) == pytest.approx(common, rel=0.25)
+
+
+def with_ways(motion: Motion, before: int, after: int) -> Motion:
+    """A motion at 100 Hz with ways to where it begins and from where it ends, of so many samples."""
+    q, v = motion.q[0], motion.qd[0]
+    to = CubicHermiteSpline([0, before / 100], [q[0] - 1.2, q[0]], [0, v[0]])
+    back = CubicHermiteSpline([0, after / 100], [q[-1], q[-1] + 1.0], [v[-1], 0])
+    ways = np.arange(before) / 100, np.arange(1, after + 1) / 100
+    parts = [(to(ways[0], n), x[0], back(ways[1], n)) for n, x in enumerate((motion.q, motion.qd, motion.qdd))]
+    return Motion(*(np.concatenate(part)[None] for part in parts))
+
+
+@pytest.mark.parametrize(("seconds", "way"), [(60.0, 300), (19.9, 0)])
+def test_neither_ways_nor_a_period_that_is_cut_hide_steps(seconds: float, way: int, tmp_path: Path) -> None:
+    """Of periods of ten seconds; what steps leave in the mean is that of many draws of noise."""
+    (tmp_path / "arm.yaml").write_text(ARM)
+    regressors, draw = Regressors(read(tmp_path / "arm.yaml")), np.random.default_rng(2)
+    _, motion = fourier(regressors.model.robot, seconds, 100.0, 1)
+    motion = with_ways(motion, way, way) if way else motion
+    exact = regressors.torques(TRUTH, motion)[0]
+    draws = STEP * np.round(exact / STEP + 0.1 * draw.normal(size=(300, motion.samples)))
+    columns = {"t": np.arange(motion.samples) / 100, "q1": motion.q[0], "tau1": draws[0]}
+    run = ready(str(Recorded(columns).save(tmp_path / "a.csv")), regressors)
+    first, kept = run.sampled.filters.first, run.kept[0]
+    error = run.decimated((draws.mean(axis=0) - exact)[first : first + run.sampled.motion.samples])
+    said = effort_rounding(run, Scene(run.sampled, regressors, TRUTH))[0] / np.sqrt(run.times)
+    assert np.std(said[kept]) == pytest.approx(np.std(error[kept]), rel=0.1)
+
+
+@pytest.mark.parametrize(("period", "known"), [(5, True), (1, False)])
+def test_short_periods_are_compared_as_far_as_they_can_be(period: int, known: bool) -> None:
+    variance = _between(np.random.default_rng(1).normal(size=500), period)
+    assert variance == pytest.approx(1.0, abs=0.3) if known else np.isinf(variance)
 
 
 def test_fine_torques_take_no_steps(tmp_path: Path) -> None:

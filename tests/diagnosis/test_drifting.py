@@ -11,6 +11,8 @@ import pytest
 from scipy.signal import lfilter
 
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
+from identification.diagnosis.verdict.drifting import _Means
+from identification.diagnosis.verdict.lack_of_fit import CHANCE
 from identification.diagnosis.verdict.tones import lines
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
@@ -52,6 +54,18 @@ def test_a_drift_of_the_offset_is_unexplained(drift: Added, tmp_path: Path) -> N
     assert note.startswith("the torque of joint 1 drifts while its motion repeats, by ")
     assert (found.after.joint, found.after.variable) == (1, "time")
     assert not any(one.status == "firm" for one in found.findings)
+
+
+@pytest.mark.parametrize("period", [500, 400, 120])
+def test_drifts_are_seen_in_whatever_periods_there_are(period: int) -> None:
+    """Of 990 rows whose first ten do not count: two periods that lost some, two and a part, and eight and a part."""
+    draw, t, kept = np.random.default_rng(3), np.arange(990), np.arange(990) >= 10
+    still, drifting = _Means(), _Means()
+    for _ in range(4):
+        noise = draw.normal(size=990)
+        still.add(noise, kept, period)
+        drifting.add(noise + 4e-3 * t, kept, period)
+    assert drifting.p < CHANCE < still.p
 
 
 @pytest.mark.parametrize("frequency", [0.077, 1.337, 11.73])

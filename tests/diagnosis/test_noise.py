@@ -140,6 +140,32 @@ def test_columns_that_are_nothing_or_no_numbers_are_refused() -> None:
     assert not one.variants
 
 
+@pytest.mark.parametrize("count", [150, 400])
+@pytest.mark.parametrize("times", [0.2, 1.0, 5.0])
+def test_a_short_run_has_its_own_power(times: float, count: int) -> None:
+    """Beside a long one that repeats, whatever that has; about as much as the long one's is the long one's."""
+    found = []
+    for seed in range(10):
+        runs = [run(base(), base()[0] + noise(seed), period=PERIOD)]
+        runs.append(run(base(count), base(count)[0] + times * noise(seed + 50, count)))
+        of_each = colours(bank(runs))
+        assert of_each[0][0].deviations[-1] == pytest.approx(DEVIATION, rel=0.1)
+        found.append(of_each[1][0].deviations[-1] / DEVIATION)
+    assert np.mean(found) == pytest.approx(times, rel=0.08)
+    assert np.std(found) < 0.1 * times
+
+
+def test_rows_of_one_rate_have_one_colour() -> None:
+    """The law that is that of rows at one rate is not that of rows at another, whose noise is white."""
+    runs = [run(base(), base()[0] + noise(1), period=PERIOD)]
+    white = DEVIATION * np.random.default_rng(2).normal(size=COUNT)
+    runs.append(run(base(), base()[0] + white, period=PERIOD))
+    runs[1].rate, runs[1].factor = 75.0, 1
+    first, second = colours(bank(runs))
+    expect_the_noise(first[0])
+    assert second[0].filters[-1][1:] == pytest.approx(np.zeros(10), abs=0.12)
+
+
 @pytest.mark.parametrize("periods", [1.8, 2.0, 4.0, 10.0])
 def test_rounding_counts_as_itself_however_few_periods_there_are(periods: float) -> None:
     """It is known, and nothing of it is lost in what the periods have in common."""

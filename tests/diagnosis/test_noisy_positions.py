@@ -34,10 +34,14 @@ def held(rows: int) -> Callable[[Array], Array]:
 
 
 def banks(
-    folder: Path, sensor: Callable[[Array], Array], slowest: float, stiffness: float | None = None
+    folder: Path,
+    sensor: Callable[[Array], Array],
+    slowest: float,
+    stiffness: float | None = None,
+    torques: float = NOISE,
 ) -> tuple[Bank, dict[int, Redrawn]]:
     """Two runs of the arm, beside the true model, whose file may call its drive train elastic, not yet white."""
-    regressors, sources = recorded(folder, 2, NOISE, sensor, slowest)
+    regressors, sources = recorded(folder, 2, torques, sensor, slowest)
     runs = [ready(source, regressors) for source in sources]
     scenes = [Scene(run.sampled, regressors, TRUTH) for run in runs]
     if stiffness is not None:
@@ -86,6 +90,17 @@ def test_noise_that_is_not_there_moves_no_value_far(tmp_path: Path) -> None:
     assert one.colours[0][0].deviations[-1] < 3 * plain[0][0].deviations[-1]
     moved, _ = Weighing(one, (0, 1), (), None, wrong).fitted([])
     assert dict(zip(one.base, moved, strict=True))["ZZ1"] == pytest.approx(TRUTH["ZZ1"], rel=0.1)
+
+
+def test_positions_far_noisier_than_torques_leave_their_noise(tmp_path: Path) -> None:
+    """A hundred times what the torques have; an elastic drive train would explain nearly all of it."""
+    one, noise = banks(tmp_path, noisy(STEP), 0.2, torques=NOISE / 100)
+    (hypothesis,) = elasticity.hypotheses(one.scenes)
+    for shape in hypothesis.variants:
+        one.add(hypothesis, shape)
+    one.whiten(colours(one, redrawn=noise))
+    white = one.colours[0][0].white(noise[0].torque, one.runs[0].kept[0])
+    assert white.std() == pytest.approx(1.0, rel=0.3)
 
 
 def test_a_stated_drive_train_is_not_elastic_by_noise(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis, diagnose
 from identification.diagnosis.mending.mended import mended
 from identification.diagnosis.noise.passing import Passing, passing
 from identification.diagnosis.runs.roles import Roles
+from identification.diagnosis.search.loop import first_values
 from identification.diagnosis.verdict.finding import FIRM
 from tests.diagnosis.diagnosed_arm import TRUTH, diagnosis_of, ready, recorded, torque
 from tests.recorded import Array, Recorded
@@ -104,9 +105,23 @@ def test_noise_that_stays_for_a_time_does_not_pass(seconds: float) -> None:
     draw, stays = np.random.default_rng(3), np.exp(-0.02 / seconds)
     t, every = np.arange(1500) / 50, np.ones((1, 1500), dtype=bool)
     sampled = SimpleNamespace(run=SimpleNamespace(name="1.csv"))
-    run: Any = SimpleNamespace(period=500, rate=50.0, kept=every, t=t, sampled=sampled)
+    tau = np.zeros((1, 1500))
+    run: Any = SimpleNamespace(period=500, rate=50.0, kept=every, t=t, tau=tau, sampled=sampled)
     for _ in range(40):
         assert passing([run], [lfilter([1], [1, -stays], draw.normal(size=(1, 3000)))[:, 1500:]]) == ()
+
+
+@pytest.mark.parametrize("pushed", [0.0, 0.01])
+def test_without_noise_nothing_passes_but_what_happens(pushed: float, tmp_path: Path) -> None:
+    """Where a simulation ends its filters leave what they leave nowhere else; a push there is seen all the same."""
+    regressors, sources = recorded(tmp_path, [torque("")] * 2, noise=0.0)
+    with_more(sources[1], lambda t, q, qd: pushed * (t > t[-1] - 0.8))
+    runs = [ready(source, regressors) for source in sources]
+    values = first_values(runs, (0, 1), regressors, None)
+    left = [run.tau - run.decimated(regressors.torques(values, run.sampled.motion)) for run in runs]
+    found = passing(runs, left)
+    assert [one.path.name for one in found] == ["2.csv"] * (pushed > 0)
+    assert all(one.ends > 39.5 for one in found)
 
 
 @pytest.mark.parametrize("left_out", [(), (595, 608, 625, 631, 650, 665)])
@@ -116,7 +131,8 @@ def test_reversals_on_both_sides_and_within_do_not_hide_a_push(left_out: tuple[i
     for begin, end in zip(left_out[::2], left_out[1::2], strict=True):
         kept[0, begin:end] = False
     sampled = SimpleNamespace(run=SimpleNamespace(name="1.csv"))
-    run: Any = SimpleNamespace(period=500, rate=50.0, kept=kept, t=t, sampled=sampled)
+    tau = np.zeros((1, 1500))
+    run: Any = SimpleNamespace(period=500, rate=50.0, kept=kept, t=t, tau=tau, sampled=sampled)
     push = 100 * ((t > 12.1) & (t < 13.05))
     (one,) = passing([run], [draw.normal(size=(1, 1500)) + push])
     assert one.begins < 12.5 < one.ends

@@ -10,7 +10,8 @@ import pytest
 
 from generator.robot.readers import read
 from identification.diagnosis.diagnosis import NAMED, NOTHING, UNEXPLAINED, Diagnosis
-from identification.diagnosis.noise.measured import _common, between_periods
+from identification.diagnosis.noise.measured import _common
+from identification.diagnosis.runs.phases import between_periods
 from identification.observation import Motion, Regressors
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of
 from tests.recorded import Array, Recorded, fourier

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -123,6 +125,33 @@ def test_of_two_joints_the_lifted_one_swings(arm: Known, monkeypatch: pytest.Mon
     assert end([both]) == np.inf
     powers[1] = powers[0]
     assert np.isfinite(end([both]))
+
+
+def test_joints_that_stand_do_not_count(arm: Known, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three more, as of a wrist that is held."""
+    one = slow(scene(arm)).sampled
+    left_out, tau = (
+        np.concatenate([x, more(x)]) for x, more in ((one.left_out, np.ones_like), (one.tau, np.zeros_like))
+    )
+    held = replace(scene(arm), sampled=replace(one, left_out=left_out, tau=tau))
+    # The model's torque on joints that stand is of no account.
+    assert CUTOFF / 2 < end([held]) < 2 * CUTOFF
+    assert end([replace(held, sampled=replace(held.sampled, left_out=np.ones_like(left_out)))]) == np.inf
+
+
+@pytest.mark.parametrize("rates", [(1000.0, 80.0), (80.0, 1000.0)])
+def test_frequencies_are_those_of_each_run(rates: tuple[float, float]) -> None:
+    """Noise about 10 Hz in runs at 50 and 40 rows a second is there in both."""
+    draw, scenes = np.random.default_rng(1), []
+    for rate in rates:
+        band = signal.butter(2, (9.5, 10.5), "band", fs=rate, output="sos")
+        sampled = SimpleNamespace(run=SimpleNamespace(rate=rate), left_out=np.zeros((1, round(60 * rate)), dtype=bool))
+        scenes.append((SimpleNamespace(sampled=sampled), signal.sosfilt(band, draw.normal(size=round(60 * rate)))))
+    frequency = np.linspace(2.0, 20.0, 181)
+    each: list[Any] = [one for one, _ in scenes]
+    density = torque_band._density(each, [x for _, x in scenes], 0, frequency)
+    peaks = frequency[signal.argrelmax(density)]
+    assert peaks == pytest.approx([10.0] * len(peaks), abs=0.5)
 
 
 def test_what_one_joint_lacks_may_be_its_drive_train(arm: Known) -> None:

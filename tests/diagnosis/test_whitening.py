@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import linalg, signal
 
-from identification.diagnosis.columns.whitening import Colour, at_rate, colour, recoloured, stretches
+from identification.diagnosis.columns.whitening import Colour, alike, at_rate, colour, mixed, recoloured, stretches
 
 Array = NDArray[np.float64]
 
@@ -127,3 +127,14 @@ def test_rows_at_another_rate_have_the_same_power_at_the_same_frequency() -> Non
     power = float(np.trapezoid(known.spectrum(frequency, 50.0), frequency))
     assert slower.deviations[0] ** 2 == pytest.approx(power, rel=0.01)
     assert at_rate(known, 50.0, 50.0) is known
+
+
+def test_a_mixed_colour_is_between_both() -> None:
+    one, other = colour([process(40_000, 5)]), colour([np.random.default_rng(6).normal(size=40_000)])
+    frequency = np.linspace(0.01, 0.49, 20)
+    a, b, both = (x.spectrum(frequency, 1.0) for x in (one, other, mixed([(one, 300.0), (other, 100.0)])))
+    assert both == pytest.approx(a**0.75 * b**0.25, rel=0.05)
+
+
+def test_runs_are_alike_whose_rows_are() -> None:
+    assert alike([(50.0, 20), (75.0, 1), (50.0002, 20), (50.0, 2)]) == [[0, 2], [1], [3]]

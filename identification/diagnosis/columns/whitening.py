@@ -20,6 +20,8 @@ from identification.neighbours import in_a_row
 ORDER = 10
 #: Points of a spectrum that is as fine as any colour.
 _FREQUENCIES = 4097
+#: Part by which rates of rows may differ that are one.
+_SAME = 1e-3
 
 
 @dataclass(frozen=True)
@@ -78,12 +80,32 @@ def recoloured(one: Colour, free: Array) -> Colour:
     return _of_power(spectrum / given, len(one.filters) - 1)
 
 
+def alike(kinds: Sequence[tuple[float, int]]) -> list[list[int]]:
+    """Numbers of runs whose noise can have one colour: with the same rate of rows [Hz], means of as many samples."""
+    groups: list[list[int]] = []
+    for r, kind in enumerate(kinds):
+        known = next((one for one in groups if np.allclose(kinds[one[0]], kind, rtol=_SAME)), None)
+        if known is None:
+            groups.append([r])
+        else:
+            known.append(r)
+    return groups
+
+
 def at_rate(one: Colour, own: float, rate: float) -> Colour:
     """The colour in rows at another ``rate`` [Hz] than its ``own``: even where its rows show no frequencies."""
-    if np.isclose(own, rate):
+    if np.isclose(own, rate, rtol=_SAME):
         return one
     frequency = np.linspace(0.0, rate / 2, _FREQUENCIES)
     return _of_power(one.spectrum(np.minimum(frequency, own / 2), own) * rate / 2, len(one.filters) - 1)
+
+
+def mixed(colours: Sequence[tuple[Colour, float]]) -> Colour:
+    """The colour between several colours, each with its weight: the logarithm of its power is the mean of theirs."""
+    spectra = [one.spectrum(np.linspace(0.0, 0.5, _FREQUENCIES), 1.0) / 2 for one, _ in colours]
+    weights = np.array([weight for _, weight in colours])
+    order = max(len(one.filters) - 1 for one, _ in colours)
+    return _of_power(np.exp(weights @ np.log(spectra) / max(weights.sum(), 1e-300)), order)
 
 
 def _of_power(power: Array, order: int) -> Colour:

@@ -16,6 +16,7 @@ from scipy.special import ndtr
 from generator.review.words import listed
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.runs.phases import by_period
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 
@@ -37,7 +38,8 @@ def effort_rounding(run: Prepared, scene: Scene) -> Array:
     if coarse is None:
         return np.zeros_like(run.tau)
     recorded, model = (np.linalg.solve(coarse.acting, tau) for tau in (scene.sampled.run.tau, scene.torque))
-    error = np.stack([_error(*one, run.repeats) for one in zip(recorded, model, coarse.steps, strict=True)])
+    again = recorded[:, run.stretch]
+    error = np.stack([_error(*one, run.repeats) for one in zip(again, model, coarse.steps, strict=True)])
     return np.asarray(sqrt(run.times) * run.decimated(coarse.acting @ error))
 
 
@@ -62,17 +64,23 @@ def notes(bank: Bank) -> list[str]:
 
 
 def _error(recorded: Array, model: Array, step: float, period: int) -> Array:
-    """What rounding adds to the mean of an effort over periods of so many samples, along the model's (N)."""
+    """What rounding adds to the mean over periods of so many samples of an effort, ``recorded`` where it repeats (M),
+    along the model's (N).
+    """
     noise = _noise(_between(recorded / step, period)) if step else _DEVIATIONS[-1]
     # Steps that are fine beside the noise leave nothing, and have many logs.
     return np.zeros_like(model) if noise == _DEVIATIONS[-1] else step * _mean(model / step, noise)
 
 
 def _between(x: Array, period: int) -> float:
-    """Variance of a signal between its periods, without the part of them in which it is largest."""
-    count = len(x) // period
-    every = np.var(x[len(x) - count * period :].reshape(count, period), axis=0, ddof=1)
-    return float(np.mean(np.sort([np.mean(part) for part in np.array_split(every, _PARTS)])[:-1]))
+    """Variance of a signal between its periods, of which the last may be a part, without the part of them in which it
+    is largest; infinite where they are too short to be compared so.
+    """
+    there = by_period(np.ones(len(x), dtype=bool), period)
+    twice = there.sum(axis=0) > 1
+    every = np.nanvar(np.where(there, by_period(x, period), np.nan)[:, twice], axis=0, ddof=1)
+    parts = [np.mean(part) for part in np.array_split(every, _PARTS) if len(part)]
+    return float(np.mean(np.sort(parts)[:-1])) if len(parts) > 1 else np.inf
 
 
 def _mean(x: Array, noise: float) -> Array:

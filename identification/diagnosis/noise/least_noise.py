@@ -13,10 +13,14 @@ from identification.diagnosis.runs.prepared import Prepared
 _PART = 1e-5
 
 
+def deviations(run: Prepared) -> Array:
+    """Its standard deviations (n) [N m, N]."""
+    return np.asarray(_PART * np.sqrt(np.mean(run.tau**2, axis=-1)))
+
+
 def least(run: Prepared, number: int) -> Array:
     """White torques (n x rows) [N m, N] of that size, draw ``number``: periods have them in common, as noise that they
     do not have would be.
     """
-    size = _PART * np.sqrt(np.mean(run.tau**2, axis=-1, keepdims=True))
     drawn = np.random.default_rng(number).normal(size=run.tau.shape)
-    return np.asarray(sqrt(max(run.times, 1.0)) * size * drawn)
+    return np.asarray(sqrt(max(run.times, 1.0)) * deviations(run)[:, None] * drawn)

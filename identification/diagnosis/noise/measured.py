@@ -10,7 +10,7 @@ is left at a frequency is divided by its part that is free there.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeVar
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,16 @@ from scipy.ndimage import uniform_filter1d
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import directions
-from identification.diagnosis.columns.whitening import ORDER, Colour, colour, recoloured, stretches
+from identification.diagnosis.columns.whitening import (
+    ORDER,
+    Colour,
+    alike,
+    at_rate,
+    colour,
+    mixed,
+    recoloured,
+    stretches,
+)
 from identification.diagnosis.noise.clear_directions import clear
 from identification.diagnosis.noise.errors_in_variables import Redrawn
 from identification.diagnosis.noise.may_act import (
@@ -32,21 +41,22 @@ from identification.diagnosis.noise.may_act import (
     without_record,
 )
 from identification.diagnosis.noise.outstanding import outstanding
+from identification.diagnosis.runs.phases import between_periods, by_period
 from identification.side_by_side import side_by_side
-
-_Scalar = TypeVar("_Scalar", np.float64, np.bool_)
 
 #: Eigenvalues of the scaled columns' products below this part of the largest are no directions of their own.
 _RANK = 1e-7
 #: Rows of the parts of a run whose spectra tell where noise is taken away, and the least part that counts as left.
 _PART, _LEAST = 256, 0.1
-#: Rows of noise of the usual power that every run is taken to have beside its own.
-_DOUBT = 200
+#: Rows of the usual noise that every run, and all runs at one rate, are taken to have beside their own; and the
+#: standard deviations beyond which a run's power is another one by more than chance.
+_DOUBT, _CHANCE = 200, 2.0
 #: Times that the colour is estimated again, each from rows made white by the last.
 _AGAIN = 1
-#: Power of the noise that columns leave from which that of positions is looked at, and beyond which it is none: columns
-#: do not take that much.
-_NOISY, _ABSURD = 0.05, 30.0
+#: Power of the noise that columns leave from which that of positions is looked at; beyond which it is only believed if
+#: the model alone leaves as much, as columns that take so much have to hold nothing else; and times what is left there
+#: that it may be.
+_NOISY, _ABSURD, _AS_MUCH = 0.05, 30.0, 2.0
 
 
 def colours(
@@ -55,7 +65,8 @@ def colours(
     maps: Sequence[Sequence[Array]] = (),
     redrawn: Mapping[int, Redrawn] | None = None,
 ) -> list[list[Colour]]:
-    """The colour of every joint's noise, run by run: the form is that of all runs, which a short one could not tell.
+    """The colour of every joint's noise, run by run: the form is that of all runs alike, which a short one could not
+    tell.
 
     ``rounded`` (n x rows each) counts as noise too, though periods may have it in common. ``maps`` are, by joint and
     run, rows (m x rows) of what may act beside all hypotheses, if there are any. Runs whose positions are noisy are
@@ -79,32 +90,93 @@ def _of_joint(
     found = _joint(with_maps(plain, bank, joint, maps), bank, rounded, apart)
     torques = [found[r].white(one.torque[[joint]], bank.runs[r].kept[joint]) for r, one in redrawn.items()]
     power = sum(float(np.sum(x**2)) for x in torques) / max(sum(x.size for x in torques), 1)
-    if not _NOISY < power < _ABSURD:
+    if power < _NOISY or (power > _ABSURD and not _left_by_model(plain, bank, joint, redrawn, found)):
         return found
     noisy = with_noise(plain, bank, joint, redrawn)
     return _joint(with_maps(noisy, bank, joint, maps), bank, rounded, apart)
 
 
+def _left_by_model(
+    parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[int, Redrawn], colours: Sequence[Colour]
+) -> bool:
+    """Whether the model's columns leave of a joint's torque as much as noise of the positions would make there."""
+    p = len(bank.base)
+    gram = np.zeros((p + 2, p + 2))
+    for r, one in redrawn.items():
+        base = [i for i, number in enumerate(parts[r].numbers) if number < p]
+        places = [*(parts[r].numbers[i] for i in base), p, p + 1]
+        rows = np.concatenate([parts[r].columns[base], parts[r].tau[None], one.torque[[joint]]])
+        white = _white(colours[r], rows, parts[r].kept)
+        gram[np.ix_(places, places)] += white @ white.T
+    taken = gram[p:, :p] @ directions(gram[:p, :p])
+    left, noise = np.diag(gram)[p:] - np.sum(taken**2, axis=1)
+    return bool(noise <= _AS_MUCH * left)
+
+
 def _joint(parts: Sequence[Rows], bank: Bank, rounded: Sequence[Array], apart: Sequence[int]) -> list[Colour]:
     """The colour of a joint's noise in each run, columns number ``apart`` taken away whole."""
     taken = [*known_to_act(parts, bank), *apart]
-    left, free, _ = _left(parts, bank, None, rounded, taken)
+    kinds = [(run.rate, run.factor) for run in bank.runs]
+    left = _left(parts, bank, [None] * len(parts), rounded, taken)
     for _ in range(_AGAIN):
-        left, free, each = _left(parts, bank, _colour(left, free), rounded, taken)
-    form = _colour(left, free)
-    return [_scaled(form, parts, freedom) for parts, freedom in zip(left, each, strict=True)]
+        left = _left(parts, bank, _usual(left, kinds), rounded, taken)
+    return [_scaled(known, one) for known, one in zip(_usual(left, kinds), left, strict=True)]
 
 
-def _colour(left: list[list[Array]], free: Array) -> Colour:
-    """The colour of noise of which stretches of each run hold the part ``free``."""
-    return recoloured(colour([part for parts in left for part in parts]), free)
+def _usual(left: Sequence[_Left], kinds: Sequence[tuple[float, int]]) -> list[Colour]:
+    """The colour of the noise of each run as all have it: those with as many rows a second, each of as many samples,
+    have one form; few rows of them take it from the others, in hertz.
+    """
+    groups = alike(kinds)
+    own = [_colour([left[r] for r in group]) for group in groups]
+    rows = np.array([sum(left[r].rows for r in group) for group in groups], dtype=float)
+    result: dict[int, Colour] = {}
+    for g, group in enumerate(groups):
+        weights = rows * min(_DOUBT / max(rows.sum() - rows[g], 1.0), 1.0)
+        weights[g] = rows[g]
+        rate = kinds[group[0]][0]
+        there = [at_rate(one, kinds[each[0]][0], rate) for one, each in zip(own, groups, strict=True)]
+        usual = mixed([*zip(there, weights.tolist(), strict=True)]) if len(groups) > 1 else own[g]
+        result |= dict.fromkeys(group, usual)
+    return [result[r] for r in range(len(kinds))]
+
+
+def _colour(left: Sequence[_Left]) -> Colour:
+    """The colour of the noise of runs alike."""
+    lost = _smooth(np.sum([one.lost for one in left], axis=0))
+    free = np.maximum(1 - lost / max(sum(one.rows for one in left), 1), _LEAST)
+    return recoloured(colour([part for one in left for part in one.parts]), free)
+
+
+@dataclass(frozen=True)
+class _Left:
+    """What is left of the noise of a run, in stretches ``parts`` of so many ``rows`` together; of these as many as are
+    ``lost`` by frequency.
+    """
+
+    parts: list[Array]
+    rows: int
+    lost: Array
+
+    @property
+    def free(self) -> float:
+        """The part of its power that is left."""
+        return _free(self.lost, self.rows)
+
+
+def _free(lost: Array, rows: int) -> float:
+    return max(1 - float(lost.mean()) / max(rows, 1), _LEAST)
 
 
 def _left(
-    parts: Sequence[Rows], bank: Bank, known: Colour | None, rounded: Sequence[Array], taken: Sequence[int]
-) -> tuple[list[list[Array]], Array, list[float]]:
-    """Stretches of noise of each run, and the part of its power that is left in them: by frequency, and run by run. All
-    columns number ``taken`` are taken away, and of the others the strongest directions that rows allow.
+    parts: Sequence[Rows],
+    bank: Bank,
+    known: Sequence[Colour | None],
+    rounded: Sequence[Array],
+    taken: Sequence[int],
+) -> list[_Left]:
+    """What is left of the noise of each run. All columns number ``taken`` are taken away, and of the others the
+    strongest directions that rows allow.
     """
     numbers = [*taken, *sorted({number for part in parts for number in part.numbers}.difference(taken))]
     place = {number: i for i, number in enumerate(numbers)}
@@ -112,11 +184,11 @@ def _left(
     gram = np.zeros((len(numbers) + 1, len(numbers) + 1))
     pretended = np.zeros(len(numbers))
     white, noisy = [], []
-    for at, part in zip(places, parts, strict=True):
-        white.append(_white(known, np.concatenate([part.columns, part.tau[None]]), part.kept))
+    for at, part, one in zip(places, parts, known, strict=True):
+        white.append(_white(one, np.concatenate([part.columns, part.tau[None]]), part.kept))
         gram[np.ix_([*at, -1], [*at, -1])] += white[-1] @ white[-1].T
         if part.noise is not None:
-            noise = _white(known, part.noise, part.kept)
+            noise = _white(one, part.noise, part.kept)
             pretended[at] -= noise[:-1] @ noise[-1]
             noisy.append((at, noise[:-1]))
     rows = sum(x.shape[1] for x in white)
@@ -125,20 +197,18 @@ def _left(
     unblurred = clear(along, noisy)
     weights = along @ (along.T @ gram[:-1, -1]) - unblurred @ (unblurred.T @ pretended)
     inside = along @ along.T
-    noise_left, lost = [], []
-    for at, x, part, run in zip(places, white, parts, bank.runs, strict=True):
+    result = []
+    for r, (at, x, part, run) in enumerate(zip(places, white, parts, bank.runs, strict=True)):
         kept = part.kept
-        noise_left.append(between_periods(part.tau - weights[at] @ part.columns, kept, run.period))
+        noise_left = between_periods(part.tau - weights[at] @ part.columns, kept, run.period)
         whole = np.zeros(part.columns.shape)
         whole[:, kept] = x[:-1]
         taken_away = _power(between_periods(whole, kept, run.period), inside[np.ix_(at, at)])
-        lost.append(taken_away + _common(kept, run.period))
-    counts = [max(x.shape[1], 1) for x in white]
-    each = [max(1 - float(one.mean()) / count, _LEAST) for one, count in zip(lost, counts, strict=True)]
-    # Nothing of the rounding is lost, and it counts as what is left.
-    steps = [np.sqrt(share) * rounded[r] if rounded else 0.0 for r, share in enumerate(each)]
-    left = [stretches(e + more, part.kept) for e, more, part in zip(noise_left, steps, parts, strict=True)]
-    return left, np.maximum(1 - _smooth(np.sum(lost, axis=0)) / max(rows, 1), _LEAST), each
+        lost = taken_away + _common(kept, run.period)
+        # Nothing of the rounding is lost, and it counts as what is left.
+        steps = np.sqrt(_free(lost, x.shape[1])) * rounded[r] if rounded else 0.0
+        result.append(_Left(stretches(noise_left + steps, kept), x.shape[1], lost))
+    return result
 
 
 def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
@@ -146,13 +216,19 @@ def _white(known: Colour | None, x: Array, kept: NDArray[np.bool_]) -> Array:
     return x[:, kept] if known is None else known.white(x, kept)
 
 
-def _scaled(known: Colour, parts: list[Array], freedom: float) -> Colour:
-    """The colour with the power of one run's noise, as far as its rows tell it."""
-    squares, rows = 0.0, 0
-    for part in parts:
-        white = known.white(part[None], np.ones(len(part), dtype=bool))[0]
-        squares, rows = squares + float(white @ white), rows + len(part)
-    power = (squares / freedom + _DOUBT) / (rows + _DOUBT)
+def _scaled(known: Colour, left: _Left) -> Colour:
+    """The colour with the power of one run's noise, as far as its rows tell it.
+
+    The logarithm of runs' powers spreads about the usual one by as much as ``_DOUBT`` rows leave it uncertain, or by as
+    much as this run's does beyond chance.
+    """
+    white = [known.white(part[None], np.ones(len(part), dtype=bool))[0] for part in left.parts]
+    squares, rows = sum(float(e @ e) for e in white) / left.free, left.rows
+    if not squares:
+        return known
+    beyond = np.log(squares / rows) ** 2 - _CHANCE**2 * 2 / (left.free * rows)
+    doubt = min(2 / max(beyond, 1e-9), _DOUBT)
+    power = (squares + doubt) / (rows + doubt)
     return Colour(known.filters, tuple(float(x) * float(np.sqrt(power)) for x in known.deviations))
 
 
@@ -168,25 +244,9 @@ def _directions(gram: Array, base: int, most: int) -> Array:
     return np.hstack([first, T @ V[:, max(V.shape[1] - most, 0) :]])
 
 
-def between_periods(x: Array, kept: NDArray[np.bool_], period: int) -> Array:
-    """What differs between the periods of rows (... x N), of which the last may be a part."""
-    if not period:
-        return x
-    there = by_period(kept, period)
-    mean = np.where(there, by_period(x, period), 0.0).sum(axis=-2) / np.maximum(there.sum(axis=0), 1)
-    return np.asarray(np.where(kept, x - np.tile(mean, len(there))[..., : x.shape[-1]], x))
-
-
 def _common(kept: NDArray[np.bool_], period: int) -> float:
     """Rows' worth of noise that is in what periods have in common."""
     return float(by_period(kept, period).any(axis=0).sum()) if period else 0.0
-
-
-def by_period(x: NDArray[_Scalar], period: int) -> NDArray[_Scalar]:
-    """Rows (... x N) in periods (... x P x period), zero after the last."""
-    count = -(-x.shape[-1] // period)
-    padded = np.pad(x, (*((0, 0) for _ in x.shape[:-1]), (0, count * period - x.shape[-1])))
-    return np.asarray(padded.reshape(*x.shape[:-1], count, period), dtype=x.dtype)
 
 
 def _power(x: Array, inside: Array) -> Array:

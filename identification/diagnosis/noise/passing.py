@@ -17,7 +17,8 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from generator.robot.description import Robot
 from identification.arrays import Array
-from identification.diagnosis.noise.measured import by_period
+from identification.diagnosis.noise import least_noise
+from identification.diagnosis.runs.phases import by_period
 from identification.diagnosis.runs.prepared import Prepared, windowed
 from identification.run_source import RunSource
 from identification.sampling import Sampled
@@ -92,8 +93,10 @@ def _of_joint(runs: Sequence[tuple[Prepared, Array]], k: int) -> Iterator[Passin
     every = np.concatenate([one.power for one in compared])
     if not (known := np.isfinite(every)).any():
         return
-    median, upper = np.quantile(every[known], [0.5, 0.75]).tolist()
-    far = median * max(_FAR, (upper / median) ** _UNLIKELY) if median > 0 else 0.0
+    # No simulation is so exact that nothing differs between its periods.
+    least = max(float(least_noise.deviations(run)[k]) ** 2 for run, _ in runs)
+    median, upper = np.maximum(np.quantile(every[known], [0.5, 0.75]), max(least, 1e-300)).tolist()
+    far = median * max(_FAR, (upper / median) ** _UNLIKELY)
     found = [_stretches(one, far, run) for one, (run, _) in zip(compared, runs, strict=True)]
     inside = [one.rows[stretch] for one, ones in zip(compared, found, strict=True) for stretch in ones]
     if not inside:

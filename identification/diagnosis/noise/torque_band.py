@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from identification.arrays import Array
-from identification.diagnosis.columns.whitening import ORDER, colour, stretches
+from identification.diagnosis.columns.whitening import ORDER, alike, colour, stretches
 from identification.diagnosis.noise import rounding
 from identification.diagnosis.runs.position_noise import drawn, torque_of
 from identification.diagnosis.runs.prepared import RATE, windowed
@@ -42,14 +43,17 @@ def end(scenes: Sequence[Scene]) -> float:
     beyond it has its rotor's alone. That is of one joint; a log's filter and its steps are of all, and leave less than
     a rotor of what is quick.
     """
-    rate = scenes[0].sampled.run.rate / _factor(scenes[0])
+    rate = min(_rate(scene) for scene in scenes)
     # A colour tells no lower ones apart.
     frequency = np.linspace(rate / 2 / ORDER, rate / 2, _FREQUENCIES)
     errors = [_of_positions(scene, number) for number, scene in enumerate(scenes)]
-    each = [_power(scenes, errors, k, frequency, rate) for k in range(len(scenes[0].tau))]
+    moving = [k for k in range(len(scenes[0].tau)) if any(_kept(scene, k).any() for scene in scenes)]
+    if not moving:
+        return np.inf
+    each = [_power(scenes, errors, k, frequency) for k in moving]
     power = np.quantile(each, _MOST, axis=0, method="inverted_cdf")
     short = power < _SHORT
-    if len(scenes[0].tau) < _SEVERAL:
+    if len(moving) < _SEVERAL:
         lifted = any(one.max() > _LIFTED * one[0] for one in each)
         short = np.logical_and.accumulate(short[::-1])[::-1] & (power[-1] < _ROTOR) & ~lifted
     return float(frequency[np.argmax(short)]) if short.any() else np.inf
@@ -71,28 +75,44 @@ def _factor(scene: Scene) -> int:
     return max(round(scene.sampled.run.rate / RATE), 1)
 
 
+def _rate(scene: Scene) -> float:
+    """Rows a second."""
+    return scene.sampled.run.rate / _factor(scene)
+
+
+def _kept(scene: Scene, k: int) -> NDArray[np.bool_]:
+    """Rows (N) of a joint in which it moves. Reversals are left out, as in the rows: a model's friction jumps there,
+    and a real one need not.
+    """
+    return np.asarray(windowed(scene.sampled.left_out[k].astype(float), _factor(scene)) == 0)
+
+
 def _of_positions(scene: Scene, number: int) -> Array:
     """Torques (n x N) [N m, N] as errors of the positions make them, by draw ``number``."""
     noise = rounding.errors(scene.sampled.run, scene.robot)
     return torque_of(drawn(scene, noise, number), scene)
 
 
-def _power(scenes: Sequence[Scene], errors: Sequence[Array], k: int, frequency: Array, rate: float) -> Array:
+def _power(scenes: Sequence[Scene], errors: Sequence[Array], k: int, frequency: Array) -> Array:
     """The power density of a joint's recorded torque in parts of that by the model and what was found beside it, where
-    the joint moves; 1 where it never does. Reversals are left out, as in the rows: a model's friction jumps there, and
-    a real one need not.
+    the joint moves.
     """
-    recorded: list[Array] = []
-    model: list[Array] = []
-    noise: list[Array] = []
-    for scene, error in zip(scenes, errors, strict=True):
-        factor = _factor(scene)
-        kept = windowed(scene.sampled.left_out[k].astype(float), factor) == 0
-        recorded += stretches(windowed(scene.tau[k], factor), kept)
-        model += stretches(windowed(scene.torque[k], factor), kept)
-        noise += stretches(windowed(error[k], factor), kept)
-    asked = colour(model).spectrum(frequency, rate)
+    recorded = _density(scenes, [scene.tau[k] for scene in scenes], k, frequency)
+    asked = _density(scenes, [scene.torque[k] for scene in scenes], k, frequency)
+    noise = _density(scenes, [error[k] for error in errors], k, frequency)
     nothing = _NOTHING * asked.mean()
     # Accelerations that positions have by their errors alone no torque needs to make.
-    asked = np.maximum(asked - _ERRORS * colour(noise).spectrum(frequency, rate), 0.0)
-    return np.asarray((colour(recorded).spectrum(frequency, rate) + nothing) / (asked + nothing))
+    return np.asarray((recorded + nothing) / (np.maximum(asked - _ERRORS * noise, 0.0) + nothing))
+
+
+def _density(scenes: Sequence[Scene], signals: Sequence[Array], k: int, frequency: Array) -> Array:
+    """The power density of signals of joint k, one a run, in the mean over its rows: runs alike have one colour."""
+    total, rows = np.zeros_like(frequency), 0
+    for of_rate in alike([(_rate(scene), _factor(scene)) for scene in scenes]):
+        parts: list[Array] = []
+        for r in of_rate:
+            parts += stretches(windowed(signals[r], _factor(scenes[r])), _kept(scenes[r], k))
+        count = sum(map(len, parts))
+        total += count * colour(parts).spectrum(frequency, _rate(scenes[of_rate[0]]))
+        rows += count
+    return total / max(rows, 1)

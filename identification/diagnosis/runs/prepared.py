@@ -55,9 +55,9 @@ class Prepared:
 
     ``unsettled`` rows (n x N) are close to standstill, or to the beginning, before which nobody knows what was.
     ``period`` is that of the motion in rows, or of the fewest periods that are a whole number of rows, 0 where the rows
-    hold no two of these; ``repeats`` is that in samples, 0 where it does not repeat, and ``repeating`` how many rows
-    hold what does. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the rows that are left out, of ``sampled`` too;
-    all rows of a joint that is held are.
+    hold no two of these; ``repeats`` is that in samples, 0 where it does not repeat; ``stretch`` are the samples of the
+    run that do, and ``repeating`` how many rows hold them. Joint j's speed is below ``slow[j]`` [rad/s, m/s] in the
+    rows that are left out, of ``sampled`` too; all rows of a joint that is held are.
     """
 
     sampled: Sampled
@@ -68,6 +68,7 @@ class Prepared:
     period: int
     slow: Array
     repeats: int
+    stretch: slice
     repeating: int
 
     @property
@@ -79,6 +80,11 @@ class Prepared:
     def rate(self) -> float:
         """Rows a second."""
         return self.sampled.filters.rate / self.sampled.filters.factor
+
+    @property
+    def factor(self) -> int:
+        """Samples a row."""
+        return self.sampled.filters.factor
 
     @property
     def unlike(self) -> str:
@@ -190,8 +196,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         raise InputError(
             run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
         )
-    period, repeats = repeating(run.q, run.period)
-    factor, compared = _decimation(run.rate / RATE, period, repeats.stop - repeats.start)
+    period, stretch = repeating(run.q, run.period)
+    factor, compared = _decimation(run.rate / RATE, period, stretch.stop - stretch.start)
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
     filtering = replace(changed, dropped_first=None, dropped_last=None)
     filters_of(run, filtering)
@@ -207,7 +213,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     if round(_FORGOTTEN * run.samples) >= round(_MEMORY * run.rate):
         left_out[:, one.times < run.start + _MEMORY] = True
     inner = np.arange(run.samples)[one.filters.inner(run.samples)]
-    left_out[:, (inner < repeats.start) | (inner >= repeats.stop)] = True
+    left_out[:, (inner < stretch.start) | (inner >= stretch.stop)] = True
     if swinging := stated(regressors.model.robot):
         fading = min(_SWINGING, _FADING * run.duration) * run.rate
         left_out[[one.k for one in swinging], : round(fading)] = True
@@ -220,6 +226,6 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     crawling = windowed((np.abs(speed) < _CRAWLING * usual[:, None]).astype(float), factor) > 0
     unsettled = crawling | (t < run.start + _MEMORY)
     at = inner[factor : factor * (tau.shape[-1] + 1) : factor]
-    within = int(((at >= repeats.start) & (at < repeats.stop)).sum())
+    within = int(((at >= stretch.start) & (at < stretch.stop)).sum())
     rows = compared // factor if within >= _TWICE * (compared // factor) else 0
-    return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period, within)
+    return Prepared(replace(one, left_out=left_out), t, tau, kept, unsettled, rows, slow, period, stretch, within)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.stats import f
 
 from identification.arrays import Array
-from identification.diagnosis.noise.measured import by_period
+from identification.diagnosis.runs.phases import by_period
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 
@@ -38,9 +38,12 @@ class _Means:
 
     def add(self, e: Array, kept: NDArray[np.bool_], period: int) -> None:
         """The rows (N) of one run, of which those that are ``kept`` count."""
-        count = len(e) // period
-        by_phase, there = by_period(e, period)[:count], by_period(kept, period)[:count].all(axis=0)
-        if count < 2 or there.mean() < _SHARE:
+        whole, rows = by_period(kept, period), by_period(e, period)
+        # A last period that is a part counts if more rows can be compared with it than without it.
+        counts = [count for count in (len(e) // period, len(whole)) if count > 1]
+        count = max(counts, key=lambda one: one * int(whole[:one].all(axis=0).sum()), default=0)
+        by_phase, there = rows[:count], whole[:count].all(axis=0)
+        if not count or there.mean() < _SHARE:
             return
         differing = by_phase[:, there] - by_phase[:, there].mean(axis=0)
         mean = differing.mean(axis=1)

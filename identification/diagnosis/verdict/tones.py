@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.arrays import Array
-from identification.diagnosis.noise.measured import between_periods
+from identification.diagnosis.runs.phases import between_periods
 from identification.diagnosis.search.loop import Search
 
 #: Times that it comes at least in the rows of all periods but one, which the others tell: what is slower is a drift.
@@ -50,7 +50,7 @@ def tones(found: Search, weights: Mapping[int, float]) -> dict[int, Tone]:
         if not total:
             continue
         frequency = max((one for one, _ in spectra), key=len)
-        part = np.sum([np.interp(frequency, *one, left=0.0) for one in spectra], axis=0) / total
+        part = np.sum([np.interp(frequency, *one, left=0.0, right=0.0) for one in spectra], axis=0) / total
         least_part = np.where(frequency < quick, _SLOW, _MOST)
         most = int(np.argmax(part / least_part))
         if part[most] > least_part[most]:
