@@ -12,6 +12,7 @@ from typing import Any
 import generator.backends
 from generator.derivation import derive
 from generator.discovery import modules
+from generator.earlier import MANIFEST
 from generator.manifest import manifest
 from generator.robot.readers import read
 from generator.symbolic.model import Model
@@ -19,8 +20,6 @@ from generator.writing import replace
 
 #: A context that announces a stage of the work while it lasts.
 Stage = Callable[[str], AbstractContextManager[None]]
-
-MANIFEST = "manifest.json"
 
 
 def silent(text: str) -> AbstractContextManager[None]:
@@ -47,8 +46,7 @@ def generate(
     contents = manifest(model, sorted(files))
     files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
     folder = out / model.robot.name
-    backends = {backend.NAME for backend in modules(generator.backends)}
-    replace(folder, files, gone=backends - {name.partition("/")[0] for name in files})
+    replace(folder, files)
     return folder, contents
 
 

@@ -1,6 +1,7 @@
 """Generate everything from a robot file: C, CasADi, NumPy, Python, the review pages and manifest.json.
 
-The files go to OUT/<robot's name>/. They replace an older generation all at once; on bad input nothing is written.
+The files go to OUT/<robot's name>/. They replace those of an older generation all at once, and leave all other files
+there as they are; on bad input nothing is written.
 """
 
 from __future__ import annotations
