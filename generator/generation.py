@@ -16,7 +16,7 @@ from generator.earlier import MANIFEST
 from generator.manifest import manifest
 from generator.robot.readers import read
 from generator.symbolic.model import Model
-from generator.writing import replace
+from generator.writing import replace, writable
 
 #: A context that announces a stage of the work while it lasts.
 Stage = Callable[[str], AbstractContextManager[None]]
@@ -39,6 +39,7 @@ def generate(
     with uncollected():
         with stage(f"reading {robot_file.name}"):
             robot = read(robot_file)
+            writable(out if parameter_set else out / robot.name)
         with stage(f"deriving the model of {robot.name}"):
             model = derive(robot, plain=plain, parameter_set=parameter_set)
         with stage("emitting the files"):

@@ -26,6 +26,20 @@ def replace(folder: Path, files: Mapping[str, bytes]) -> None:
             path.write_bytes(content)
 
 
+def writable(folder: Path) -> None:
+    """Raises InputError where ``folder`` is none that can be made and written; nothing is made."""
+    there = next(one for one in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(one))
+    code = 0
+    if not there.is_dir():
+        code = errno.EEXIST
+    elif not os.access(there, os.W_OK | os.X_OK):
+        code = errno.EACCES
+    if code:
+        hint = f"; {there.name} is a file" if there.is_file() else ""
+        expected = f"a folder that can be made and written{hint}"
+        raise InputError(Place(str(folder)), f"it cannot be written ({os.strerror(code)})", expected)
+
+
 def spare(source: Path, targets: Iterable[Path]) -> None:
     """Raises InputError where one of ``targets``, which are to be written, is the file ``source`` that was read."""
     for target in targets:

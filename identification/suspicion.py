@@ -50,13 +50,8 @@ _FEWEST, _FEWEST_TURNED = 5, 3
 
 
 def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> list[str]:
-    """Doubts about a fit; raises InputError where columns are swapped or of the wrong sign and where the model does not
-    explain the data.
-    """
+    """Doubts about a fit; raises InputError where columns are swapped and where the model does not explain the data."""
     ordered(runs, regressors, residuals)
-    if _doubtful(residuals):
-        for one in runs:
-            _of_one_sense(one, regressors)
     each, total = residuals.per_joint, residuals.total.relative_to_mean
     bad = _doubtful(residuals)
     robot = regressors.model.robot
@@ -130,6 +125,15 @@ def directed(
             whose = "" if joints == moving else f" of joint {min(joints)}"
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
             raise InputError(place, problem, _SENSE)
+
+
+def of_one_sense(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
+    """Raises InputError where ``residuals`` are large and one of the runs is explained far better with another sign of
+    one column.
+    """
+    if _doubtful(residuals):
+        for one in runs:
+            _of_one_sense(one, regressors)
 
 
 def misread(one: Sampled, regressors: Regressors) -> list[str]:

@@ -333,8 +333,10 @@ def test_bad_input_leaves_an_older_generation_as_it_was(
 
 def test_a_folder_that_cannot_be_made_is_bad_input(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = command("generate", pendulum, "--out", pendulum, capsys=capsys)
-    place, expected = f"error: {pendulum}/pendulum:1:1", "a folder that can be made and written"
+    place = f"error: {pendulum}/pendulum:1:1"
+    expected = f"a folder that can be made and written; {pendulum.name} is a file"
     assert refused(done) == f"{place}: it cannot be written (File exists), expected {expected}"
+    assert "deriving" not in done.err
 
 
 def test_a_missing_compiler_is_named(
@@ -374,3 +376,25 @@ def test_commands_use_one_thread_unless_told_otherwise(given: dict[str, str], us
         [sys.executable, "-c", program], env={**clean, "PYTHONPATH": str(ROOT), **given}, capture_output=True, text=True
     )
     assert done.stdout.split()[-2:] == ["False", used]
+
+
+@pytest.mark.parametrize("name", ["generate", "identify", "excite", "simulate", "gains"])
+def test_an_empty_out_is_bad_input(name: str, pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It would be the folder at hand."""
+    data = ("--data", "a.csv") if name in ("identify", "gains") else ()
+    done = command(name, pendulum, *data, "--out", "", capsys=capsys)
+    assert "argument --out: it is empty; . is the folder at hand" in refused(done)
+
+
+def test_an_interruption_while_python_reads_the_program_is_no_defect() -> None:
+    code = (
+        "import runpy, sys\n"
+        "class Interrupted:\n"
+        "    def find_spec(self, name, *more):\n"
+        "        if name == 'argparse': raise KeyboardInterrupt\n"
+        "sys.modules.pop('argparse', None)\n"
+        "sys.meta_path.insert(0, Interrupted())\n"
+        "runpy.run_module('generator', run_name='__main__')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "")

@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.progress import stage
 from generator.resources import find_robot
 
@@ -18,9 +18,7 @@ from generator.resources import find_robot
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, --plain, --build-in, --self-test and --library."""
     takes_robot(parser)
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path("generated"), help="where the files go (default: generated)"
-    )
+    takes_out(parser, "where the files go (default: generated)", default=Path("generated"))
     parser.add_argument(
         "--plain",
         action="store_true",
