@@ -41,6 +41,7 @@ def _text(found: Excitation) -> Iterator[str]:
         yield f"Best known will be {best}, to {plain(known[best], 2)}\u202f%, least known {worst},"
         yield f"to {plain(known[worst], 2)}\u202f%."
     if zero:
-        yield f"Relative to 0, which the set of values has for {listed(zero)}, nothing is known to a part of it."
+        have = "are 0 in the set of values and have" if len(zero) > 1 else "is 0 in the set of values and has"
+        yield f"{listed(zero)} {have} no relative standard deviation."
     if solution.hidden:
         yield f"This motion does not show {listed(solution.hidden)}."
