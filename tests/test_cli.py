@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import json
 import os
 import pty
 import subprocess
@@ -282,11 +283,15 @@ def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(
     folder = tmp_path / "out" / "pendulum"
     command("generate", pendulum, "--out", folder.parent, capsys=capsys)
     first = tree(folder)
+    manifest = json.loads(first["manifest.json"])
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"files": [*manifest["files"], "c/stale.c"]}))
     (folder / "c" / "stale.c").write_text("int stale;\n")
     (folder / "c" / "pendulum.h").write_text("edited\n")
-    (folder / "notes.txt").write_text("mine\n")
+    own = {"notes.txt": b"mine\n", "c/main.c": b"int main;\n"}
+    for name, content in own.items():
+        (folder / name).write_bytes(content)
     command("generate", pendulum, "--out", folder.parent, capsys=capsys)
-    assert tree(folder) == first | {"notes.txt": b"mine\n"}
+    assert tree(folder) == first | own
     assert [path.name for path in folder.parent.iterdir()] == ["pendulum"]
 
 
@@ -376,25 +381,3 @@ def test_commands_use_one_thread_unless_told_otherwise(given: dict[str, str], us
         [sys.executable, "-c", program], env={**clean, "PYTHONPATH": str(ROOT), **given}, capture_output=True, text=True
     )
     assert done.stdout.split()[-2:] == ["False", used]
-
-
-@pytest.mark.parametrize("name", ["generate", "identify", "excite", "simulate", "gains"])
-def test_an_empty_out_is_bad_input(name: str, pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It would be the folder at hand."""
-    data = ("--data", "a.csv") if name in ("identify", "gains") else ()
-    done = command(name, pendulum, *data, "--out", "", capsys=capsys)
-    assert "argument --out: it is empty; . is the folder at hand" in refused(done)
-
-
-def test_an_interruption_while_python_reads_the_program_is_no_defect() -> None:
-    code = (
-        "import runpy, sys\n"
-        "class Interrupted:\n"
-        "    def find_spec(self, name, *more):\n"
-        "        if name == 'argparse': raise KeyboardInterrupt\n"
-        "sys.modules.pop('argparse', None)\n"
-        "sys.meta_path.insert(0, Interrupted())\n"
-        "runpy.run_module('generator', run_name='__main__')\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (130, "")
