@@ -11,8 +11,8 @@ import numpy as np
 
 from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
+from generator.symbolic.pseudo_inertia import Matrix
 from identification.consistency import divergence, grouped, possible, relative_to
-from identification.pseudo_inertia import Matrix
 
 #: The package's own types leave out most of its functions.
 cp: Any = cvxpy

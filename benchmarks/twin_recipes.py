@@ -19,8 +19,8 @@ from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
+from generator.symbolic.pseudo_inertia import Matrix, of_body, uniform_bar
 from identification.consistency import grouped
-from identification.pseudo_inertia import Matrix, of_body, uniform_bar
 from identification.robot_file import rounded
 
 #: What a unit of divergence from the assumed bodies costs, in squared standard deviations: the smallest, to one digit,

@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks.twin_recipes import RECIPES, WEIGHT, Twin, twin_of
 from generator.resources import find_robot
-from identification.pseudo_inertia import of_body, radii_of_gyration
+from generator.symbolic.pseudo_inertia import of_body, radii_of_gyration
 from identification.robot_file import with_parameter_set
 
 DOCUMENT = Path(__file__).parents[1] / "docs" / "parameter_sets.md"

@@ -2,7 +2,16 @@
 
 import sys
 
-from generator.cli.main import main
+
+def main() -> int:
+    """Runs the command line; being interrupted is no defect, also while Python reads the program."""
+    try:
+        from generator.cli.main import main as command
+
+        return command()
+    except KeyboardInterrupt:
+        return 130
+
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -27,7 +27,10 @@ _TOKEN = re.compile(
     re.ASCII,
 )
 _NOT_FINITE = re.compile(r"\.?(?:inf|infinity|nan)\Z", re.IGNORECASE)
+#: The unit of a pure number, written behind it.
+_ONE = re.compile(r"(?<=[\d.)])\s+1\s*\Z")
 _GRAMMAR = "numbers, pi, names and + - * / ^ ( )"
+_POINT = f"{_GRAMMAR}; decimals stand after a point"
 _END = "an operator or the end"
 _NO_UNIT = f"{_END}; a unit stands behind a number alone: write pi/2, or give it a name in geometry"
 _OPERAND = "a number, pi, a name or ("
@@ -69,6 +72,8 @@ def parse_quantity(text: str, unit: str | None, place: Place) -> Quantity:
     if not number.strip():
         what = f"no number before {unit_text!r}" if unit_text else "the value is empty"
         raise InputError(place, what, f"a number in {example}" if unit else example)
+    if not unit_text and unit in (None, "1"):
+        number = _ONE.sub("", number)
     value = parse_number(number, place)
     if not unit_text:
         if unit is None:
@@ -118,7 +123,7 @@ def _tokens(text: str, place: Place) -> list[_Token]:
     if word := re.match(r"\.?\w+", rest):
         _check_name(text, start, word[0], place)
     if rest:
-        raise InputError(_at(place, start), f"unexpected {rest[0]!r}", _GRAMMAR)
+        raise InputError(_at(place, start), f"unexpected {rest[0]!r}", _POINT if rest[0] == "," else _GRAMMAR)
     return [*tokens, _Token("end", "", _at(place, len(text.rstrip())))]
 
 

@@ -12,15 +12,14 @@ from typing import Any
 import generator.backends
 from generator.derivation import derive
 from generator.discovery import modules
+from generator.earlier import MANIFEST
 from generator.manifest import manifest
 from generator.robot.readers import read
 from generator.symbolic.model import Model
-from generator.writing import replace
+from generator.writing import replace, writable
 
 #: A context that announces a stage of the work while it lasts.
 Stage = Callable[[str], AbstractContextManager[None]]
-
-MANIFEST = "manifest.json"
 
 
 def silent(text: str) -> AbstractContextManager[None]:
@@ -40,6 +39,7 @@ def generate(
     with uncollected():
         with stage(f"reading {robot_file.name}"):
             robot = read(robot_file)
+            writable(out if parameter_set else out / robot.name)
         with stage(f"deriving the model of {robot.name}"):
             model = derive(robot, plain=plain, parameter_set=parameter_set)
         with stage("emitting the files"):
@@ -47,8 +47,7 @@ def generate(
     contents = manifest(model, sorted(files))
     files[MANIFEST] = (json.dumps(contents, indent=1, ensure_ascii=False) + "\n").encode()
     folder = out / model.robot.name
-    backends = {backend.NAME for backend in modules(generator.backends)}
-    replace(folder, files, gone=backends - {name.partition("/")[0] for name in files})
+    replace(folder, files)
     return folder, contents
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from generator.compiler import Done, compiler, run
+from generator.earlier import library_of
 from generator.errors import InputError, Place
 
 _FLAGS = ("-std=c99", "-O2", "-ffp-contract=fast", "-fno-math-errno", "-shared", "-fPIC")
@@ -21,7 +22,7 @@ def build_library(folder: Path, name: str) -> Path:
     With OpenMP and for the processor of this machine where the compiler can. Raises InputError where there is no
     compiler or where it compiles nothing.
     """
-    library = folder / "python" / f"lib{name}.so"
+    library = folder / library_of(name)
     sources = [folder / "c" / f"{name}.c", *sorted((folder / "batch").glob("*.c"))]
     sources += sorted((folder / "simulation").glob("*.c"))
     words = [*_FLAGS, f"-I{folder / 'c'}", *map(str, sources), "-o", str(library), "-lm"]

@@ -22,6 +22,8 @@ _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
 _HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
 _ABRUPT = 2.5
+#: Values next to an extreme that tell a step there, and the part of it within which they are whole steps apart.
+_NEXT, _WHOLE = 4, 0.02
 #: Time [s] over which a speed is looked at.
 _WINDOW = 0.05
 #: Rows on each side of a jump, and by how much more than they a position moves in it, and than it usually does.
@@ -115,15 +117,33 @@ def _held(x: Array, steps: Array, name: str, where: Where) -> None:
     single step is not abrupt.
     """
     moving = np.quantile(steps, 0.9)
-    resolution = np.min(steps, where=steps > 1e-3 * moving, initial=np.inf)
+    finest = np.min(steps, where=steps > 1e-3 * moving, initial=np.inf)
     for one in at_extremes(x):
         if one.start == 0 or one.stop == len(x):
             continue
         before, after = steps[one.start - 1], steps[one.stop - 1]
         inner = steps[one.start - 2] if one.start > 1 else 0.0
+        resolution = max(finest, _step_at(x, one, moving))
         if min(before + inner, after) > max(0.3 * moving, _ABRUPT * resolution) > 0:
             problem = f"{name} stays at {x[one.start]:.6g} from here for {one.stop - one.start} rows"
             raise InputError(where(one.start, name), problem, "a position that is not cut off")
+
+
+def _step_at(x: Array, one: slice, moving: float) -> float:
+    """The step in which a signal that turns at an extreme is told there, zero where it is not seen: of numbers with few
+    digits it is larger at large values.
+
+    Where a smooth signal stays ten rows at its last step, it stays two at least at the one before and the one after.
+    """
+    beside = x[max(one.start - 2, 0) : one.start], x[one.stop : one.stop + 2]
+    if any(len(rows) < 2 or rows[0] != rows[1] for rows in beside):
+        return 0.0
+    values = np.unique(x)
+    distances = np.sort(np.abs(values - x[one.start]))[: _NEXT + 1]
+    gaps = np.diff(distances)
+    seen = gaps[gaps > 1e-3 * moving]
+    step = float(seen.min(initial=np.inf))
+    return step if seen.size and np.all(np.abs(gaps / step - np.round(gaps / step)) < _WHOLE) else 0.0
 
 
 def order(q: Array, found: Measured, other: Measured, where: Where) -> None:

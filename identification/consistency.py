@@ -16,7 +16,7 @@ import cvxpy
 import numpy as np
 
 from generator.symbolic.model import Model
-from identification.pseudo_inertia import Matrix, basis
+from generator.symbolic.pseudo_inertia import Matrix, basis
 
 #: The package's own types leave out most of its functions.
 cp: Any = cvxpy

@@ -16,10 +16,10 @@ import numpy as np
 
 from generator.errors import InputError
 from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.arrays import Array
 from identification.factors import triangular
 from identification.inverse_model import Identification
-from identification.pseudo_inertia import of_body, uniform_bar
 from identification.residuals import Residuals, residuals
 from identification.sidecar import Payload
 

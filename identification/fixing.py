@@ -9,6 +9,7 @@ from generator import expressions
 from generator.effects.library import names_of_effects
 from generator.errors import InputError, Place
 from generator.given_once import given_once
+from generator.review.words import listed
 from generator.robot.description import ParameterSet
 from generator.robot.fields import nearest
 from generator.symbolic.bodies import INERTIAL
@@ -35,7 +36,7 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
         wanted, equals, value = request.partition("=")
         chosen = _chosen(wanted, names, model)
         if not chosen:
-            raise InputError(place, f"the robot has no base parameter {wanted!r}", nearest(wanted, names))
+            raise _unknown(wanted, names, model, place)
         for name in chosen:
             if name in result:
                 raise InputError(place, f"{name} is given twice", "it once")
@@ -49,6 +50,16 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
             else:
                 result[name] = values[name]
     return result
+
+
+def _unknown(wanted: str, names: Sequence[str], model: Model, place: Place) -> InputError:
+    """The error of a name that no base parameter has; a standard one may be a part of others."""
+    holders = [base.name for base in model.grouping.base if any(name == wanted for _, name in base.terms)]
+    if holders:
+        return InputError(place, f"{wanted} is grouped: the runs show it only in {listed(holders)}", listed(holders))
+    if any(gone.name == wanted for gone in model.grouping.eliminated):
+        return InputError(place, f"{wanted} acts in no torque", "a base parameter")
+    return InputError(place, f"the robot has no base parameter {wanted!r}", nearest(wanted, names))
 
 
 def _known(model: Model, prior: ParameterSet) -> set[str]:

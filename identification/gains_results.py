@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from generator.robot.description import PRISMATIC, ParameterSet
+from generator.robot.description import ParameterSet
 from generator.version import VERSION
 from generator.writing import replace
 from identification import outcome
@@ -26,7 +26,7 @@ def gains(found: DriveGains) -> dict[str, Value]:
     result: dict[str, Value] = {}
     joints = list(enumerate(found.robot.moving))
     for m, joint in joints:
-        unit = "N/A" if joint.sigma == PRISMATIC else "N m/A"
+        unit = joint.gain_unit
         reason = found.refused.get(m, "")
         result[f"g_tau{joint.number}"] = (
             Value(None, math.inf, unit, refused=reason) if reason else _gain(found, m, unit)

@@ -28,7 +28,7 @@ from identification.sampling import SPOILED, Rows, Sampled, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload, check_carried
-from identification.suspicion import beyond, directed, opposed, ordered, suspect
+from identification.suspicion import beyond, directed, of_one_sense, opposed, ordered, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0
@@ -136,6 +136,7 @@ def identify(
     notes += suspect(sampled_runs, regressors, full.train)
     std = {name: solution.std(name) for name in full.sought if name not in solution.hidden}
     directed(place, regressors.model, solution.values, std)
+    of_one_sense(sampled_runs, regressors, full.train)
     if full.test is not None:
         ordered([one.sampled for one in tried], regressors, full.test)
     for one in tried:

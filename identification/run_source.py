@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,10 @@ from identification.recording import Recording
 
 #: Time [s] to which parts of runs are told.
 _CLOSE = 1e-6
-_PART = re.compile(r"(?P<path>.+)@(?P<start>[-+.\deE]*):(?P<end>[-+.\deE]*)\Z")
+_PART = re.compile(r"(?P<path>.+)@(?P<start>[^@:/]*):(?P<end>[^@:/]*)\Z")
+_NUMBER = re.compile(r"[-+.\deE]*")
+#: Part of a file's time by which a part of it may be asked for beyond its ends.
+_BEYOND = 0.01
 
 
 @dataclass(frozen=True)
@@ -30,15 +33,21 @@ class RunSource:
     def of(cls, name: str) -> RunSource:
         """A path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
 
-        Raises InputError where one of the times is no number.
+        Raises InputError where one of the times of a file that is there is no number.
         """
         match = None if os.path.exists(name) else _PART.match(name)
         if match is None:
             return cls(name, Path(name))
+        times = match["start"], match["end"]
+        if not all(map(_NUMBER.fullmatch, times)) and not os.path.exists(match["path"]):
+            return cls(name, Path(name))
         try:
-            start, end = float(match["start"] or "-inf"), float(match["end"] or "inf")
+            start, end = (float(text or whole) for text, whole in zip(times, ("-inf", "inf"), strict=True))
         except ValueError:
-            raise InputError(Place(name), "this is no part of a run", "FILE@FROM:TO with times in s") from None
+            start = end = np.nan
+        if np.isnan(start) or np.isnan(end):
+            expected = "FILE@FROM:TO with times in s, decimals after a point"
+            raise InputError(Place(name), "this is no part of a run", expected)
         return cls(name, Path(match["path"]), start, end)
 
     @property
@@ -56,7 +65,12 @@ class RunSource:
         if not inside.size:
             problem = f"no sample from {start:g} s to {end:g} s"
             raise InputError(Place(self.name), problem, f"times from {t[0]:g} to {t[-1]:g}")
-        return recording.part(int(inside[0]), int(inside[-1]) + 1)
+        part = recording.part(int(inside[0]), int(inside[-1]) + 1)
+        allowed = _BEYOND * (t[-1] - t[0])
+        if (np.isfinite(start) and start < t[0] - allowed) or (np.isfinite(end) and end > t[-1] + allowed):
+            told = f"{self.name}: the file's times go from {t[0]:g} s to {t[-1]:g} s, what is asked for goes beyond"
+            part = replace(part, notes=(*part.notes, told))
+        return part
 
 
 def part_of(name: str, start: float, end: float) -> str:

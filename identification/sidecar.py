@@ -65,19 +65,31 @@ class Sidecar:
     columns: Mapping[str, Formula] = field(default_factory=dict)
 
 
+#: How a sidecar's name may end; it is made with the first.
+_SUFFIXES = (".yaml", ".yml", ".YAML", ".YML")
+
+
 def path_of(run: Path) -> Path:
-    """Where the sidecar of a run file is, if there is one."""
-    return run.with_suffix(".yaml") if run.name else run / ".yaml"
+    """Where the sidecar of a run file is, or would be if there were one."""
+    if not run.name:
+        return run / ".yaml"
+    named = [run.with_suffix(suffix) for suffix in _SUFFIXES]
+    return next(filter(os.path.lexists, named), named[0])
 
 
 def read(run: Path) -> Sidecar:
     """The sidecar of a run file, an empty one where there is none.
 
-    Raises InputError, with line and column, for an unknown key and a value with a wrong unit.
+    Raises InputError, with line and column, for an unknown key and a value with a wrong unit, for what is no file, and
+    for two sidecars.
     """
     path = path_of(run)
-    if not os.path.isfile(path):
+    if not os.path.lexists(path):
         return Sidecar()
+    for suffix in _SUFFIXES:
+        other = run.with_suffix(suffix)
+        if os.path.exists(other) and not os.path.samefile(path, other):
+            raise InputError(Place(str(other)), f"{path.name} is a sidecar of {run.name} too", "one of them")
     root = document(path, "the sidecar of a run")
     if isinstance(root, Table) and "joints" in root.entries:
         problem = f"the robot file of this name would be the sidecar of {run.name}"

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from generator.errors import InputError
+from generator.review.words import plural
 from generator.robot.description import Robot
 from identification.arrays import Array
 from identification.drive_train import constants, coupling
@@ -93,7 +94,7 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
         for number in sorted(present):
             if number not in numbers:
                 name = f"{stem}{number}"
-                problem = f"column {name}, but {robot.name} has {len(numbers)} moving joints"
+                problem = f"column {name}, but {robot.name} has {plural(len(numbers), 'moving joint')}"
                 raise InputError(recording.where(None, name), problem, f"{what} of this robot alone")
         return Measured(stem, tuple(wanted), np.stack([recording.columns[name] for name in wanted]))
     choices = " or ".join(_from_to([f"{stem}{number}" for number in numbers]) for stem in stems)

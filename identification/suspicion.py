@@ -1,7 +1,8 @@
-"""Fits that are too bad to be believed: is it another robot's run, or are columns swapped?
+"""Fits that are too bad to be believed: is it another robot's run, are columns swapped, or of the wrong sign?
 
 Where a joint's residual is large, the fit is repeated on a thinned run with each two joints' columns exchanged, or two
-motors'. If that explains the torques far better, the columns are refused and named.
+motors', and with the sign of each one's torques or positions changed. If that explains the torques far better, the
+columns are refused and named.
 """
 
 from __future__ import annotations
@@ -41,10 +42,13 @@ _BETTER = 20.0
 #: The same where much stays unexplained, for a joint that is read wrong; the logarithm by which two may differ that do
 #: as well; and angles [deg] by which a zero is another one.
 _BETTER_MISREAD, _ALIKE, _ZEROS = 2.0, 0.2, (-90, 90, 180)
+#: What is asked of columns whose sign is wrong.
+_SENSE = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
 #: Samples that the fits are repeated on.
 _THINNED = 1500
-#: Rows for each parameter that a joint must have for that, those alone counted that the filter leaves independent.
-_FEWEST = 5
+#: Rows for each parameter that a joint must have for that, those alone counted that the filter leaves independent; and
+#: where signs alone are asked, which are far fewer ways to explain a run than pairs.
+_FEWEST, _FEWEST_TURNED = 5, 3
 
 
 def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> list[str]:
@@ -122,8 +126,16 @@ def directed(
         if len(likely) >= _SEVERAL and max(likely) < 0 and sure:
             whose = "" if joints == moving else f" of joint {min(joints)}"
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
-            expected = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
-            raise InputError(place, problem, expected)
+            raise InputError(place, problem, _SENSE)
+
+
+def of_one_sense(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
+    """Raises InputError where ``residuals`` are large and one of the runs is explained far better with another sign of
+    one column.
+    """
+    if _doubtful(residuals):
+        for one in runs:
+            _of_one_sense(one, regressors)
 
 
 def opposed(place: Place, run: Sequence[Factor], values: Mapping[str, float]) -> None:
@@ -219,7 +231,9 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) 
     for i, k in combinations(range(len(tau)), 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue
-        for whose, A, B in _exchanges(robot, i, k, one.run.by_motors):
+        P = np.eye(len(tau))
+        P[[i, k]] = P[[k, i]]
+        for whose, A, B in _mixed(robot, P, one.run.by_motors):
             rows = np.all(used | (A == 0)[:, :, None], axis=1)
             other = _Thinned(regressors, motion.mixed(A), tau, rows, independent)
             tried = {"torques": given.misfit(B), "positions": other.misfit(same), "columns": other.misfit(B)}
@@ -231,12 +245,34 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) 
         raise InputError(one.run.place, what, f"columns in the {of}' order")
 
 
-def _exchanges(robot: Robot, i: int, k: int, by_motors: bool) -> Iterator[tuple[str, Array, Array]]:
-    """Whose columns i and k may be exchanged, and by which matrices (n x n each) that mixes the joints' motion and
+def _of_one_sense(one: Sampled, regressors: Regressors) -> None:
+    """Raises InputError where a run is explained far better with another sign of one column; where two of them do as
+    well, it is told of both.
+    """
+    motion, tau, used, independent = _thinned(one)
+    same = np.eye(len(tau))
+    given = _Thinned(regressors, motion, tau, used, independent)
+    robot = regressors.model.robot
+    misfits: dict[str, float] = {}
+    for k in (k for k in range(len(tau)) if given.shows(k, _FEWEST_TURNED)):
+        turn = np.diag(np.where(np.arange(len(tau)) == k, -1.0, 1.0))
+        for whose, A, B in _mixed(robot, turn, one.run.by_motors):
+            if whose == "motors" and np.allclose(A, turn) and np.allclose(B, turn):
+                continue
+            of = f"of {whose.removesuffix('s')} {robot.numbers[k]}"
+            turned = _Thinned(regressors, motion.mixed(A), tau, used, independent)
+            for what, misfit in (("torques", given.misfit(B)), ("positions", turned.misfit(same))):
+                misfits[f"the {what} {of}"] = min(misfit, misfits.get(f"the {what} {of}", np.inf))
+    best = min(misfits.values(), default=np.inf)
+    if best < given.misfit(same) - np.log(_BETTER):
+        alike = [what for what, x in misfits.items() if x < best + _ALIKE]
+        raise InputError(one.run.place, f"{' or '.join(alike)} look of the wrong sign", _SENSE)
+
+
+def _mixed(robot: Robot, P: Array, by_motors: bool) -> Iterator[tuple[str, Array, Array]]:
+    """Whose columns may be mixed by ``P`` (n x n), and by which matrices (n x n each) that mixes the joints' motion and
     torques: of joints, and of motors where the run is ``by_motors``, whose efforts are torques or currents.
     """
-    P = np.eye(len(robot.moving))
-    P[[i, k]] = P[[k, i]]
     yield "joints", P, P
     if by_motors:
         N, kt = coupling(robot), constants(robot)
@@ -264,9 +300,9 @@ class _Thinned:
             for W, rows in zip(regressors.base(motion), used, strict=True)
         ]
 
-    def shows(self, k: int) -> bool:
+    def shows(self, k: int, fewest: int = _FEWEST) -> bool:
         """Whether joint k has rows enough to doubt its columns."""
-        return bool(self._rows[k] > _FEWEST * len(self._structure[k]))
+        return bool(self._rows[k] > fewest * len(self._structure[k]))
 
     def misfit(self, mix: Array) -> float:
         """The ``_size`` of what is left with torques that are ``mix`` (n x n) times the given ones."""

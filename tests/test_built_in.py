@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from generator.backends import c
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.robot.content import robot_from
@@ -129,3 +130,16 @@ parameters:
   one: {values: {k1: 1e4 N m/rad, Iam1: 1 kg m2, Iam2: 1 kg m2, ZZ2: 1 kg m2}}
   none: {values: {ZZ2: 1 kg m2}}
 """
+
+
+def test_a_header_without_parameters_asks_for_none(tmp_path: Path) -> None:
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    described = read(tmp_path / "pendulum.yaml")
+    name = next(iter(described.parameter_sets))
+    told = "all parameters are numbers in the code", "Number of base parameters; all of them are numbers in the code."
+    asked = "Use: fill in", "the first of the parameters"
+    for parameter_set, there, absent in ((name, told, asked), (None, asked, told)):
+        model = derive(described, ["gravity"], check=False, parameter_set=parameter_set)
+        header = next(str(text) for path, text in c.library(model, ()).items() if path.endswith(".h"))
+        assert all(words in header for words in there)
+        assert not any(words in header for words in absent)

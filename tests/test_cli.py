@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import json
 import os
 import pty
 import subprocess
@@ -282,11 +283,15 @@ def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(
     folder = tmp_path / "out" / "pendulum"
     command("generate", pendulum, "--out", folder.parent, capsys=capsys)
     first = tree(folder)
+    manifest = json.loads(first["manifest.json"])
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"files": [*manifest["files"], "c/stale.c"]}))
     (folder / "c" / "stale.c").write_text("int stale;\n")
     (folder / "c" / "pendulum.h").write_text("edited\n")
-    (folder / "notes.txt").write_text("mine\n")
+    own = {"notes.txt": b"mine\n", "c/main.c": b"int main;\n"}
+    for name, content in own.items():
+        (folder / name).write_bytes(content)
     command("generate", pendulum, "--out", folder.parent, capsys=capsys)
-    assert tree(folder) == first | {"notes.txt": b"mine\n"}
+    assert tree(folder) == first | own
     assert [path.name for path in folder.parent.iterdir()] == ["pendulum"]
 
 
@@ -333,8 +338,10 @@ def test_bad_input_leaves_an_older_generation_as_it_was(
 
 def test_a_folder_that_cannot_be_made_is_bad_input(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
     done = command("generate", pendulum, "--out", pendulum, capsys=capsys)
-    place, expected = f"error: {pendulum}/pendulum:1:1", "a folder that can be made and written"
+    place = f"error: {pendulum}/pendulum:1:1"
+    expected = f"a folder that can be made and written; {pendulum.name} is a file"
     assert refused(done) == f"{place}: it cannot be written (File exists), expected {expected}"
+    assert "deriving" not in done.err
 
 
 def test_a_missing_compiler_is_named(

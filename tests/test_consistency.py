@@ -18,8 +18,8 @@ from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.parameters import INERTIAL
 from generator.robot.readers import read
 from generator.symbolic.model import Model
+from generator.symbolic.pseudo_inertia import basis, of_body, pseudo_inertia, radii_of_gyration, uniform_bar
 from identification.consistency import grouped
-from identification.pseudo_inertia import basis, of_body, pseudo_inertia, radii_of_gyration, uniform_bar
 from identification.robot_file import rounded, with_parameter_set
 from tests.chains import random_robot
 

@@ -9,11 +9,11 @@ import pytest
 
 from generator.errors import InputError
 from generator.robot.readers import read
+from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.consistency import grouped
 from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
 from identification.observation import Regressors
-from identification.pseudo_inertia import of_body, uniform_bar
 from identification.recipe import Recipe
 from tests.recorded import Recorded, recorded, two_links
 

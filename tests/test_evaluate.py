@@ -190,9 +190,9 @@ def test_evaluating_does_not_import_casadi() -> None:
     [
         (["gravty", "--q", "0"], ":1:1: pendulum has no quantity 'gravty', expected perhaps 'gravity'"),
         (["balancer", "--q", "0"], ":1:1: pendulum has no quantity 'balancer', expected "),
-        (["gravity", "--parameters", "light"], ":1:1: --q is missing, expected 1 numbers in rad (joint positions)"),
-        (["gravity", "--q", "0", "1"], " --q:1:1: 2 numbers, expected 1 numbers in rad (joint positions)"),
-        (["gravity", "--q"], " --q:1:1: 0 numbers, expected 1 numbers in rad (joint positions)"),
+        (["gravity", "--parameters", "light"], ":1:1: --q is missing, expected 1 number in rad (joint positions)"),
+        (["gravity", "--q", "0", "1"], " --q:1:1: 2 numbers, expected 1 number in rad (joint positions)"),
+        (["gravity", "--q"], " --q:1:1: 0 numbers, expected 1 number in rad (joint positions)"),
         (["gravity", "--q", "0", "x"], " --q:1:3: 'x' is not a number, expected "),
         (["gravity", "--q", "inf"], " --q:1:1: 'inf' is not a finite number, expected a finite number"),
         (["gravity", "--q", "__import__('os')"], " --q:1:1: a call of '__import__', expected "),

@@ -251,3 +251,18 @@ def test_arithmetic_is_that_of_fractions(text: str) -> None:
         return
     value = parse(text, HERE)
     assert Fraction(int(value.p), int(value.q)) == expected
+
+
+@pytest.mark.parametrize("text", ["0.05 1", "1/20 1", "(1/20) 1", "0.05"])
+def test_a_pure_number_may_have_its_unit(text: str) -> None:
+    for unit in ("1", None):
+        quantity = parse_quantity(text, unit, HERE)
+        assert (quantity.value, quantity.unit) == (sympy.Rational(1, 20), "1")
+    with pytest.raises(InputError):
+        parse_quantity(text, "m", HERE)
+
+
+@pytest.mark.parametrize("text", ["0,375", "0,375 m", "1,5"])
+def test_a_decimal_comma_is_told(text: str) -> None:
+    with pytest.raises(InputError, match=r"unexpected ',', expected numbers, .*; decimals stand after a point"):
+        parse_quantity(text, "m", HERE)

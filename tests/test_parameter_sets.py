@@ -21,8 +21,8 @@ from generator.robot.parameters import INERTIAL
 from generator.robot.readers import read
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.parameter_sets import parameter_vector, standard_vector
+from generator.symbolic.pseudo_inertia import of_body, pseudo_inertia
 from identification.consistency import grouped
-from identification.pseudo_inertia import of_body, pseudo_inertia
 
 REFERENCE = Path(__file__).parent / "reference" / "report_tables.csv"
 PRINTED_ELSEWHERE = Path(__file__).parents[2] / "shared" / "report" / "tables"

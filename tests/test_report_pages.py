@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -17,8 +19,9 @@ import identification.report.identify.sections
 from generator.review.page import sections
 from identification.observation import Motion
 from identification.report import series
+from identification.report.excite.sections import summary as designed
 from identification.report.identify.report import report
-from identification.report.identify.sections import condition, runs, summary
+from identification.report.identify.sections import condition, parameters, runs, summary
 from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, Subject
 from identification.report.numbers import plain
 from identification.report.welch import spectrum
@@ -262,3 +265,22 @@ def test_means_of_classes_are_within_their_band() -> None:
     assert len(means.x) == 24
     assert np.mean(np.abs(means.mean - 2 * means.x) < 2 * means.std) > 0.8
     assert len(series.binned(x[:5], x[:5]).x) == 0
+
+
+def test_a_page_without_a_consistent_model_does_not_explain_one(subject: Subject) -> None:
+    """That column is not there either."""
+    assert "consistent value is" in str(parameters.render(subject))
+    assert "onsistent value" not in str(parameters.render(replace(subject, consistent=None)))
+
+
+def test_a_designed_motion_is_summed_up_with_the_parameters_that_are_zero() -> None:
+    values = {"ZZ1": 2.0, "Fv1": 4.0, "Off1": 0.0, "Fc1": 0.0}
+    expected = SimpleNamespace(
+        scaled_condition=3.0, values=values, hidden=(), relative_std=lambda name: 2.0 if values[name] else math.inf
+    )
+    found = SimpleNamespace(
+        expected=expected, duration=10.0, periods=1, rate=200.0, limits=SimpleNamespace(loads=np.zeros(0)), units=values
+    )
+    text = str(designed.render(cast(Any, found)))
+    assert "Of 4 base parameters 2 will be known to 10\u202f% or better." in text
+    assert "Off1 and Fc1 are 0 in the set of values and have no relative standard deviation." in text

@@ -8,6 +8,7 @@ import pytest
 
 from generator.derivation import derive
 from generator.review.stated import drives, effects
+from generator.robot.description import PRISMATIC
 from generator.robot.readers import read
 from tests.commands import PENDULUM
 from tests.reviewed import files, model
@@ -84,6 +85,7 @@ def test_every_effect_and_drive_of_any_robot_has_its_row(arm: Subject) -> None:
         assert len(table(text, "Effects")) == len(effects(arm.model)) - 1
     if arm.robot.drives:
         ratios = [row[1] for row in table(text, "Drives")]
-        assert ratios == [str(ratio) for ratio in arm.robot.drives.ratios]
+        units = [" rad/m" if joint.sigma == PRISMATIC else "" for joint in arm.robot.moving]
+        assert ratios == [f"{ratio}{unit}" for ratio, unit in zip(arm.robot.drives.ratios, units, strict=True)]
     else:
         assert drives(arm.robot) == ()

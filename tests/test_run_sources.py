@@ -26,8 +26,19 @@ def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     assert load(f"{path}@:5", robot).samples == 1001
     with pytest.raises(InputError, match=r"no sample from 20 s to inf s, expected times from 0 to 7.995"):
         load(f"{path}@20:", robot)
-    with pytest.raises(InputError, match=r"a.csv@2:x:1:1: there is no such file|a run file ending in"):
-        load(f"{path}@2:x", robot)
+    for part in ("@2:x", "@a:b", "@nan:6", "@1,5:6", "@1e:6"):
+        told = "this is no part of a run, expected FILE@FROM:TO with times in s, decimals after a point"
+        with pytest.raises(InputError, match=f"a.csv{part}:1:1: {told}"):
+            load(f"{path}{part}", robot)
+    with pytest.raises(InputError, match=r"a run file ending in"):
+        load(f"{tmp_path / 'none.csv'}@a:b", robot)
+
+
+@pytest.mark.parametrize(("part", "told"), [("@1:900", True), ("@-1:6", True), ("@0:8", False), ("@7:", False)])
+def test_a_part_beyond_the_file_is_told(part: str, told: bool, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = good.save(tmp_path / "a.csv")
+    beyond = f"{path}{part}: the file's times go from 0 s to 7.995 s, what is asked for goes beyond"
+    assert load(f"{path}{part}", robot).notes == ((beyond,) if told else ())
 
 
 def test_each_formula_of_a_recipe_is_used_where_it_can_be(good: Recorded, robot: Robot, tmp_path: Path) -> None:
@@ -104,3 +115,21 @@ def test_a_name_that_is_too_long_is_one_line(words: str, tmp_path: Path, capsys:
     done = command(*told, capsys=capsys)
     assert done.status == 2
     assert done.err.splitlines()[-1].startswith("error: ")
+
+
+@pytest.mark.parametrize("ending", ["yaml", "yml", "YAML", "YML"])
+def test_a_sidecar_is_read_whatever_its_ending(ending: str, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = good.save(tmp_path / "a.csv")
+    (tmp_path / f"a.{ending}").write_text("robot: another\n")
+    with pytest.raises(InputError, match=rf"a.{ending}:1:1: this is a run of another, expected one of two_links"):
+        load(str(path), robot)
+
+
+def test_a_folder_is_no_sidecar_and_two_are_one_too_many(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = good.save(tmp_path / "a.csv")
+    (tmp_path / "a.yml").mkdir()
+    with pytest.raises(InputError, match=r"a.yml:1:1: "):
+        load(str(path), robot)
+    (tmp_path / "a.yaml").write_text("notes: here\n")
+    with pytest.raises(InputError, match=r"a.yml:1:1: a.yaml is a sidecar of a.csv too, expected one of them"):
+        load(str(path), robot)

@@ -12,6 +12,7 @@ import scipy.io
 from pyarrow import parquet
 
 from generator.errors import InputError
+from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.dataset import load
 from tests.commands import PENDULUM
@@ -94,3 +95,22 @@ def test_vectors_of_a_mat_file_are_those_of_the_only_joint(tmp_path: Path) -> No
     run = load(str(tmp_path / "a.mat"), read(tmp_path / "pendulum.yaml"))
     np.testing.assert_array_equal(run.q[0], q)
     np.testing.assert_array_equal(run.tau[0], tau)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "t q1 tau1\n0 1 2\n",
+            "a.csv:1:1: column name 't q1 tau1', expected names with commas, semicolons or tabs between",
+        ),
+        (
+            "# t,q1,tau1\n0,1,2\n",
+            "a.csv:2:1: column name '0', expected a header row with the columns' names; a line that",
+        ),
+    ],
+)
+def test_a_header_in_another_form_is_told(text: str, told: str, robot: Robot, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(InputError, match=told):
+        load(str(tmp_path / "a.csv"), robot)

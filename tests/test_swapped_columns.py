@@ -1,4 +1,4 @@
-"""Columns that are swapped, of joints or of motors: refused and named, where a run is long enough to tell."""
+"""Columns that are swapped or of the wrong sign, of joints or of motors: refused and named, where a run can tell."""
 
 from __future__ import annotations
 
@@ -89,3 +89,23 @@ def test_columns_of_a_short_run_are_not_doubted(links: Regressors, tmp_path: Pat
     identify(links.model.robot, [short], regressors=links)
     with pytest.raises(InputError, match="look swapped"):
         identify(links.model.robot, [long], regressors=links)
+
+
+#: Two joints' torques tell which of two signs differ, their friction which is wrong.
+FRICTION = "all friction and inertia that the torques of joint {} show alone is negative"
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("tau1", FRICTION.format(1)),
+        ("tau2", FRICTION.format(2)),
+        ("q1", FRICTION.format(1)),
+        ("q2", "the positions of joint 2 look of the wrong sign"),
+    ],
+)
+def test_a_column_of_the_wrong_sign_is_found_out(name: str, told: str, links: Regressors, tmp_path: Path) -> None:
+    run = recorded(links, TRUTH, seed=7, noise=0.03)
+    path = run.with_columns(**{name: -run.columns[name]}).save(tmp_path / "turned.csv")
+    with pytest.raises(InputError, match=f"turned.csv:1:1: {told}, expected torques of the drives, and pos"):
+        identify(links.model.robot, [path], regressors=links)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Iterator
@@ -13,8 +14,16 @@ from generator.errors import InputError
 from generator.writing import replace, replacing
 from tests.commands import tree
 
-OLD = {"c/robot.c": b"old", "c/stale.c": b"stale", "manifest.json": b"old"}
-NEW = {"c/robot.c": b"new", "review/page.html": b"new", "manifest.json": b"new"}
+
+def generation(**files: bytes) -> dict[str, bytes]:
+    """Files, ``__`` for a slash and ``_`` for a dot, with their manifest."""
+    named = {name.replace("__", "/").replace("_", "."): content for name, content in files.items()}
+    manifest = {"generator": "counterpoise", "files": sorted(named)}
+    return named | {"manifest.json": json.dumps(manifest).encode()}
+
+
+OLD = generation(c__robot_c=b"old", c__stale_c=b"stale")
+NEW = generation(c__robot_c=b"new", review__page_html=b"new")
 
 #: In memory on many machines, and so on another file system than other folders.
 MEMORY = Path("/dev/shm")
@@ -42,10 +51,46 @@ def test_stale_files_go_and_foreign_ones_stay(tmp_path: Path) -> None:
     assert tree(tmp_path / "robot") == NEW | {"notes/mine.txt": b"mine"}
 
 
-def test_what_is_gone_goes_with_the_others(tmp_path: Path) -> None:
-    replace(tmp_path / "robot", OLD | {"batch/old.c": b"old"})
-    replace(tmp_path / "robot", NEW, gone=("batch", "simulation"))
-    assert tree(tmp_path / "robot") == NEW
+def test_somebodys_own_files_stay_beside_the_generated_ones(tmp_path: Path) -> None:
+    robot = tmp_path / "robot"
+    own = {"c/main.c": b"mine", "c/build/main.o": b"mine", "batch/notes.txt": b"mine"}
+    made = {"python/librobot.so": b"compiled", "numpy/__init__.py": b"mine"}
+    older = generation(c__robot_c=b"old", c__stale_c=b"stale", batch__robot_c=b"old", simulation__robot_c=b"old")
+    replace(robot, older)
+    for name, content in (own | made).items():
+        (robot / name).parent.mkdir(parents=True, exist_ok=True)
+        (robot / name).write_bytes(content)
+    replace(robot, NEW)
+    assert tree(robot) == NEW | own | {"numpy/__init__.py": b"mine"}
+    assert not (robot / "simulation").exists()
+    assert not (robot / "python").exists()
+
+
+@pytest.mark.parametrize("manifest", ["", "[]", '{"files": ["c/main.c"]}', '{"generator": "", "files": 3}'])
+def test_without_a_generations_manifest_all_files_are_somebodys_own(tmp_path: Path, manifest: str) -> None:
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c" / "main.c").write_bytes(b"mine")
+    (tmp_path / "manifest.json").write_text(manifest)
+    replace(tmp_path, NEW)
+    assert tree(tmp_path) == NEW | {"c/main.c": b"mine"}
+
+
+def test_a_manifest_names_nothing_outside_of_its_folder(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_bytes(b"mine")
+    (tmp_path / "robot").mkdir()
+    outside = ["../mine.txt", str(tmp_path / "mine.txt"), "", ".", 3]
+    (tmp_path / "robot" / "manifest.json").write_text(json.dumps({"generator": "counterpoise", "files": outside}))
+    replace(tmp_path / "robot", NEW)
+    assert tree(tmp_path) == {f"robot/{name}": content for name, content in NEW.items()} | {"mine.txt": b"mine"}
+
+
+def test_a_folder_in_the_place_of_a_file_is_refused(tmp_path: Path) -> None:
+    mine = tmp_path / "c" / "robot.c" / "mine.txt"
+    mine.parent.mkdir(parents=True)
+    mine.write_bytes(b"mine")
+    with pytest.raises(InputError, match=r"it cannot be written \(c/robot.c: Is a directory\)"):
+        replace(tmp_path, NEW)
+    assert tree(tmp_path) == {"c/robot.c/mine.txt": b"mine"}
 
 
 @pytest.mark.parametrize("failing", range(5))
@@ -83,12 +128,12 @@ def test_an_interruption_restores_the_old_generation(tmp_path: Path, monkeypatch
 
 
 def test_of_a_shared_entry_each_entry_is_replaced_by_itself(tmp_path: Path) -> None:
-    old = {"code/mine/stale.c": b"stale", "code/other/robot.c": b"other", "page.html": b"old"}
-    replace(tmp_path / "out", old)
+    mine, new = ({f"code/mine/{name}": content for name, content in one.items()} for one in (OLD, NEW))
+    other = {f"code/other/{name}": content for name, content in OLD.items()}
+    replace(tmp_path / "out", mine | other | {"page.html": b"old"})
     with replacing(tmp_path / "out", "code") as fresh:
-        replace(fresh, {"code/mine/robot.c": b"new", "page.html": b"new"})
-    kept = {"code/mine/robot.c": b"new", "code/other/robot.c": b"other", "page.html": b"new"}
-    assert tree(tmp_path / "out") == kept
+        replace(fresh, new | {"page.html": b"new"})
+    assert tree(tmp_path / "out") == new | other | {"page.html": b"new"}
 
 
 def test_work_that_fails_leaves_nothing(tmp_path: Path) -> None:

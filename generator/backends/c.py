@@ -78,6 +78,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "robot": model.robot,
         "version": VERSION,
         "width": len(model.base_parameters),
+        "built_in": bool(model.constants),
         "title": paragraph(headline(prefix, model.robot.description), LINE - 3),
         "constants": constants,
         "standard_constants": _constants(model.standard_parameters, f"{macro}_STD_", names),

@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.derivation import derive
     from generator.effects.library import missing_limits
     from generator.robot.readers import read
-    from generator.symbolic.parameter_sets import impossible, regrouped, resolved_sets
+    from generator.symbolic.parameter_sets import impossible, impossible_bodies, regrouped, resolved_sets
 
     path = find_robot(arguments.robot)
     with stage("reading and deriving"):
@@ -37,4 +37,6 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"note: {place}: {problem}")
     for title, one in robot.parameter_sets.items():
         for note in impossible(model, regrouped(model, one.values), f" of the set {title}"):
+            print(note)
+        for note in impossible_bodies(model, one.values, f" of the set {title}"):
             print(note)

@@ -1,6 +1,7 @@
 """Generate everything from a robot file: C, CasADi, NumPy, Python, the review pages and manifest.json.
 
-The files go to OUT/<robot's name>/. They replace an older generation all at once; on bad input nothing is written.
+The files go to OUT/<robot's name>/. They replace those of an older generation all at once, and leave all other files
+there as they are; on bad input nothing is written.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.progress import stage
 from generator.resources import find_robot
 
@@ -17,9 +18,7 @@ from generator.resources import find_robot
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, --plain, --build-in, --self-test and --library."""
     takes_robot(parser)
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path("generated"), help="where the files go (default: generated)"
-    )
+    takes_out(parser, "where the files go (default: generated)", default=Path("generated"))
     parser.add_argument(
         "--plain",
         action="store_true",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.expressions import parse_number
+from generator.review.words import plural
 from generator.symbolic.function import Signal
 
 _WORD = re.compile(r"[^\s,]+")
@@ -56,11 +57,12 @@ def value(signal: Signal, given: dict[str, str], command: str) -> NDArray[np.flo
         float(parse_number(word.group(), command_line(option, word.start() + 1))) for word in _WORD.finditer(text)
     ]
     if len(numbers) != signal.size:
-        raise InputError(command_line(option), f"{len(numbers)} numbers", describe(signal))
+        raise InputError(command_line(option), plural(len(numbers), "number"), describe(signal))
     return np.array(numbers)
 
 
 def describe(signal: Signal) -> str:
     """What a signal holds: ``6 numbers in rad (joint positions)``."""
     units = signal.units[0] if len(set(signal.units)) == 1 else ", ".join(signal.units)
-    return f"{signal.size} numbers in {units} ({signal.meaning})"
+    count = plural(signal.size, "number")
+    return f"{count} ({signal.meaning})" if units == "1" else f"{count} in {units} ({signal.meaning})"

@@ -253,7 +253,9 @@ def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str) -> sympy.Exp
             raise InputError(use.place, problem, f"{shape.meaning} [{unit}]")
         return shape.default
     if quantity.unit != unit:
-        raise InputError(quantity.place, f"{shape.name} is given in {quantity.unit or '1'}", f"a value in {unit}")
+        given = f"is given in {quantity.unit}" if quantity.unit not in ("", "1") else "has no unit"
+        expected = "a number without a unit" if unit == "1" else f"a value in {unit}"
+        raise InputError(quantity.place, f"{shape.name} {given}", expected)
     _check_bounds(quantity.place, shape, unit, quantity.value)
     return quantity.value
 

@@ -10,7 +10,7 @@ import sympy
 from generator.grouping.linear_algebra import Matrix
 from generator.grouping.observability import ROTOR_INERTIA, STEMS, Reach, base_reach, carried, invisible, moved
 from generator.grouping.rigid_motion import transport
-from generator.grouping.rules import elimination_order, rule_of
+from generator.grouping.rules import elimination_order, rule_of, told
 from generator.grouping.scalars import Numbers, Scalar
 from generator.robot.description import Robot
 
@@ -81,7 +81,8 @@ def group(robot: Robot, standard: tuple[str, ...]) -> Grouping:
         title = _title(name) if len(terms) > 1 else name
         base.append(BaseParameter(title, terms))
         values[title] = {other: float(form[other].value) for other in ordered}
-    eliminated = tuple(Eliminated(name, rules[name], _uses(name, base)) for name in standard if name in rules)
+    gone = {name: _uses(name, base) for name in standard if name in rules}
+    eliminated = tuple(Eliminated(name, told(rules[name], into), into) for name, into in gone.items())
     return Grouping(tuple(base), eliminated, values)
 
 

@@ -13,10 +13,19 @@ _REVOLUTE = ("Ia", "M", "MZ", "YY", "XX", "XY", "XZ", "YZ", "MY", "MX", "ZZ", "O
 #: The inertia tensor behind a prismatic joint.
 _PRISMATIC = ("Ia", "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MZ", "MY", "MX", "M", "Off")
 
+#: Why one leaves that no motion shows by itself: it acts in no torque, or as a part of the bodies before.
+_UNSEEN = "the joints before this one do not move the body in a way that shows it"
+_CARRIED = "this joint's motion does not show it: it acts as a part of the antecedent"
+
 
 def elimination_order(joint: Joint) -> list[int]:
     """Indices of the twelve parameters, first to be eliminated first."""
     return [STEMS.index(stem) for stem in (_PRISMATIC if joint.sigma == PRISMATIC else _REVOLUTE)]
+
+
+def told(rule: str, into: Sequence[str]) -> str:
+    """The rule of a parameter that went ``into`` base parameters, if any."""
+    return _CARRIED if rule == _UNSEEN and into else rule
 
 
 def rule_of(joint: Joint, pivot: int, vector: Sequence[Scalar]) -> str:
@@ -32,5 +41,5 @@ def rule_of(joint: Joint, pivot: int, vector: Sequence[Scalar]) -> str:
     if joint.sigma == PRISMATIC and stem in ("XX", "XY", "XZ", "YY", "YZ", "ZZ") and not partners:
         return "prismatic joint: the body does not turn, its tensor belongs to the antecedent"
     if not partners:
-        return "the joints before this one do not move the body in a way that shows it"
+        return _UNSEEN
     return f"the joints before this one show it only together with {', '.join(partners)}"

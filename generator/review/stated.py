@@ -6,7 +6,7 @@ import sympy
 
 from generator.effects.library import Instance
 from generator.review.decimals import constant, decimal, rounded
-from generator.review.words import ranges
+from generator.review.words import on_joints, ranges
 from generator.robot.description import Robot
 from generator.robot.signal_units import signal_unit
 from generator.symbolic.model import Model
@@ -38,8 +38,8 @@ def effects(model: Model) -> Table:
 
 
 def elastic(model: Model) -> str:
-    """The joints whose drive train is elastic."""
-    return ranges(model.robot.moving[k].number for k in model.elastic)
+    """The joints whose drive train is elastic; empty where none is."""
+    return on_joints(model.robot.moving[k].number for k in model.elastic) if model.elastic else ""
 
 
 def values(instance: Instance) -> str:
@@ -67,7 +67,8 @@ def drives(robot: Robot) -> Table:
     heads += ["drift at warmth 1"] if stated.torque_drift else []
     rows = []
     for k, joint in enumerate(robot.moving):
-        row = [str(joint.number), str(stated.ratios[k]), " ".join(map(str, stated.coupling[k]))]
+        ratio = _with_unit(str(stated.ratios[k]), joint.ratio_unit)
+        row = [str(joint.number), ratio, " ".join(map(str, stated.coupling[k]))]
         row += [decimal(constants[k]) for constants in stated.torque_constants.values()]
         row += [rounded(stated.torque_drift[k])] if stated.torque_drift else []
         rows.append(tuple(row))
@@ -105,7 +106,11 @@ def signals(robot: Robot) -> Table:
 
 def quantity(value: sympy.Expr, symbol: str) -> str:
     """A constant with its unit, which a pure number lacks."""
-    return number(value) if symbol == "1" else f"{number(value)} {symbol}"
+    return _with_unit(number(value), symbol)
+
+
+def _with_unit(text: str, symbol: str) -> str:
+    return text if symbol == "1" else f"{text} {symbol}"
 
 
 def number(value: sympy.Expr) -> str:

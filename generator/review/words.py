@@ -22,6 +22,19 @@ def unit(symbol: str) -> str:
     return re.sub(r"(?<=[A-Za-z])[23]\b", lambda power: "²³"[int(power.group()) - 2], symbol).replace(" ", "\u00a0")
 
 
+def bounds(lower: float | None, upper: float | None, positive: bool = False) -> str:
+    """``≥ 0, ≤ 1``; what is ``positive`` is not at its lower bound. Empty without bounds."""
+    ends = [] if lower is None else [f"{'>' if positive else '≥'}\u00a0{lower:g}"]
+    ends += [] if upper is None else [f"≤\u00a0{upper:g}"]
+    return ", ".join(ends)
+
+
+def on_joints(numbers: Iterable[int]) -> str:
+    """``joint 1``, ``joints 1 to 4, 6``."""
+    given = list(numbers)
+    return f"joint{'s' if len(given) > 1 else ''} {ranges(given)}"
+
+
 def minus(text: str) -> str:
     """Text with typographic minus signs."""
     return text.replace("-", "−")

@@ -85,6 +85,16 @@ class Joint:
         return "N" if self.sigma == PRISMATIC else "N m"
 
     @property
+    def ratio_unit(self) -> str:
+        """Of its gear ratio, which a motor's rad by rad has none of."""
+        return "rad/m" if self.sigma == PRISMATIC else "1"
+
+    @property
+    def gain_unit(self) -> str:
+        """Of what acts along it by a motor's current."""
+        return f"{self.torque_unit}/A"
+
+    @property
     def stiffness_unit(self) -> str:
         """Of a spring along it."""
         return f"{self.torque_unit}/{self.position_unit}"

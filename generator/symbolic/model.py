@@ -131,9 +131,9 @@ class Model:
         result = []
         for base in self.grouping.base:
             head = standard[base.head]
-            lower_bound = head.lower if base.alone else None
+            bounds = (head.lower, head.upper) if base.alone else (None, None)
             grouped = "" if base.alone else f"; holds {' '.join(name for _, name in base.terms[1:])}"
-            result.append(Parameter(base.name, head.unit, head.joint, head.meaning + grouped, lower_bound))
+            result.append(Parameter(base.name, head.unit, head.joint, head.meaning + grouped, *bounds))
         return tuple(result)
 
     @cached_property

@@ -15,7 +15,9 @@ from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
 from generator.robot.parameter_file import UNSTATED
 from generator.robot.parameters import Parameter
+from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.model import Model
+from generator.symbolic.pseudo_inertia import of_body, possible
 
 Vector = NDArray[np.float64]
 Values = Mapping[str, ParameterValue]
@@ -104,6 +106,17 @@ def impossible(model: Model, values: Values, of: str = "") -> list[str]:
         f"note: {value.place}: {name}{of} is {value.value:g}, which no robot can have"
         for name, value in values.items()
         if not known[name].allows(value.value)
+    ]
+
+
+def impossible_bodies(model: Model, values: Values, of: str = "") -> list[str]:
+    """A note on each body whose ten parameters are all among ``values`` and which no matter can have."""
+    return [
+        f"note: {values[f'XX{number}'].place}: XX{number} to M{number}{of} are those of no body: "
+        "about its centre of mass one moment of inertia is more than the sum of the two others"
+        for number in (joint.number for joint in model.robot.bodies)
+        if all(f"{stem}{number}" in values for stem in INERTIAL)
+        and not possible(of_body(number, {name: one.value for name, one in values.items()}))
     ]
 
 

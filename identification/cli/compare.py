@@ -7,9 +7,9 @@ of robots (ROBOT:SET). Differences are in percent of A. DIR receives comparison.
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from generator.cli.shared_arguments import takes_out
 from generator.command_line import command_line
 from generator.review.words import plural
 from identification.extras import needing
@@ -23,7 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """A, B, --out."""
     parser.add_argument("a", metavar="A", help="the reference values: RESULTS.json or ROBOT:SET")
     parser.add_argument("b", metavar="B", help="the values to compare with A")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: no files)")
+    takes_out(parser, "where the files go (default: no files)")
 
 
 def run(arguments: argparse.Namespace) -> None:

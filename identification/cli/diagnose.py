@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.resources import find_robot
 from identification.extras import needing
@@ -51,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--dry-run", action="store_true", help="only find where they disagree; name no effect, write no robot file"
     )
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: diagnosed/ROBOT)")
+    takes_out(parser, "where the files go (default: diagnosed/ROBOT)")
 
 
 def run(arguments: argparse.Namespace) -> None:

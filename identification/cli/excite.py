@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from generator.bounds import above, not_negative, whole_number
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.review.words import listed
-from generator.writing import spare
+from generator.writing import spare, writable
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ _LEAST, _LARGEST = 1e-12, 1e12
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, the motion, its limits, what is known and measured, the search."""
     takes_robot(parser)
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: excitation/ROBOT)")
+    takes_out(parser, "where the files go (default: excitation/ROBOT)")
     parser.add_argument(
         "--parameters", metavar="SET", default="twin", help="parameter set of the robot file (default: twin)"
     )
@@ -111,6 +111,7 @@ def run(arguments: argparse.Namespace) -> None:
     path = find_robot(arguments.robot)
     robot = read(path)
     folder = arguments.out or Path("excitation") / robot.name
+    writable(folder)
     for source in (path, arguments.recipe):
         if source is not None and os.path.exists(source):
             spare(source, [folder / RUN, folder / BESIDE])
@@ -158,7 +159,9 @@ def _check_noise(arguments: argparse.Namespace, robot: Robot) -> None:
     n = len(robot.moving)
     noise, part = arguments.noise or [], arguments.noise_part
     if len(noise) not in (0, 1, n):
-        raise InputError(command_line("--noise"), f"{len(noise)} numbers", f"one, or one for each of {n} motors")
+        raise InputError(
+            command_line("--noise"), f"{len(noise)} numbers", "one" if n == 1 else f"one, or one for each of {n} motors"
+        )
     for option, value in (*(("--noise", one) for one in noise), ("--noise-part", 0.0 if part is None else part)):
         if not_negative(value, option, _LARGEST):
             above(value, option, _LEAST, _LARGEST)

@@ -10,10 +10,9 @@ DIR receives results.json, report.html and the robot file with the gains and the
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.progress import stage
@@ -45,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="standard deviations of these values, such as M=0.1 [kg, kg m, kg m2]",
     )
     takes_recipe(parser)
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_gains)")
+    takes_out(parser, "where the files go (default: identified/ROBOT_gains)")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from generator.bounds import above, not_negative, whole_number
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.progress import stage
 from generator.resources import find_robot
@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     takes_robot(parser)
     takes_data(parser)
     takes_test(parser)
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT)")
+    takes_out(parser, "where the files go (default: identified/ROBOT)")
     _filters(parser.add_argument_group("filters"))
     _method(parser.add_argument_group("method"))
 

@@ -8,11 +8,10 @@ it, and the result of each start when it is done: after an interruption, the sam
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from generator.bounds import above, whole_number
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.progress import counter, stage
@@ -32,9 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     takes_robot(parser)
     takes_data(parser)
     takes_test(parser)
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_output_error)"
-    )
+    takes_out(parser, "where the files go (default: identified/ROBOT_output_error)")
     _search(parser.add_argument_group("search"))
     _starts(parser.add_argument_group("starts"))
 

@@ -16,14 +16,14 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.given_once import given_once
 from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.review.words import plural
-from generator.writing import spare
+from generator.writing import spare, writable
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -34,9 +34,7 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """ROBOT, --out, the model, the trajectory, the controller, what is measured."""
     takes_robot(parser)
-    parser.add_argument(
-        "--out", metavar="FILE", type=Path, help="the run (default: simulated/ROBOT/TRAJECTORY_SEED.csv)"
-    )
+    takes_out(parser, "the run (default: simulated/ROBOT/TRAJECTORY_SEED.csv)", metavar="FILE")
     parser.add_argument("--flexible", action="store_true", help="with elastic drive trains")
     parser.add_argument(
         "--parameters",
@@ -166,6 +164,7 @@ def run(arguments: argparse.Namespace) -> None:
     out = arguments.out or Path("simulated") / robot.name / f"{settings.trajectory}_{settings.seed}.csv"
     if out.suffix != ".csv":
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
+    writable(out.parent)
     played = (Path(value) for value in settings.trajectory_settings.values() if isinstance(value, str))
     for source in (path, *(file for file in played if os.path.isfile(file))):
         spare(source, files_of(out))

@@ -10,10 +10,9 @@ report.html and the robot file with the values in it.
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from generator.cli.shared_arguments import takes_robot
+from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.progress import stage
 from generator.resources import find_robot
@@ -40,9 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="parameter set of the robot with known balancers, inertias of rotors or viscous friction",
     )
     takes_recipe(parser)
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="where the files go (default: identified/ROBOT_stiffness)"
-    )
+    takes_out(parser, "where the files go (default: identified/ROBOT_stiffness)")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -23,6 +23,8 @@ from identification.text_form import Form, decimal_mark, form, other_marks, spli
 EXTENSIONS = (".csv", ".tsv", ".txt")
 
 _HEADER = "a header row with the columns' names"
+_SAYS_NOTHING = "; a line that begins with # or % says nothing"
+_SEPARATED = "names with commas, semicolons or tabs between them, as between the numbers"
 _NAME = "a name of letters, digits and _, such as q1"
 _NO_UNITS = "a number; a row of units stands before the header, behind #"
 #: A unit is never taken from a name: what a sidecar does not say is in SI units.
@@ -119,8 +121,11 @@ def _layout(file: str, path: Path) -> _Layout:
     for k, name in enumerate(names):
         if not re.match(r"[A-Za-z]\w*\Z", name):
             expected = _UNIT if re.search(r"[\[(]", name) else _NAME
-            header = name and not layout.form.is_number(name)
-            raise InputError(layout.at(None, k), f"column name {name!r}", expected if header else _HEADER)
+            if len(names) == 1 and len(name.split()) > 1:
+                expected = _SEPARATED
+            if not name or layout.form.is_number(name):
+                expected = f"{_HEADER}{_SAYS_NOTHING if layout.form.header else ''}"
+            raise InputError(layout.at(None, k), f"column name {name!r}", expected)
         if name in names[:k]:
             raise InputError(layout.at(None, k), f"column {name} is there twice", "each column once")
     return layout

@@ -28,7 +28,9 @@ _LARGEST, _SHORTEST = 1e12, 1e-9
 def each(values: Sequence[float], n: int, option: str) -> Array:
     """One value a motor (n); raises InputError for another count than one or n."""
     if len(values) not in (1, n):
-        raise InputError(command_line(option), f"{len(values)} numbers", f"one, or one for each of {n} motors")
+        raise InputError(
+            command_line(option), f"{len(values)} numbers", "one" if n == 1 else f"one, or one for each of {n} motors"
+        )
     return np.array(np.broadcast_to(np.asarray(values, dtype=float), (n,)))
 
 

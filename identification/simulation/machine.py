@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from generator.backends import batch, c, python, simulation
+from generator.backends.printing.plants import plants
 from generator.derivation import derive
 from generator.effects.library import library
 from generator.errors import InputError
@@ -59,6 +60,8 @@ def compiled(robot: Robot) -> Iterator[Machine]:
     Raises InputError where there is no C compiler, and for an effect that cannot be simulated, at its place.
     """
     model = derive(robot, names=_QUANTITIES, check=False)
+    if not plants(model):
+        raise _not_simulated(robot)
     with tempfile.TemporaryDirectory(prefix="counterpoise-") as temporary:
         folder = Path(temporary) / robot.name
         files: dict[str, bytes] = {}
@@ -70,10 +73,7 @@ def compiled(robot: Robot) -> Iterator[Machine]:
                 files[f"{name}/{path}"] = content.encode() if isinstance(content, str) else content
         replace(folder, files)
         build_library(folder, robot.name)
-        module = load_library(folder, robot.name)
-        if not hasattr(module, "PLANTS"):
-            raise _not_simulated(robot)
-        yield Machine(model, module)
+        yield Machine(model, load_library(folder, robot.name))
 
 
 def _not_simulated(robot: Robot) -> InputError:

@@ -9,8 +9,8 @@ import numpy as np
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.symbolic.bodies import INERTIAL
+from generator.symbolic.pseudo_inertia import pseudo_inertia
 from identification.arrays import Array
-from identification.pseudo_inertia import pseudo_inertia
 from identification.sidecar import Payload
 
 #: States at which the payload's torques are compared with those of base parameters, and what may be left of them.

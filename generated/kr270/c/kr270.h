@@ -54,7 +54,7 @@
  *             MY5R = MY5 + MZ6 + rl6 M6
  *             XX6R = XX6 - YY6
  *
- * Use: fill a kr270_params, call kr270_prepare() once, then any function, from any thread. Nothing is
+ * Use: fill in kr270_params, call kr270_prepare() once, then any function, from any thread. Nothing is
  * allocated, and no state is kept. Compile kr270.c as C99 or later with -O2 -ffp-contract=fast and for your
  * processor (-march=native, -mcpu=...), and link the mathematics library (-lm). -std=c99 alone forbids fused
  * multiply-add, which makes the code a quarter longer; -O3 changes little, -ffast-math makes it slower.

@@ -8,7 +8,7 @@ from generator.review.decimals import decimal, rounded
 from generator.review.formula import Call, Equation, Formula, Name, Negative, Number, Power, Product, Quotient
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math, mathml, matrix
-from generator.review.words import minus
+from generator.review.words import minus, unit
 from generator.robot.description import Drives
 from generator.symbolic.model import Model
 
@@ -52,14 +52,16 @@ def _table(model: Model, drives: Drives) -> Markup:
         used = ", in use" if name == drives.torque_constant else ""
         heads.append(join("torque constant, ", name, used, " [N m/A]"))
     if drives.torque_constants:
-        heads.append("drive gain [N m/A]")
+        heads.append("drive gain")
     rows: list[list[Content]] = []
     for k, joint in enumerate(model.robot.moving):
         ratio = drives.ratios[k]
-        row: list[Content] = [str(joint.number), math(exact(ratio)), _shown(ratio, 6)]
+        in_unit = "" if joint.ratio_unit == "1" else f"\u00a0{joint.ratio_unit}"
+        row: list[Content] = [str(joint.number), [math(exact(ratio)), in_unit], _shown(ratio, 6) + in_unit]
         row += [_shown(constants[k], 6) for constants in drives.torque_constants.values()]
         if drives.torque_constants:
-            row.append(_shown(ratio * drives.torque_constants[drives.torque_constant][k], 6))
+            gain = _shown(ratio * drives.torque_constants[drives.torque_constant][k], 6)
+            row.append(f"{gain}\u00a0{unit(joint.gain_unit)}")
         rows.append(row)
     return table(heads, rows, class_="numbers")
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from generator.effects.library import Instance
 from generator.review.formula import Name
 from generator.review.laws import alike, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
-from generator.review.words import minus, ranges, unit
+from generator.review.words import bounds, minus, on_joints, unit
 from generator.symbolic.model import Model
 
 TITLE = "Effects"
@@ -27,20 +29,18 @@ def _effect(instances: list[Instance]) -> Markup:
     index = str(first.joint.number) if len(instances) == 1 else "j"
     told = observables(first)
     equations = [*(told or torque(first, index)), *rates(first, index)]
-    joints = ranges(instance.joint.number for instance in instances)
     return element(
         "article",
         element("h3", effect.title[:1].upper() + effect.title[1:]),
         element(
             "p",
-            "joint " if len(instances) == 1 else "joints ",
-            joints,
+            on_joints(instance.joint.number for instance in instances),
             " · ",
             element("code", effect.id),
             class_="where",
         ),
         [element("p", math(equation, display=True), class_="law") for equation in equations],
-        element("p", [_parameter(first, k, index) for k in range(len(effect.parameters))], class_="meanings"),
+        element("p", [_parameter(instances, k, index) for k in range(len(effect.parameters))], class_="meanings"),
         [_values(instance) for instance in instances if instance.site.values],
         element("p", "Sign: ", effect.sign_convention, "."),
         element("p", "Assumed: ", effect.assumptions, ".") if effect.assumptions else None,
@@ -49,12 +49,15 @@ def _effect(instances: list[Instance]) -> Markup:
     )
 
 
-def _parameter(instance: Instance, k: int, index: str) -> list[Content]:
-    parameter = instance.effect.parameters[k]
+def _parameter(instances: Sequence[Instance], k: int, index: str) -> list[Content]:
+    parameter = instances[0].effect.parameters[k]
     name = Name(f"{parameter.stem}{index}" if index.isdigit() else f"{parameter.stem}_{index}")
-    bound = "" if parameter.lower is None else f", ≥\u00a0{parameter.lower:g}"
-    bound += "" if parameter.upper is None else f", ≤\u00a0{parameter.upper:g}"
-    return [math(name), f" {parameter.meaning} [{unit(parameter.unit(instance.joint))}]{bound}. "]
+    within = bounds(parameter.lower, parameter.upper)
+    joints: dict[str, list[int]] = {}
+    for instance in instances:
+        joints.setdefault(unit(parameter.unit(instance.joint)), []).append(instance.joint.number)
+    units = [f"{symbol} on {on_joints(numbers)}" for symbol, numbers in joints.items()] if len(joints) > 1 else joints
+    return [math(name), f" {parameter.meaning} [{'; '.join(units)}]{f', {within}' if within else ''}. "]
 
 
 def _values(instance: Instance) -> Markup:

@@ -9,7 +9,7 @@ from generator.review.formula import Arguments, Call, Equation, Formula, Name, P
 from generator.review.laws import alike, torque
 from generator.review.markup import Markup, element, join
 from generator.review.mathml import math
-from generator.review.words import plural, ranges
+from generator.review.words import on_joints, plural
 from generator.symbolic.model import Model
 
 TITLE = "Elastic drive trains"
@@ -25,7 +25,7 @@ def render(model: Model) -> Markup | None:
     return join(
         element(
             "p",
-            f"Joints {ranges(joints)}: an elastic coordinate between motor and joint, q = [",
+            f"{_told(joints)}: an elastic coordinate between motor and joint, q = [",
             math(Name("q_m")),
             "; ",
             math(Name("q_e")),
@@ -39,6 +39,10 @@ def render(model: Model) -> Markup | None:
             f"{plural(side, 'parameter')} of the motor side.",
         ),
     )
+
+
+def _told(joints: Sequence[int]) -> str:
+    return on_joints(joints).capitalize()
 
 
 def _springs(model: Model) -> list[Instance]:
@@ -55,7 +59,7 @@ def _laws(model: Model, springs: Sequence[Instance], some: bool) -> Markup:
     (pull,) = torque(springs[0], "j")
     link = Equation(Name("tau_e,j"), Equation(pull.right, Sum((inertia, rest))))
     return join(
-        element("p", f"Joint {ranges(joints)}:" if len(joints) == 1 else f"Joints {ranges(joints)}:") if some else None,
+        element("p", f"{_told(joints)}:") if some else None,
         element("p", math(Equation(Name("tau_m,j"), Sum(tuple(motor))), display=True), class_="law"),
         element("p", math(link, display=True), class_="law"),
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from generator.review.formula import Name
 from generator.review.markup import Markup, element, join, table
 from generator.review.mathml import math
-from generator.review.words import unit
+from generator.review.words import bounds, unit
 from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
 
@@ -61,7 +61,7 @@ def _table(parameters: Iterable[Parameter]) -> Markup:
             element("code", parameter.name),
             unit(parameter.unit),
             parameter.meaning,
-            "" if parameter.lower is None else f"{'>' if parameter.positive else '≥'}\u00a0{parameter.lower:g}",
+            bounds(parameter.lower, parameter.upper, parameter.positive),
         )
         for index, parameter in enumerate(parameters)
     )

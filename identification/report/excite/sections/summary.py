@@ -33,11 +33,15 @@ def _text(found: Excitation) -> Iterator[str]:
         for name in found.units
         if name not in solution.hidden and solution.values[name]
     }
+    zero = [name for name in found.units if name not in solution.hidden and not solution.values[name]]
     good = sum(one < 10 for one in known.values())
     yield f"Of {len(found.units)} base parameters {good} will be known to 10\u202f% or better."
     if known:
         best, worst = min(known, key=known.__getitem__), max(known, key=known.__getitem__)
         yield f"Best known will be {best}, to {plain(known[best], 2)}\u202f%, least known {worst},"
         yield f"to {plain(known[worst], 2)}\u202f%."
+    if zero:
+        have = "are 0 in the set of values and have" if len(zero) > 1 else "is 0 in the set of values and has"
+        yield f"{listed(zero)} {have} no relative standard deviation."
     if solution.hidden:
         yield f"This motion does not show {listed(solution.hidden)}."

@@ -16,9 +16,10 @@ _AT = 1e-4
 def render(subject: Subject) -> Markup:
     text = (
         f"Standard deviations are those {subject.results['method']['std']}. Bars are relative standard deviations on a"
-        " logarithmic scale from 0.01 to 1000 %; above 30 % they change their colour. The consistent value is the"
-        " same parameter of bodies that matter can have."
+        " logarithmic scale from 0.01 to 1000 %; above 30 % they change their colour."
     )
+    if subject.consistent is not None:
+        text += " The consistent value is the same parameter of bodies that matter can have."
     beside = {} if subject.consistent is None else {"consistent value": subject.consistent.base}
     table = parameter_table(subject.results["parameters"], _states(subject), beside)
     return join(element("p", text), table, _payloads(subject))

@@ -16,6 +16,9 @@ from generator.symbolic.bodies import INERTIAL
 
 Matrix = NDArray[np.float64]
 
+#: Part of a body's second moment by which rounded parameters may be beyond those of matter.
+_ROUNDED = 1e-3
+
 
 def pseudo_inertia(parameters: ArrayLike) -> Matrix:
     """P (4 x 4) of XX XY XZ YY YZ ZZ MX MY MZ M [kg m2, kg m, kg], XY = minus the integral of x y dm."""
@@ -32,6 +35,15 @@ def basis() -> Matrix:
 def of_body(name: int | str, values: Mapping[str, float]) -> Matrix:
     """P of the body whose parameters are called XX<name> ... M<name>: a link's number, a payload's letters."""
     return pseudo_inertia([values[f"{stem}{name}"] for stem in INERTIAL])
+
+
+def possible(P: Matrix) -> bool:
+    """Whether a body of some mass can have P, but for rounding; what has no mass is not judged."""
+    if P[3, 3] <= 0:
+        return True
+    centre = P[:3, 3] / P[3, 3]
+    about_centre = np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre))
+    return bool(about_centre[0] >= -_ROUNDED * np.trace(np.abs(P[:3, :3])) / P[3, 3])
 
 
 def radii_of_gyration(P: Matrix) -> Matrix:
