@@ -231,7 +231,7 @@ def _add_length(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     stated = float(length.subs({sympy.Symbol(each.name, real=True): each.value for each in robot.lengths}))
     path: list[str | int] = ["joints", number - 1, field]
     others = [
-        getattr(each, key) for each in robot.joints for key in ("d", "r") if (each.number, key) != (number, field)
+        getattr(each, key) for each in robot.joints for key in ("b", "d", "r") if (each.number, key) != (number, field)
     ]
     if length.is_Symbol and not any(each.has(length) for each in others):
         path = ["geometry", str(length)]
