@@ -19,7 +19,7 @@ from identification.diagnosis.columns.priors import notes_of, preferring, prior_
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending.mended import GENERATED, Mended, mended
 from identification.diagnosis.noise import effort_rounding, noise_floor, torque_band
-from identification.diagnosis.plausibility import alike, explained
+from identification.diagnosis.plausibility import explained, of_one_sign
 from identification.diagnosis.results import document
 from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.roles import Roles, roles
@@ -53,9 +53,9 @@ def diagnosed(
     ``pages`` makes the report by the file's name: reports know the diagnosis, which knows none of them.
 
     Everything is written at the end, or nothing. Raises InputError for runs, parameter sets and folders that cannot be
-    used, for swapped columns and torques of another sign (``plausibility.alike``), and for a ``folder`` in which the
-    mended robot would replace a file that is read, before anything is looked for; and at the end, unless it is a dry
-    request, for runs that are not of this robot (``plausibility.explained``).
+    used, for swapped columns and torques of another sign (``plausibility.of_one_sign``), and for a ``folder`` in which
+    the mended robot would replace a file that is read, before anything is looked for; and at the end, unless it is a
+    dry request, for runs that are not of this robot (``plausibility.explained``).
     """
     if not wanted.dry:
         spare_inputs(folder, robot, (path,), (*wanted.data, *wanted.validate, *wanted.test))
@@ -66,7 +66,7 @@ def diagnosed(
     given = _runs(wanted, robot, regressors)
     notes += [note for run in given.recorded for note in run.notes]
     tests = given.tests if given.roles.untouched else ()
-    alike([*given.runs, *tests], regressors, prior)
+    of_one_sign([*given.runs, *tests], regressors, prior)
 
     with replacing(folder, GENERATED) as fresh:
         with stages() as progress:

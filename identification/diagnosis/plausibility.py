@@ -20,7 +20,7 @@ from identification.suspicion import REVERSED, another_sign, directed, misread, 
 _RANK, _NOTHING = 1e-9, 1e-300
 
 
-def alike(runs: Sequence[Prepared], regressors: Regressors, prior: Prior | None) -> None:
+def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior | None) -> None:
     """Raises InputError where columns of one of ``runs`` are swapped, and where its torques have another sign than
     those of the others, or than parameters that are known beforehand (``prior``) make of its motion.
     """

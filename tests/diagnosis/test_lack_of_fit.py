@@ -173,14 +173,15 @@ def test_a_swing_that_comes_late_is_no_event(size: float, told: bool) -> None:
     assert (found.burst is not None) == told
 
 
-@pytest.mark.parametrize(("hit", "told"), [(0.0, False), (40.0, True)])
-def test_noise_that_grows_with_the_speed_is_no_event(hit: float, told: bool) -> None:
-    """In two short moves the joint is fast; in one of them it may hit something."""
+@pytest.mark.parametrize(("hits", "told"), [((), False), ((310,), True), ((310, 710), True)])
+def test_noise_that_grows_with_the_speed_is_no_event(hits: tuple[int, ...], told: bool) -> None:
+    """In two short moves the joint is fast; in each of them it may hit something."""
     draw = np.random.default_rng(12)
     speed = np.full(COUNT, 0.1)
     speed[300:340], speed[700:740] = 1.0, 0.9
     e = draw.normal(size=COUNT) * np.where(speed > 0.5, 5.0, 0.7)
-    e[310:314] += hit
+    for hit in hits:
+        e[hit : hit + 4] += 40.0
     run = one_run(period=0, speed=speed)
     found = lack_of_fit([run], [e[run.kept[0]]], 0, 3)
     assert (found.burst is not None) == told

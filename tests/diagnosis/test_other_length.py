@@ -110,18 +110,26 @@ def test_another_length_is_found_and_written(
     assert (again.verdict, again.findings) == (NOTHING, ())
 
 
-def test_a_column_is_what_another_length_makes_that_base_parameters_do_not(tmp_path: Path) -> None:
-    """Of the plant's own rigid bodies, whatever standard parameters make the base parameters."""
+@pytest.mark.parametrize("told", [True, False])
+def test_a_column_is_what_another_length_makes_that_base_parameters_do_not(told: bool, tmp_path: Path) -> None:
+    """Of the plant's own rigid bodies, whatever standard parameters make the base parameters; of lengths that are zero
+    where these are known.
+    """
     true, step = ROBOTS["three_axis"], 1e-4
     (source, *_) = recorded(true, [], tmp_path)
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(true), encoding="utf-8")
-    regressors = Regressors(read(path))
+    robot = read(path)
+    values = resolved_sets(Regressors(robot).model)[PRIOR]
+    regressors = Regressors(robot if told else replace(robot, parameter_sets={}))
     sampled = ready(source, regressors).sampled
     motion = sampled.motion.at(np.arange(0, sampled.motion.samples, 50))
-    scene = Scene(replace(sampled, motion=motion), regressors, resolved_sets(regressors.model)[PRIOR])
+    scene = Scene(replace(sampled, motion=motion), regressors, values)
     rows = np.stack([column.reshape(-1) for column in columns_of(regressors, motion)], axis=1)
-    for one in hypotheses(regressors.model.robot):
+    lengths = hypotheses(regressors.model)
+    keys = [("length_d", 2), ("length_r", 2), ("length_d", 3)]
+    assert [one.key for one in lengths] == [key for key in keys if told or key != ("length_r", 2)]
+    for one in lengths:
         field, joint = one.effect.removeprefix("length_"), one.joint
         both = [torques(longer(true, joint, field, by), motion) for by in (step, -step)]
         wanted = (both[0] - both[1]).reshape(-1) / (2 * step)
@@ -132,6 +140,8 @@ def test_a_column_is_what_another_length_makes_that_base_parameters_do_not(tmp_p
 
 
 DIRECT = TWO_LINKS.replace("d: d2,", "d: 0.5 m,")
+TURNED = TWO_LINKS.replace("d: d2,", "d: -d2,").replace("d2: 0.5 m", "d2: -0.5 m")
+HALVED = TWO_LINKS.replace("d: d2,", "d: d2/2,").replace("d2: 0.5 m", "d2: {nominal: 1 m, symbolic: true}")
 TWICE = TWO_LINKS.replace("d: 0.4 m", "d: d2")
 SYMBOLIC = TWO_LINKS.replace("d2: 0.5 m", "d2: {nominal: 0.5 m, symbolic: true}")
 
@@ -141,6 +151,8 @@ SYMBOLIC = TWO_LINKS.replace("d2: 0.5 m", "d2: {nominal: 0.5 m, symbolic: true}"
     [
         (TWO_LINKS, "  d2: 0.47 m\n"),
         (SYMBOLIC, "  d2: {nominal: 0.47 m, symbolic: true}\n"),
+        (TURNED, "  d2: -0.47 m\n"),
+        (HALVED, "  d2: {nominal: 0.94 m, symbolic: true}\n"),
         (DIRECT, "d: 0.47 m, theta: q2"),
         (TWICE, "d: 0.47 m, theta: q2"),
     ],

@@ -67,10 +67,11 @@ class Prior:
     def far(self, values: Array, covariance: Array) -> Array:
         """How far values (p) of a fit near the known ones, with a covariance (p x p), are from these, in standard
         deviations of the difference (p): such a fit holds what is known already, and is nearer to it than the runs
-        alone are. Zero where nothing is known, or found; below ``FAR`` within the deviation that is known.
+        alone are. One that is less certain than what is known does not hold it. Zero where nothing is known, or found;
+        below ``FAR`` within the deviation that is known.
         """
         before, after = np.diag(inverse(self.precision)), np.diag(covariance)
-        variance = np.maximum(before - after, before / FAR**2)
+        variance = np.where(after < before, np.maximum(before - after, before / FAR**2), before + after)
         variance = np.where(self.known & np.isfinite(after), variance, np.inf)
         return np.asarray(np.abs(values - self.mean) / np.sqrt(variance))
 

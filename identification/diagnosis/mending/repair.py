@@ -225,7 +225,7 @@ def _add_base(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
 
 
 def _add_length(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
-    """To a length with a name where that is nobody else's; else into the joint."""
+    """To the length of which it is so much, where nobody else has that; else into the joint."""
     (number,), ((field, longer),) = one.joints, one.values.items()
     length: sympy.Expr = getattr(robot.joints[number - 1], field)
     stated = float(length.subs({sympy.Symbol(each.name, real=True): each.value for each in robot.lengths}))
@@ -233,10 +233,13 @@ def _add_length(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     others = [
         getattr(each, key) for each in robot.joints for key in ("b", "d", "r") if (each.number, key) != (number, field)
     ]
-    if length.is_Symbol and not any(each.has(length) for each in others):
-        path = ["geometry", str(length)]
-        path += ["nominal"] if any(each.symbolic for each in robot.lengths if each.name == str(length)) else []
-    text = with_value(text, path, _with_unit(stated + longer, "m"))
+    factor, name = length.as_coeff_Mul()
+    if name.is_Symbol and not any(each.has(name) for each in others):
+        path = ["geometry", str(name)]
+        path += ["nominal"] if any(each.symbolic for each in robot.lengths if each.name == str(name)) else []
+    else:
+        factor = sympy.S.One
+    text = with_value(text, path, _with_unit((stated + longer) / float(factor), "m"))
     return text, [
         f"the length {field} of joint {number} is {stated + longer:.4g} m in the robot file, not {stated:.4g} m"
     ]

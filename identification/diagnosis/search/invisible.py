@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from identification.diagnosis.columns.hypothesis import SHAPE, VALUE, Hypothesis, Key
+from identification.diagnosis.columns.hypothesis import LENGTH, SHAPE, VALUE, Hypothesis, Key
 from identification.diagnosis.search.weighing import Weighing
 
 #: Other values of what the file has: of those there is nothing to be shown.
-_OF_FILE = (SHAPE, VALUE)
+_OF_FILE = (LENGTH, SHAPE, VALUE)
 #: What shows an effect that makes no torque along the runs.
 _ELSEWHERE = "other motion, or the base mounted another way: along these runs it makes no torque"
 

@@ -113,7 +113,7 @@ def search(
         values = first_values(runs, train, regressors, prior)
     chosen: list[Variant] = []
     acting, lasting = Acting(), Lasting()
-    longer = lengths.hypotheses(regressors.model.robot)
+    longer = lengths.hypotheses(regressors.model)
     for turn in range(_PASSES + 1):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
         clear = [run.without_standstill(acting.jumps) for run in runs]
@@ -121,7 +121,7 @@ def search(
         scenes = [Scene(run.sampled, regressors, values, acting, near) for run in clear]
         bank = Bank(clear, scenes, lasting)
         offered, later = _offered(bank, train)
-        chosen = [again for old in chosen if (again := _again(bank, [*offered, *later], old)) is not None]
+        chosen = [again for old in chosen if (again := _again(bank, [*offered, *later, *longer], old)) is not None]
         progress("measuring the noise")
         rounded, noisy, may_follow = _rounded(clear, scenes), redrawn(clear, scenes), maps(clear, scenes)
         bank.whiten(colours(bank, rounded, may_follow, noisy))

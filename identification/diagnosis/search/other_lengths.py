@@ -6,10 +6,11 @@ is rarer than they are: it counts where with it less is missing, of which those 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from math import inf
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import LENGTH, Hypothesis
+from identification.diagnosis.columns.hypothesis import LENGTH, Hypothesis, Key
 from identification.diagnosis.search import other_shapes
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.tied_shapes import tied_cost
@@ -17,25 +18,26 @@ from identification.diagnosis.search.weighing import Weighing
 
 #: Part of the noise's power from which what is left of a joint counts.
 _LEFT = 0.05
-#: By how much a length must make what is missing cost less, at least and as a part of what stands in for it.
-_BETTER, _PART = 20.0, 0.1
+#: By how much a length must make what is missing cost less, at least and as a part of what stood in for it.
+_BETTER, _PART = 20.0, 0.02
 
 
 def searched(
     weighing: Weighing, start: Sequence[Variant], shapes: Sequence[Hypothesis], lengths: Sequence[Hypothesis]
 ) -> list[Choice]:
     """What a search from ``start`` finds, other ``shapes`` of the file's effects among it; and where that is something,
-    or leaves more than noise, what it finds beside one of other ``lengths`` if it costs clearly less.
+    or leaves more than noise, what it finds beside other ``lengths`` if it costs clearly less. A length of ``start``
+    stays while without it nothing costs less.
     """
-    found = other_shapes.searched(weighing, [one for one in start if one.hypothesis.kind != LENGTH], shapes)
+    before = {one.key for one in start if one.hypothesis.kind == LENGTH}
+    found = other_shapes.searched(weighing, [one for one in start if one.key not in before], shapes)
     chosen = [one.evidence.variant for one in found]
     if not (chosen or _lacks(weighing)):
         return found
-    bank, selection = weighing.bank, Selection(weighing)
-    offered = [bank.add(one, {}, offered=False) for one in lengths]
+    weighing.bank.offer(lengths)
     weighing.refresh()
-    more = _with_another(weighing, selection, chosen, [one for one in offered if one is not None])
-    return found if more is None else selection.choices(more)
+    more = _with_another(weighing, Selection(weighing), chosen, before)
+    return found if more is None else Selection(weighing).choices(more)
 
 
 def _lacks(weighing: Weighing) -> bool:
@@ -46,22 +48,32 @@ def _lacks(weighing: Weighing) -> bool:
 
 
 def _with_another(
-    weighing: Weighing, selection: Selection, chosen: Sequence[Variant], offered: Sequence[Variant]
+    weighing: Weighing, selection: Selection, chosen: Sequence[Variant], before: Collection[Key]
 ) -> list[Variant] | None:
-    """The one of ``offered`` with which what is missing costs least, what passes beside it of what was ``chosen``, and
-    what else is missing then; None where none costs clearly less.
+    """The length with which what is missing costs least, what passes beside it of what was ``chosen``, and what else is
+    missing then, other lengths too; None where none costs clearly less, or, of those found ``before``, no less.
     """
-    now, best, gain = tied_cost(weighing, chosen), None, 0.0
-    for one in offered:
-        if not any(weighing.of(one, beside).passes for beside in (chosen, [])):
-            continue
-        together = selection.standing([*chosen, one])
-        kept = [each for each in together if each.key != one.key]
-        less = now - tied_cost(weighing, together)
-        least = _BETTER + _PART * max(tied_cost(weighing, kept) - now, 0.0)
-        if len(kept) < len(together) and less > max(least, gain):
-            best, gain = together, less
+    now, best, gain = tied_cost(weighing, chosen), None, -inf
+    for one in (each for each in weighing.bank.variants if each.hypothesis.kind == LENGTH):
+        for beside in _besides(chosen):
+            if not weighing.of(one, beside).passes:
+                continue
+            together = selection.standing([*beside, one])
+            kept = [each for each in together if each.key != one.key]
+            less = now - tied_cost(weighing, together)
+            stood_in = max(tied_cost(weighing, kept) - now, 0.0)
+            clear = less if one.key in before else less - _BETTER - _PART * stood_in
+            if len(kept) < len(together) and clear > max(gain, 0.0):
+                best, gain = together, clear
     if best is None:
         return None
     found = [one.evidence.variant for one in selection.search(best)]
     return min((found, best), key=lambda each: tied_cost(weighing, each))
+
+
+def _besides(chosen: Sequence[Variant]) -> list[list[Variant]]:
+    """What a length is tried beside: all that was chosen, all but one of it, which may stand in for the length, and
+    nothing.
+    """
+    but_one = [[each for each in chosen if each is not one] for one in chosen]
+    return [list(chosen), *but_one, *([[]] if len(chosen) > 1 else [])]

@@ -66,7 +66,7 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         power[power < _BEYOND * least] = 0.0
         far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
         speed = np.abs(run.decimated(run.sampled.motion.qd[k])[kept])
-        far = far[power[far] >= _OUTSTANDING * _BURST * _as_fast(e**2, speed, far)]
+        far = far[power[far] >= _OUTSTANDING * _BURST * _as_fast(np.where(unsettled, np.nan, e**2), speed, far)]
         # The rows about a short burst hold the same power wherever it is in them.
         times = run.t[kept[np.array([i + np.argmax(square[i : i + _BURST]) for i in far], dtype=int)]]
         apart = max(_APART, _BURST / run.rate)
@@ -82,16 +82,16 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
 
 
 def _as_fast(square: Array, speed: Array, at: NDArray[np.int64]) -> Array:
-    """Means of squares where a joint moves as fast as in the rows from ``at`` on, but not in these or within a burst of
-    them; zero where too few do: noise may grow with the speed.
+    """Power where a joint moves as fast as in the rows from ``at`` on, but not in these or within a burst of them, by
+    the median of the squares, which other events hardly move; zero where too few do. Noise may grow with the speed.
     """
     near = maximum_filter1d(speed, _BURST)[np.minimum(at + _BURST // 2, len(speed) - 1)]
     result = np.zeros(len(at))
     for i, (start, fast) in enumerate(zip(at.tolist(), near.tolist(), strict=True)):
-        others = speed >= _FAST * fast
+        others = (speed >= _FAST * fast) & np.isfinite(square)
         others[max(start - _BURST, 0) : start + 2 * _BURST] = False
         if np.count_nonzero(others) >= _COMPARED * _BURST:
-            result[i] = np.mean(square[others])
+            result[i] = np.median(square[others]) / chi2.median(1)
     return result
 
 
