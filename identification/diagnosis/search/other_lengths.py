@@ -19,7 +19,7 @@ from identification.diagnosis.search.weighing import Weighing
 #: Part of the noise's power from which what is left of a joint counts.
 _LEFT = 0.05
 #: By how much a length must make what is missing cost less, at least and as a part of what stood in for it.
-_BETTER, _PART = 20.0, 0.02
+_BETTER, _PART = 20.0, 0.01
 
 
 def searched(
