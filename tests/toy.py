@@ -46,6 +46,11 @@ class Toy:
         )
 
     @property
+    def constants(self) -> Mapping[str, float]:
+        """None is built in."""
+        return {}
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         return _parameters(PARAMETER_NAMES)
 

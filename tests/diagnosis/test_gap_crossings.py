@@ -38,11 +38,16 @@ class Run:
     rate: float = RATE
     times: float = 5.0
 
+    def decimated(self, x: Array) -> Array:
+        """Signals have a sample a row."""
+        return x
+
 
 def run(period: int, *left_out: int) -> Run:
     rows = np.arange(ROWS)
     kept = np.array([rows >= first for first in left_out])
-    sampled = SimpleNamespace(run=SimpleNamespace(name="A.csv"))
+    motion = SimpleNamespace(qd=np.ones((2, ROWS)))
+    sampled = SimpleNamespace(run=SimpleNamespace(name="A.csv"), motion=motion)
     return Run(kept, period, rows / RATE, np.zeros((2, ROWS), dtype=bool), sampled)
 
 

@@ -65,8 +65,10 @@ def burst(runs: Sequence[Prepared], residuals: Sequence[Array], k: int, late: Se
         least = np.maximum(least, _a_period_away(power, place, run.period))
         power[power < _BEYOND * least] = 0.0
         far = np.flatnonzero(power >= _OUTSTANDING * _BURST * max(float(np.mean(e**2)), 1.0))
-        speed = np.abs(run.decimated(run.sampled.motion.qd[k])[kept])
-        far = far[power[far] >= _OUTSTANDING * _BURST * _as_fast(np.where(unsettled, np.nan, e**2), speed, far)]
+        if len(far):
+            speed = np.abs(run.decimated(run.sampled.motion.qd[k])[kept])
+            as_fast = _as_fast(np.where(unsettled, np.nan, e**2), speed, far)
+            far = far[power[far] >= _OUTSTANDING * _BURST * as_fast]
         # The rows about a short burst hold the same power wherever it is in them.
         times = run.t[kept[np.array([i + np.argmax(square[i : i + _BURST]) for i in far], dtype=int)]]
         apart = max(_APART, _BURST / run.rate)
