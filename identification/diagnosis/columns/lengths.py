@@ -84,7 +84,7 @@ class _Columns:
     def __call__(self, scene: Scene, shape: Mapping[str, float]) -> Array:
         before = scene.found(self.name)
         step = sympy.Rational(f"{before if abs(before) > _STEP else _STEP:.7f}")
-        return (self._longer(step).torques(scene) - self.stated.torques(scene))[None] / float(step)
+        return (self._longer(step).torques(scene) - self.stated.kept(scene))[None] / float(step)
 
     def _longer(self, step: sympy.Rational) -> _Bodies:
         if step not in self._by_step:
@@ -112,18 +112,22 @@ class _Bodies:
         #: With the scenes, so that no other one gets their identity.
         self._along: dict[int, tuple[Scene, Array]] = {}
 
+    def kept(self, scene: Scene) -> Array:
+        """The ``torques`` along a scene, which are asked for again for every length."""
+        if id(scene) not in self._along:
+            self._along[id(scene)] = scene, self.torques(scene)
+        return self._along[id(scene)][1]
+
     def torques(self, scene: Scene) -> Array:
         """Along a scene (n x N) [N m, N], of standard parameters that make its base parameters."""
-        if id(scene) not in self._along:
-            names, torques = self._function
-            values = _standard(scene)
-            for stem, value in zip(INERTIAL, scene.body.tolist(), strict=True):
-                name = f"{stem}{self._tool}"
-                values[name] = values.get(name, 0.0) + value
-            signals = [x.T for x in scene.motion.signals]
-            tau = torques(*signals, np.array([values.get(name, 0.0) for name in names]))
-            self._along[id(scene)] = scene, np.asarray(tau.T)
-        return self._along[id(scene)][1]
+        names, torques = self._function
+        values = _standard(scene)
+        for stem, value in zip(INERTIAL, scene.body.tolist(), strict=True):
+            name = f"{stem}{self._tool}"
+            values[name] = values.get(name, 0.0) + value
+        signals = [x.T for x in scene.motion.signals]
+        tau = torques(*signals, np.array([values.get(name, 0.0) for name in names]))
+        return np.asarray(tau.T)
 
     @cached_property
     def _function(self) -> tuple[list[str], Callable[..., Array]]:

@@ -7,7 +7,6 @@ is rarer than they are: it counts where with it less is missing, of which those 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import inf
 
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import LENGTH, Hypothesis, Key
@@ -53,7 +52,7 @@ def _with_another(
     """The length with which what is missing costs least, what passes beside it of what was ``chosen``, and what else is
     missing then, other lengths too; None where none costs clearly less, or, of those found ``before``, no less.
     """
-    now, best, gain = tied_cost(weighing, chosen), None, -inf
+    now, best, gain = tied_cost(weighing, chosen), None, 0.0
     for one in (each for each in weighing.bank.variants if each.hypothesis.kind == LENGTH):
         for beside in _besides(chosen):
             if not weighing.of(one, beside).passes:
@@ -63,7 +62,7 @@ def _with_another(
             less = now - tied_cost(weighing, together)
             stood_in = max(tied_cost(weighing, kept) - now, 0.0)
             clear = less if one.key in before else less - _BETTER - _PART * stood_in
-            if len(kept) < len(together) and clear > max(gain, 0.0):
+            if len(kept) < len(together) and clear > gain:
                 best, gain = together, clear
     if best is None:
         return None
