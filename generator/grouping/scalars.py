@@ -67,7 +67,7 @@ class Numbers:
     """The field of one robot: makes scalars from its expressions and writes them back."""
 
     def __init__(self, robot: Robot) -> None:
-        self._values = {sympy.Symbol(length.name, real=True): length.value for length in robot.lengths}
+        self._values = robot.geometry
         self._constant = robot.constant_angles
         self._half_tangents = _half_tangents(robot)
         names = [str(symbol) for symbol in self._values] + [str(symbol) for symbol in self._half_tangents.values()]

@@ -215,6 +215,11 @@ class Robot:
         return tuple(joint for joint in self.joints if joint.sigma != FIXED)
 
     @property
+    def geometry(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Values of all named lengths [m] and angles [rad] by their symbols, nominal ones where they stay symbolic."""
+        return {sympy.Symbol(one.name, real=True): one.value for one in self.lengths}
+
+    @property
     def constant_angles(self) -> dict[sympy.Symbol, sympy.Expr]:
         """Named angles [rad] that are no parameters of the code, by their symbols."""
         named = [one for one in self.lengths if one.unit == "rad" and not one.symbolic]

@@ -62,7 +62,7 @@ class Placement:
 
 def skeleton(robot: Robot) -> Skeleton:
     """The numeric geometry of a robot at the nominal values of its lengths."""
-    values = {sympy.Symbol(length.name, real=True): length.value for length in robot.lengths}
+    values = robot.geometry
 
     def number(expression: sympy.Expr, joint: Joint) -> float:
         return float(expression.xreplace({**values, joint.variable: sympy.Integer(0)}))

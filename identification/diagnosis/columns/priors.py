@@ -6,7 +6,6 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
-import sympy
 
 from generator.command_line import command_line
 from generator.effects.library import motor_side
@@ -69,7 +68,7 @@ def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
     deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()} | _refining(model, given)
     keys = list(deviation)
     map_ = np.zeros((len(model.base_parameters), len(keys)))
-    lengths = {sympy.Symbol(length.name, real=True): length.value for length in model.robot.lengths}
+    lengths = model.robot.geometry
     for row, (base, parameter) in enumerate(zip(model.grouping.base, model.base_parameters, strict=True)):
         if parameter.name in deviation:
             map_[row, keys.index(parameter.name)] = 1.0

@@ -228,7 +228,7 @@ def _add_length(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
     """To the length of which it is so much, where nobody else has that; else into the joint."""
     (number,), ((field, longer),) = one.joints, one.values.items()
     length: sympy.Expr = getattr(robot.joints[number - 1], field)
-    stated = float(length.subs({sympy.Symbol(each.name, real=True): each.value for each in robot.lengths}))
+    stated = float(length.subs(robot.geometry))
     path: list[str | int] = ["joints", number - 1, field]
     others = [
         getattr(each, key) for each in robot.joints for key in ("b", "d", "r") if (each.number, key) != (number, field)
