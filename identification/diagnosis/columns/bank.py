@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from generator.robot.description import Robot
 from identification.arrays import Array
 from identification.diagnosis.columns import stated_load
+from identification.diagnosis.columns.growing import Products, Rows
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, Key
 from identification.diagnosis.columns.normal_equations import bounded, lowered
 from identification.diagnosis.columns.torques import Torques, torques
@@ -105,7 +106,7 @@ class _Joint:
     rows: list[Array]
     tau: Array
     kept: NDArray[np.bool_]
-    white: Array = field(default_factory=lambda: np.empty((0, 0)))
+    white: Rows = field(default_factory=lambda: Rows(np.empty((0, 0))))
 
 
 def columns_of(chosen: Sequence[Variant]) -> list[int]:
@@ -134,7 +135,7 @@ class Bank:
         self.count = len(self.base)
         self._joints: list[list[_Joint]] = []
         self._colours: list[list[Colour]] = []
-        self.grams: list[Array] = []
+        self._grams: list[Products] = []
         for run, scene in zip(runs, scenes, strict=True):
             tau = run.tau - run.decimated(scene.carried(run.sampled.motion))
             self._joints.append(
@@ -153,6 +154,13 @@ class Bank:
     def dof(self) -> int:
         """n."""
         return len(self._joints[0])
+
+    @property
+    def grams(self) -> tuple[Array, ...]:
+        """Of each run, the products of all columns and the torque, the last one (count + 1 square); none before
+        ``whiten``.
+        """
+        return tuple(one.array for one in self._grams)
 
     @property
     def colours(self) -> tuple[tuple[Colour, ...], ...]:
@@ -200,6 +208,28 @@ class Bank:
             self.variants.append(variant)
         return variant
 
+    def products(
+        self, hypothesis: Hypothesis, shape: Mapping[str, float], beside: Sequence[int], runs: Sequence[int]
+    ) -> Array | None:
+        """Of the k columns of a hypothesis with a shape, which are not kept, over some runs: with columns ``beside``
+        them by number, with each other, and with the torque (k x len(beside) + k + 1); None where ``add`` has none.
+        """
+        found = self._torques(hypothesis, shape)
+        if found is None or not found.coordinates:
+            return None
+        count = len(beside)
+        result = np.zeros((len(hypothesis.coefficients), count + len(hypothesis.coefficients) + 1))
+        for r in runs:
+            for j, rows in zip(found.coordinates, found.rows[r], strict=True):
+                numbers, others = self.white(r, j)
+                place = {number: i for i, number in enumerate(numbers)}
+                at = [i for i, number in enumerate(beside) if number in place]
+                white = self.whitened(r, j, rows)
+                result[:, at] += white @ others[[place[beside[i]] for i in at]].T
+                result[:, count:-1] += white @ white.T
+                result[:, -1] += white @ others[-1]
+        return result
+
     def _torques(self, hypothesis: Hypothesis, shape: Mapping[str, float]) -> Torques | None:
         known = self._lasting.get(_key(hypothesis, shape))
         return known or torques(hypothesis, shape, self.runs, self.scenes)
@@ -223,7 +253,7 @@ class Bank:
                 self.preset[number] = value
         for r, per_joint in enumerate(found.rows):
             if self._colours:
-                self.grams[r] = _grown(self.grams[r], len(numbers))
+                self._grams[r].join(len(numbers))
             for j, rows in zip(found.coordinates, per_joint, strict=True):
                 self._extend(r, j, numbers, rows)
         return Variant(hypothesis, dict(shape), numbers, found.coordinates, tuple(range(len(numbers))))
@@ -234,13 +264,13 @@ class Bank:
         one.rows += list(rows)
         if self._colours:
             white = self._colours[run][joint].white(rows, one.kept)
-            one.white = np.concatenate([one.white[:-1], white, one.white[-1:]])
-            at, new = np.array([*one.numbers, self.count]), np.array(numbers)
-            products = white @ one.white.T
+            one.white.join(white)
+            at, new, gram = np.array([*one.numbers, self.count]), np.array(numbers), self._grams[run].array
+            products = white @ one.white.array.T
             old = len(at) - 1 - len(new)
-            self.grams[run][np.ix_(new, at)] += products
+            gram[np.ix_(new, at)] += products
             others = np.array([*range(old), len(at) - 1])
-            self.grams[run][np.ix_(at[others], new)] += products[:, others].T
+            gram[np.ix_(at[others], new)] += products[:, others].T
 
     def counts(self, joint: int) -> tuple[int, int]:
         """Kept rows of a joint in all runs, and columns of the base that act on it."""
@@ -262,7 +292,7 @@ class Bank:
     def white(self, run: int, joint: int) -> tuple[list[int], Array]:
         """Column numbers and white kept rows (k + 1 x N) of a joint, the torque the last."""
         one = self._joints[run][joint]
-        return one.numbers, one.white
+        return one.numbers, one.white.array
 
     def power(self, weights: Mapping[int, float], joint: int, runs: Sequence[int]) -> float:
         """Sum of squares of what columns by number, times their ``weights``, make on a joint in some runs, white."""
@@ -279,8 +309,8 @@ class Bank:
         self._colours = [list(one) for one in colours]
         for joints, mine in zip(self._joints, colours, strict=True):
             for joint, colour in zip(joints, mine, strict=True):
-                joint.white = colour.white(np.asarray([*joint.rows, joint.tau]), joint.kept)
-        self.grams = [self._gram(r) for r in range(len(self.runs))]
+                joint.white = Rows(colour.white(np.asarray([*joint.rows, joint.tau]), joint.kept))
+        self._grams = [Products(self._gram(r)) for r in range(len(self.runs))]
 
     @property
     def alone(self) -> tuple[int, ...]:
@@ -294,7 +324,7 @@ class Bank:
     def residual(self, run: int, joint: int, values: Mapping[int, float], white: bool = True) -> Array:
         """What ``values`` of columns by number leave of a joint's torque: white kept rows, or all rows as recorded."""
         one = self._joints[run][joint]
-        rows = one.white if white else np.asarray([*one.rows, one.tau])
+        rows = one.white.array if white else np.asarray([*one.rows, one.tau])
         weights = np.array([values.get(number, 0.0) for number in one.numbers])
         return np.asarray(rows[-1] - weights @ rows[:-1])
 
@@ -319,7 +349,7 @@ class Bank:
         gram = np.zeros((self.count + 1, self.count + 1))
         for joint in self._joints[run]:
             at = np.array([*joint.numbers, self.count])
-            gram[np.ix_(at, at)] += joint.white @ joint.white.T
+            gram[np.ix_(at, at)] += joint.white.array @ joint.white.array.T
         return gram
 
 
@@ -344,14 +374,4 @@ def base_rows(decimated: Callable[[Array], Array], scene: Scene) -> list[dict[in
             for rows, row in zip(result, column, strict=True):
                 if row.any():
                     rows[number] = decimated(row)
-    return result
-
-
-def _grown(gram: Array, count: int) -> Array:
-    """With ``count`` more columns before the last one, zero."""
-    size = len(gram) - 1
-    result = np.zeros((size + count + 1, size + count + 1))
-    result[:size, :size] = gram[:-1, :-1]
-    result[:size, -1] = result[-1, :size] = gram[:-1, -1]
-    result[-1, -1] = gram[-1, -1]
     return result

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.arrays import Array
+from identification.diagnosis.columns.growing import Products
 
 Places = NDArray[np.int64]
 
@@ -123,31 +124,41 @@ class Normal:
         whole[np.ix_(at, at)] += self.prior.whole
         return whole
 
+    def products(self, rows: Sequence[int], columns: Sequence[int]) -> Array:
+        """Some rows and columns of it, by number."""
+        part = self.gram[np.ix_(np.asarray(rows, dtype=int), np.asarray(columns, dtype=int))]
+        if self.prior is not None:
+            part = part + self.prior.products(rows, columns, len(self.gram) - 1)
+        return np.asarray(part)
+
     @cached_property
     def inverse(self) -> Array:
         """Pseudo-inverse of W's products: covariance of the base parameters without candidates (p x p)."""
         return inverse(self.whole[: self.base, : self.base])
 
     @cached_property
-    def schur(self) -> Array:
-        """Products of what W cannot explain of the candidates and of the torque."""
+    def _left(self) -> Products:
         G, p = self.whole, self.base
         S = G[p:, p:] - G[p:, :p] @ self.inverse @ G[:p, p:]
-        return np.asarray((S + S.T) / 2)
+        return Products((S + S.T) / 2)
+
+    @property
+    def schur(self) -> Array:
+        """Products of what W cannot explain of the candidates and of the torque."""
+        return self._left.array
 
     def grown(self, gram: Array) -> Normal:
-        """The same of a ``gram`` with more candidates, the last columns before the torque. Of the others it is told
-        already what W cannot explain.
+        """The same of a ``gram`` with more candidates, the last columns before the torque; what was before is of no
+        more use. Of the other candidates it is told already what W cannot explain.
         """
         result = replace(self, gram=gram)
-        if "schur" in self.__dict__:
-            G, p, old = result.whole, self.base, len(self.gram) - 1 - self.base
-            S = np.zeros((len(G) - p,) * 2)
-            S[:old, :old], S[-1, -1] = self.schur[:old, :old], self.schur[-1, -1]
-            S[-1, :old] = S[:old, -1] = self.schur[:old, -1]
-            new = G[p + old : -1, p:] - G[p + old : -1, :p] @ self.inverse @ G[:p, p:]
-            S[old:-1], S[:, old:-1] = new, new.T
-            result.__dict__.update(inverse=self.inverse, schur=S)
+        if "_left" in self.__dict__:
+            p, old = self.base, len(self.schur) - 1
+            across, more = result.products(range(p), range(p, len(gram))), gram[p + old : -1]
+            S = self._left.join(len(more))
+            S[old:-1] = more[:, p:] - more[:, :p] @ self.inverse @ across
+            S[:, old:-1] = S[old:-1].T
+            result.__dict__.update(inverse=self.inverse, _left=self._left)
         return result
 
     @cached_property
@@ -183,11 +194,12 @@ class Normal:
     def solution(self, chosen: Sequence[int]) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance."""
         at = [*range(self.base), *chosen]
+        G = self.products(at, [*at, len(self.gram) - 1])
         free = np.array([number not in self.preset for number in at])
-        fitted, known, values = told_apart(at, self.preset)
-        b = self.whole[fitted, -1] - self.whole[fitted[:, None], known] @ values
+        values = told_apart(at, self.preset)[2]
+        b = G[free, -1] - G[:, :-1][np.ix_(free, ~free)] @ values
         C = np.zeros((len(at), len(at)))
-        C[np.ix_(free, free)] = inverse(square(self.whole, fitted))
+        C[np.ix_(free, free)] = inverse(G[:, :-1][np.ix_(free, free)])
         solution = np.empty(len(at))
         solution[free] = square(C, np.flatnonzero(free)) @ b
         solution[~free] = values

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
+from scipy.signal import lfilter
 
 from identification.arrays import Array
 from identification.neighbours import in_a_row
@@ -34,15 +35,13 @@ class Colour:
     def white(self, rows: Array, stretch: NDArray[np.bool_]) -> Array:
         """Consecutive ``rows`` (k x N), of which ``stretch`` (N) tells the ones that are kept, white (k x kept)."""
         place = _places(stretch)
-        result = np.empty_like(rows)
         order = len(self.filters) - 1
-        for m in range(order + 1):
-            at = np.flatnonzero(place >= m) if m == order else np.flatnonzero(place == m)
-            total = np.zeros((len(rows), len(at)))
-            for lag, weight in enumerate(self.filters[m]):
-                total += weight * rows[:, at - lag]
-            result[:, at] = total / self.deviations[m]
-        return result[:, stretch]
+        result = lfilter(self.filters[order] / self.deviations[order], 1.0, rows)
+        for m in range(order):
+            at = np.flatnonzero(place == m)
+            lags = rows[:, at[:, None] - np.arange(m + 1)]
+            result[:, at] = lags @ (self.filters[m] / self.deviations[m])
+        return np.asarray(result[:, stretch])
 
     def spectrum(self, frequency: Array, rate: float) -> Array:
         """One-sided power density [unit^2/Hz] of the noise at frequencies [Hz] for rows at ``rate`` [Hz]."""

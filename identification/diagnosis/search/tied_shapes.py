@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant, columns_of
 from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis, reshaped
-from identification.diagnosis.columns.normal_equations import inverse
+from identification.diagnosis.columns.normal_equations import inverse, square
 from identification.diagnosis.search.weighing import Weighing
 
 #: How far the part of an effect that has another shape may be from all of it, and the same in standard deviations.
@@ -30,17 +30,24 @@ def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
     """``Weighing.cost`` of what was ``chosen`` with the coefficients of other shapes tied to the file's, which then are
     no values of their own.
     """
-    normal, base = weighing.normal, weighing.bank.base
-    at = np.array([*range(len(base)), *columns_of(chosen), len(normal.whole) - 1])
-    G = normal.whole[np.ix_(at, at)]
-    T = np.eye(len(at))
+    return _tied_cost(weighing, chosen, _products(weighing, chosen))
+
+
+def _products(weighing: Weighing, chosen: Sequence[Variant]) -> Array:
+    """Of the base columns, of those that are ``chosen`` and of the torque."""
+    normal = weighing.normal
+    return square(normal.whole, np.array([*range(normal.base), *columns_of(chosen), len(normal.whole) - 1]))
+
+
+def _tied_cost(weighing: Weighing, chosen: Sequence[Variant], G: Array) -> float:
+    T = np.eye(len(G))
     ties = _ties(weighing, chosen)
     for i, place in ties:
         T[i, place] = 1.0
         T[i, i] = 0.0
     A = T.T @ G @ T
     left = A[-1, -1] - A[-1, :-1] @ inverse(A[:-1, :-1]) @ A[:-1, -1]
-    return float(left) + sum(map(weighing.price, chosen)) - len(ties) * float(np.log(normal.rows))
+    return float(left) + sum(map(weighing.price, chosen)) - len(ties) * float(np.log(weighing.normal.rows))
 
 
 def best_tied(weighing: Weighing, hypothesis: Hypothesis, beside: Sequence[Variant]) -> Variant | None:
@@ -65,29 +72,43 @@ def refined_tied(weighing: Weighing, start: Variant, beside: Sequence[Variant]) 
     """A variant of another shape with the values between the tried ones that cost least ``beside`` others where it is
     tied.
     """
-    free = [shape for shape in start.hypothesis.shapes if shape.free]
-    best, least = start, tied_cost(weighing, [*beside, start])
+    hypothesis, chosen = start.hypothesis, [*beside, start]
+    free = [shape for shape in hypothesis.shapes if shape.free]
+    best, least = start.shape, tied_cost(weighing, chosen)
+    known = _products(weighing, beside)
 
     def cost(steps: Array) -> float:
         nonlocal best, least
         pairs = zip(free, steps.tolist(), strict=True)
-        values = {shape.name: shape.moved(start.shape[shape.name], x) for shape, x in pairs}
-        moved = weighing.bank.add(start.hypothesis, {**start.shape, **values}, offered=False)
-        if moved is None:
+        shape = {**start.shape, **{one.name: one.moved(start.shape[one.name], x) for one, x in pairs}}
+        numbers = [*range(weighing.normal.base), *columns_of(beside)]
+        found = weighing.bank.products(hypothesis, shape, numbers, weighing.train)
+        if found is None:
             return inf
-        weighing.refresh()
-        moved = moved.only(start.used)
-        result = tied_cost(weighing, [*beside, moved])
+        result = _tied_cost(weighing, chosen, _with_more(known, found, start.used))
         if result < least:
-            best, least = moved, result
+            best, least = shape, result
         return result
 
-    if free:
-        zero = np.zeros(len(free))
-        simplex = np.vstack([zero, _STEP * np.eye(len(free))])
-        options = {"maxfev": _TRIED * len(free), "initial_simplex": simplex, "xatol": 1e-2, "fatol": 0.1}
-        minimize(cost, zero, method="Nelder-Mead", options=options)
-    return best
+    if not free:
+        return start
+    zero = np.zeros(len(free))
+    simplex = np.vstack([zero, _STEP * np.eye(len(free))])
+    options = {"maxfev": _TRIED * len(free), "initial_simplex": simplex, "xatol": 1e-2, "fatol": 0.1}
+    minimize(cost, zero, method="Nelder-Mead", options=options)
+    found = weighing.bank.add(hypothesis, best, offered=False)
+    weighing.refresh()
+    return start if found is None else found.only(start.used)
+
+
+def _with_more(G: Array, found: Array, used: Sequence[int]) -> Array:
+    """Products with columns more, of all those ``found`` (``Bank.products``) with the ``used`` ones."""
+    old, all_ = len(G) - 1, len(found)
+    columns = [old + i for i in used]
+    whole = np.zeros((old + all_ + 1,) * 2)
+    whole[:old, :old], whole[:old, -1], whole[-1, :old], whole[-1, -1] = G[:-1, :-1], G[:-1, -1], G[-1, :-1], G[-1, -1]
+    whole[old:-1], whole[:, old:-1] = found, found.T
+    return square(whole, np.array([*range(old), *columns, old + all_]))
 
 
 def whole(weighing: Weighing, one: Variant, chosen: Sequence[Variant]) -> bool:

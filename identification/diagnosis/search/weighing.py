@@ -17,6 +17,7 @@ from scipy.stats import chi2
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
+from identification.diagnosis.columns.growing import Products
 from identification.diagnosis.columns.hypothesis import Key
 from identification.diagnosis.columns.normal_equations import (
     FAR,
@@ -87,6 +88,7 @@ class Weighing:
         #: By the columns of each of those chosen, of which one at its bounds has none.
         self._known_drops: dict[tuple[tuple[int, ...], ...], list[float]] = {}
         self.normal = self._normal(self.train)
+        self._products = Products(self.normal.gram)
         self._pretence = self._pretence_along(self.train, self.normal)
         self.rows = np.sum([bank.rows(r) for r in self.train], axis=0)
         self._seen = bank.count
@@ -99,9 +101,12 @@ class Weighing:
 
     def refresh(self) -> None:
         """After columns may have been added."""
-        if self._seen < self.bank.count:
-            self.normal = self.normal.grown(self._gram(self.train))
-            self._seen = self.bank.count
+        seen, self._seen = self._seen, self.bank.count
+        if seen < self._seen:
+            gram = self._products.join(self._seen - seen)
+            gram[seen:-1] = np.sum([self.bank.grams[r][seen:-1] for r in self.train], axis=0)
+            gram[:, seen:-1] = gram[seen:-1].T
+            self.normal = self.normal.grown(gram)
             self._tried = _keys(self.bank)
 
     @property
