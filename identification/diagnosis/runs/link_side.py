@@ -31,6 +31,10 @@ _SMALL = 1e-4
 _STABLE, _STABLE_IN_GAPS = 20 - np.sqrt(160), 4.0
 
 
+#: Steps that are one for the interpreter.
+_STEPS = 50
+
+
 @dataclass(frozen=True)
 class Train:
     """An elastic drive train: ``stiffness`` k [N m/rad, N/m], ``gap`` its play [rad, m], and ``damping`` the ratio
@@ -106,9 +110,12 @@ class LinkSide:
         """No numbers where the samples do not follow the swings all along: they would grow without end."""
         if not self.follows(train):
             return alone(self.scene.motion, self.k, np.full((3, self.scene.motion.samples), np.nan))
-        given = np.tile(np.array(self.own(train))[:, None], self.scene.motion.samples)
-        _, played = _many_steps(self.scene.motion.samples)(list(start), self.along, given)
-        return alone(self.scene.motion, self.k, np.asarray(played))
+        samples = self.scene.motion.samples
+        count = -(-samples // _STEPS)
+        link = np.pad(self.along, ((0, 0), (0, count * _STEPS - samples)), mode="edge")
+        own = np.tile(np.array(self.own(train))[:, None], count)
+        _, played = _many_steps(count, bool(train.gap))(list(start), link, own)
+        return alone(self.scene.motion, self.k, np.asarray(played)[:, :samples])
 
     def follows(self, train: Train) -> bool:
         """Whether the samples follow the swings: the differences are stable all along, of the lightest link too."""
@@ -138,14 +145,14 @@ class LinkSide:
 
 def swings(sides: Sequence[LinkSide], trains: Sequence[Train], end: int) -> Iterator[Array]:
     """Torque of the joint's link by its swing against the motor (S x K) [N m, N], sample by sample up to ``end``, along
-    S ``sides`` of one scene, each on K ``trains``.
+    S ``sides`` of one scene, each on K ``trains``, all with a gap or all without.
     """
     stiffness, d, half, (h, *_) = zip(*map(LinkSide.own, sides, trains), strict=True)
     own = (np.stack(stiffness), np.stack(d), np.stack(half), h)
     e, v = map(np.stack, zip(*map(LinkSide.start, sides, trains), strict=True))
-    links = np.array([one.along[:, :end] for one in sides])
+    links, loose = np.array([one.along[:, :end] for one in sides]), bool(np.any(own[2]))
     for link in np.ascontiguousarray(links.transpose(2, 1, 0)[..., None]):
-        e, v, (_, _, acceleration) = _step(e, v, link, own)
+        e, v, (_, _, acceleration) = _step(e, v, link, own, loose)
         yield link[2] * acceleration
 
 
@@ -180,9 +187,12 @@ class LinkSides:
         return made if made.rotor == rotor else made.with_rotor(rotor)
 
 
-def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tuple[Value, Value, tuple[Value, ...]]:
+def _step(
+    e: Value, v: Value, link: Sequence[Value], own: Sequence[Value], loose: bool, of: Any = np
+) -> tuple[Value, Value, tuple[Value, ...]]:
     """Deflection e and its speed v a sample later; and position, speed and acceleration now, of a ``link`` (its load,
-    that smoothed, inertia M and drag c): M e'' + (c + d) e' + k z = -load; z is e beyond the gap, d nothing within it.
+    that smoothed, inertia M and drag c): M e'' + (c + d) e' + k z = -load; z is e beyond the gap of a drive train that
+    is ``loose``, d nothing within it. The library ``of`` its values has fmax and fmin.
 
     To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
     those between samples, damping is centred. Without a gap by Numerov's method: the frequency of a swing is right to
@@ -190,14 +200,14 @@ def _step(e: Value, v: Value, link: Sequence[Value], own: Sequence[Value]) -> tu
     """
     load, smooth, M, drag = link
     k, d, half, h = own
-    taut, tight = abs(e) > half, half == 0
-    beyond = e - (abs(e + half) - abs(e - half)) / 2
-    c = (drag + taut * d) * (h / (2 * M))
-    x = tight * k * (h * h / M)
-    second = _second(x)
-    more = tight * (smooth - load)
-    after = (v * (1 - c) - (load + more + k * beyond) * (h / M) / second) / (1 + c)
-    return e + h * after, after, (e, (v + after) / 2, (after - v) / h * second + more / M)
+    if loose:
+        z = of.fmax(e - half, 0.0) + of.fmin(e + half, 0.0)
+        pull, damping, second, more = load + k * z, (z != 0) * d, 1.0, 0.0
+    else:
+        pull, damping, second, more = smooth + k * e, d, _second(k * (h * h / M)), (smooth - load) / M
+    c = (drag + damping) * (h / (2 * M))
+    after = (v * (1 - c) - pull * (h / M / second)) / (1 + c)
+    return e + h * after, after, (e, (v + after) / 2, (after - v) * (second / h) + more)
 
 
 def _second(x: Value) -> Value:
@@ -206,12 +216,17 @@ def _second(x: Value) -> Value:
 
 
 @cache
-def _many_steps(count: int) -> casadi.Function:
-    """``count`` steps one after the other: of the first (e, v), the link's four and what a train has of its own."""
-    state, link, own = (casadi.SX.sym(name, size) for name, size in (("x", 2), ("link", 4), ("own", 4)))
-    e, v, seen = _step(state[0], state[1], casadi.vertsplit(link), casadi.vertsplit(own))
-    step = casadi.Function("step", [state, link, own], [casadi.vertcat(e, v), casadi.vertcat(*seen)])
-    return step.mapaccum("steps", count)
+def _many_steps(count: int, loose: bool) -> casadi.Function:
+    """``count`` times ``_STEPS`` steps one after the other: of the first (e, v), the link's four and what a train has
+    of its own.
+    """
+    state, link, own = (casadi.SX.sym(name, *size) for name, *size in (("x", 2), ("link", 4, _STEPS), ("own", 4)))
+    e, v, played = *casadi.vertsplit(state), []
+    for each in casadi.horzsplit(link):
+        e, v, seen = _step(e, v, casadi.vertsplit(each), casadi.vertsplit(own), loose, casadi)
+        played.append(casadi.vertcat(*seen))
+    steps = casadi.Function("steps", [state, link, own], [casadi.vertcat(e, v), casadi.horzcat(*played)])
+    return steps.mapaccum("all", count)
 
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:
