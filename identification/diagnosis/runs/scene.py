@@ -87,9 +87,13 @@ class Scene:
 
     def motor_torque(self, k: int) -> Array:
         """Torque that was recorded of the motor of coordinate ``k`` since the run's start [N m] (M)."""
-        run, gain = self.sampled.run, self.robot.signals.torque_gain
-        motor: Array = motor_torques(self.robot, run.tau)[k]
+        gain = self.robot.signals.torque_gain
+        motor: Array = self._motor_torques[k]
         return motor / float(gain[k]) if gain else motor
+
+    @cached_property
+    def _motor_torques(self) -> Array:
+        return motor_torques(self.robot, self.sampled.run.tau)
 
     def heat(self, k: int, warm_torque: float, warm_up_time: float) -> Array:
         """How warm the drive of coordinate ``k`` is (N) by its motor's torque, as ``corrections.heated``."""
