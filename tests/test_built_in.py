@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import runpy
 from dataclasses import replace
 from pathlib import Path
 
@@ -74,6 +75,13 @@ def test_the_library_goes_to_its_own_folder(tmp_path: Path, capsys: pytest.Captu
     assert manifest["parameters"] == []
     assert "void pendulum_light_inverse_dynamics(" in (folder / "c" / "pendulum_light.h").read_text()
     assert "R(0.25)" in (folder / "c" / "pendulum_light.c").read_text()
+    order = [one.name for one in derive(read(tmp_path / "pendulum.yaml"), (), check=False).base_parameters]
+    assert f" * {' '.join(order)}\n" in (folder / "c" / "pendulum_light.h").read_text()
+    modules = [runpy.run_path(str(folder / name / "pendulum_light.py")) for name in ("numpy", "casadi")]
+    assert [[*one["BASE_PARAMETERS"]] for one in modules] == [order, order]
+    assert f"BASE_PARAMETERS = (\n    {', '.join(map(repr, order))},\n)" in (
+        folder / "python" / "pendulum_light.py"
+    ).read_text().replace('"', "'")
     assert "| Fv1 | 0.25 | N m s/rad |" in (folder / "review" / "groupings.md").read_text()
 
 

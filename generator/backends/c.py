@@ -79,6 +79,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "version": VERSION,
         "width": len(model.base_parameters),
         "built_in": bool(model.constants),
+        "base_parameters": paragraph(" ".join(one.name for one in model.base_parameters), LINE - 3),
         "title": paragraph(headline(prefix, model.robot.description), LINE - 3),
         "constants": constants,
         "standard_constants": _constants(model.standard_parameters, f"{macro}_STD_", names),

@@ -100,6 +100,8 @@ def module_constants(model: Model) -> dict[str, object]:
     return {
         "robot": model.robot,
         "parameters": quoted(model.parameters),
+        "base_parameters": quoted(model.base_parameters),
+        "built_in": bool(model.constants),
         "standard_parameters": quoted(model.standard_parameters),
         "parameter_sets": {
             name: listed((repr(float(values.get(p.name, 0.0))) for p in model.parameters), LINE - 8)
