@@ -18,7 +18,7 @@ from scipy.stats import chi2
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.growing import Products
-from identification.diagnosis.columns.hypothesis import Key
+from identification.diagnosis.columns.hypothesis import BODY, LOAD, Key
 from identification.diagnosis.columns.normal_equations import (
     FAR,
     Normal,
@@ -54,8 +54,9 @@ _UNSEEN, _CHANCE, _AGREED = 0.01, 2.0, 2.5
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
 #: A power that is none.
 _TINY = 1e-300
-#: Part of what an effect explains that it explains without what refines it.
-_MAIN = 0.5
+#: Part of what an effect explains that it explains without what refines it, and the same of a body: what is known of
+#: the others may hold its weight, and not how its mass is spread.
+_MAIN, _MAIN_OF_BODY = 0.5, 0.1
 #: Part of what an effect explains that is not of the noise of positions.
 _TRUE = 0.5
 #: Hypotheses, by what they explain, that are tried on the validating runs.
@@ -327,7 +328,8 @@ class Weighing:
             return found
         plain = variant.only(kept)
         values, less = self.beside(plain, others)
-        refined = chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA and less > _MAIN * drop
+        main = _MAIN_OF_BODY if variant.hypothesis.kind in (BODY, LOAD) else _MAIN
+        refined = chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA and less > main * drop
         return found if refined else (less, plain, values)
 
     def _itself(self, drop: float, variant: Variant, others: Sequence[Variant]) -> bool:
