@@ -74,7 +74,8 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
         name = found.names[k]
         _inside(q[k], joint, name, where)
         steps = np.abs(np.diff(q[k]))
-        row = int(np.argmax(steps))
+        # There and back again: what comes first leads to the wrong row.
+        row = int(np.argmax(steps > steps.max() / 2))
         if steps[row] > _JUMP * period and steps[row] > 20 * np.quantile(steps, 0.99):
             problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
             raise InputError(where(row + 1, name), problem, "positions without jumps")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 import sympy
@@ -42,6 +42,8 @@ _BETTER = 20.0
 #: The same where much stays unexplained, for a joint that is read wrong; the logarithm by which two may differ that do
 #: as well; and angles [deg] by which a zero is another one.
 _BETTER_MISREAD, _ALIKE, _ZEROS = 2.0, 0.2, (-90, 90, 180)
+#: Factors by which efforts in another unit are too small or too large: m, k.
+_UNITS = (1e-3, 1e3)
 #: What is asked of columns whose sign is wrong.
 _SENSE = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
 #: Samples that the fits are repeated on.
@@ -241,8 +243,27 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) 
             if tried[name] < best:
                 best, of = tried[name], whose
                 what = f"the {name} of {whose} {robot.numbers[i]} and {robot.numbers[k]} look swapped"
+    expected = f"columns in the {of}' order"
+    # In another unit a column stands out as one of another joint does.
+    scaled = _in_other_units(given, robot, one.run.by_motors) if bad else {}
+    if (least := min(scaled.values(), default=np.inf)) < best:
+        what = " or ".join(each for each, x in scaled.items() if x < least + _ALIKE)
+        expected = "all efforts in their units: N m, N or A"
     if what:
-        raise InputError(one.run.place, what, f"columns in the {of}' order")
+        raise InputError(one.run.place, what, expected)
+
+
+def _in_other_units(given: _Thinned, robot: Robot, by_motors: bool) -> dict[str, float]:
+    """Misfits with one column of the efforts in another unit, in parts of its own size, by what that says."""
+    misfits: dict[str, float] = {}
+    count = len(robot.moving)
+    for k, factor in product((k for k in range(count) if given.shows(k)), _UNITS):
+        times = f"{max(factor, 1 / factor):g} times too {'large' if factor < 1 else 'small'}"
+        scale = np.diag(np.where(np.arange(count) == k, factor, 1.0))
+        for whose, _, B in _mixed(robot, scale, by_motors):
+            what = f"the torques of {whose.removesuffix('s')} {robot.numbers[k]} look {times}"
+            misfits[what] = min(given.misfit(B) - np.log(factor), misfits.get(what, np.inf))
+    return misfits
 
 
 def _of_one_sense(one: Sampled, regressors: Regressors) -> None:

@@ -125,12 +125,13 @@ def test_many_columns_make_one_note(tmp_path: Path) -> None:
     )
 
 
-def test_a_position_far_from_all_others_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("wrong", [[700], [700, 701, 702]])
+def test_a_position_far_from_all_others_is_refused_at_its_row(wrong: list[int], tmp_path: Path) -> None:
     robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)
     columns = columns_of(motion.q, motion.qd)
-    columns["q1"][700] += 1.5
-    with pytest.raises(InputError, match="q1 jumps"):
+    columns["q1"][wrong] -= 1.5 * np.sign(motion.qd[0, 700])
+    with pytest.raises(InputError, match=r"far.csv:702:\d+: q1 jumps"):
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "far.csv")), robot)
 
 

@@ -109,3 +109,17 @@ def test_a_column_of_the_wrong_sign_is_found_out(name: str, told: str, links: Re
     path = run.with_columns(**{name: -run.columns[name]}).save(tmp_path / "turned.csv")
     with pytest.raises(InputError, match=f"turned.csv:1:1: {told}, expected torques of the drives, and pos"):
         identify(links.model.robot, [path], regressors=links)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "told"), [("tau1", 1e3, ("large", "small")), ("tau2", 1e3, ("small", "large"))]
+)
+def test_a_column_in_another_unit_is_found_out(
+    name: str, factor: float, told: Sequence[str], links: Regressors, tmp_path: Path
+) -> None:
+    """Of two joints the one is as much too large as the other one is too small."""
+    run = recorded(links, TRUTH, seed=7, noise=0.03)
+    path = run.with_columns(**{name: factor * run.columns[name]}).save(tmp_path / "milli.csv")
+    each = [f"the torques of joint {joint} look 1000 times too {one}" for joint, one in enumerate(told, 1)]
+    with pytest.raises(InputError, match=f"milli.csv:1:1: {' or '.join(each)}, expected all efforts in their units"):
+        identify(links.model.robot, [path], regressors=links)
