@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from generator.compiler import compiler, run
+from generator.errors import InputError, Place
 
 #: The generated C is clean under all of these.
 WARNINGS = ("-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wdouble-promotion", "-pedantic", "-Werror")
@@ -17,7 +18,7 @@ _TALLY = re.compile(r"(\d+) passed, (\d+) failed\s*\Z")
 
 
 class SelfTestFailure(Exception):
-    """The generated C does not compile or does not compute what it should: a defect of the generator."""
+    """The generated C does not compute what it should: a defect of the generator."""
 
 
 @dataclass(frozen=True)
@@ -34,22 +35,18 @@ PRECISIONS = (Precision("double"), Precision("float", "USE_FLOAT"))
 def run_self_test(folder: Path, name: str, precision: Precision) -> int:
     """Compiles ``<name>.c`` and its self-test in ``folder`` and runs it; returns the number of comparisons that passed.
 
-    Raises SelfTestFailure with the compiler's or the test's own words, and InputError where there is no compiler.
+    Raises SelfTestFailure with the test's own words, and InputError where the compiler does not compile it.
     """
     define = [f"-D{name.upper()}_{precision.macro}"] if precision.macro else []
     sources = [str(folder / f"{name}.c"), str(folder / f"{name}_selftest.c")]
     with tempfile.TemporaryDirectory() as build:
         program = str(Path(build, "selftest"))
-        _run([*compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"], f"compiling {name} in {precision.name}")
-        output = _run([program], f"the self-test of {name} in {precision.name}")
-    tally = _TALLY.search(output)
-    if tally is None or int(tally[1]) == 0 or int(tally[2]) != 0:
-        raise SelfTestFailure(f"the self-test of {name} in {precision.name} says:\n{output}")
+        done = run([*compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"])
+        if done.status != 0:
+            problem = f"it cannot be compiled in {precision.name} ({done.reason})"
+            raise InputError(Place(sources[0]), problem, "a C99 compiler; is CC right?")
+        done = run([program])
+    tally = _TALLY.search(done.output)
+    if done.status != 0 or tally is None or int(tally[1]) == 0 or int(tally[2]) != 0:
+        raise SelfTestFailure(f"the self-test of {name} in {precision.name} says:\n{done.output}")
     return int(tally[1])
-
-
-def _run(command: list[str], what: str) -> str:
-    done = run(command)
-    if done.status != 0:
-        raise SelfTestFailure(f"{what} failed with status {done.status}:\n{done.output}")
-    return done.output

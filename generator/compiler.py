@@ -18,6 +18,12 @@ class Done:
     status: int
     output: str
 
+    @property
+    def reason(self) -> str:
+        """The first error that it told, or else the last line."""
+        lines = self.output.strip().splitlines() or ["it says nothing"]
+        return next((line for line in lines if "error" in line), lines[-1])
+
 
 def compiler() -> list[str]:
     """The C compiler's command: the environment variable CC, or ``cc``; raises InputError for what is no command."""

@@ -32,10 +32,8 @@ def build_library(folder: Path, name: str) -> Path:
         if done.status == 0:
             return library
     library.unlink(missing_ok=True)
-    reason = (done.output.strip().splitlines() or ["it says nothing"])[-1]
-    raise InputError(
-        Place(str(library)), f"it cannot be compiled ({reason})", "a C99 compiler that makes shared libraries"
-    )
+    problem = f"it cannot be compiled ({done.reason})"
+    raise InputError(Place(str(library)), problem, "a C99 compiler that makes shared libraries")
 
 
 def load_library(folder: Path, name: str) -> Any:

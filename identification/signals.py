@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from generator.errors import InputError
-from generator.review.words import plural
+from generator.review.words import listed, plural
 from generator.robot.description import Robot
 from identification.arrays import Array
 from identification.drive_train import constants, coupling
@@ -106,7 +106,11 @@ def measured(recording: Recording, stems: Sequence[str], robot: Robot, what: str
 
 
 def _from_to(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
+    if len(names) == 1:
+        return names[0]
+    numbers = [int(match[2]) for name in names if (match := _NUMBERED.match(name))]
+    even = numbers == [*range(numbers[0], numbers[0] + len(names))]
+    return f"{names[0]} to {names[-1]}" if even else listed(names)
 
 
 def joint_positions(found: Measured, robot: Robot, recording: Recording) -> Array:

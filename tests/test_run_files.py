@@ -12,6 +12,7 @@ import scipy.io
 
 from generator.errors import InputError
 from generator.robot.description import Robot
+from generator.robot.readers import read
 from identification.dataset import Run, load
 from tests.recorded import Recorded, stacked
 
@@ -235,6 +236,11 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
         lambda text: "\n".join([*text.splitlines()[:40], text.splitlines()[40].rpartition(",")[0], ""]),
         ":41:1: 4 fields in a row, 5 names in the header, expected a complete row; is the file cut off",
     ),
+    "decimal commas between commas": (
+        lambda text: text.partition("\n")[0] + "\n" + text.partition("\n")[2].replace(".", ","),
+        r":2:1: \d+ fields in a row, 5 names in the header, expected as many fields as names; where numbers have decimal",
+    ),
+    "a long name": (lambda text: text.replace("q2", 100 * "\0", 1), r":1:6: column name '(\\x00){60}\.\.\.', expected"),
     "empty line": (lambda text: text.replace("\n0.1,", "\n\n0.1,", 1), ":22:1: the line is empty"),
     "decimal comma between commas": (lambda text: text.replace("\n0.1,", '\n"0,1",', 1), ":22:1: t is '0,1', expected"),
     "both marks": (
@@ -396,3 +402,27 @@ def test_other_files_are_refused(robot: Robot, tmp_path: Path) -> None:
         load(str(tmp_path / "none.csv"), robot)
     with pytest.raises(InputError, match=r"a run file ending in '.doc'"):
         load(str(tmp_path / "a.doc"), robot)
+
+
+#: Its second frame is fixed.
+BENT = """\
+name: bent
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 2, alpha: pi/4, d: 0.2 m, theta: 0, r: 0}
+  - {j: 3, sigma: 0, alpha: 0, d: 0.3 m, theta: q3, r: 0}
+"""
+
+
+def test_a_byte_that_is_not_utf_8_has_its_place(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / "latin.csv"
+    path.write_bytes(b"# arm 2\n# Gr\xf6\xdfe\n" + text_of(good, tmp_path).encode())
+    with pytest.raises(InputError, match=r"latin.csv:2:5: byte 0xf6 is not UTF-8, expected a header row"):
+        load(str(path), robot)
+
+
+def test_columns_of_joints_that_are_not_numbered_in_a_row_are_listed(good: Recorded, tmp_path: Path) -> None:
+    (tmp_path / "bent.yaml").write_text(BENT)
+    with pytest.raises(InputError, match="there is no column q3, expected q1 and q3"):
+        load(str(good.save(tmp_path / "run.csv")), read(tmp_path / "bent.yaml"))

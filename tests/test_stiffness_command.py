@@ -36,17 +36,19 @@ IA = np.array([4000.0, 4000.0, 3500.0, 300.0, 500.0, 200.0])
 LOCKED = {"Iam2": 900.0, "Fvm2": 8.0e3, "Fcm2": 60.0, "k2": 1.9e6, "Offk2": 2.85e6 + 300.0}
 
 
-def blocked(path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0, colour: float = 0.0) -> str:
+def blocked(
+    path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0, colour: float = 0.0, second: float = 0.8e-3
+) -> str:
     """A motor that goes slowly to and fro by a few mrad, up to some kN m; the other joints stand and hum.
 
-    Of noise that is coloured, each sample has so much of the one before.
+    Of noise that is coloured, each sample has so much of the one before. A ``second`` wave is slower [rad].
     """
     draw = np.random.default_rng(seed)
     t = np.arange(round(60 * RATE)) / RATE
     w = 2 * np.pi * 0.15
-    x = 1.5e-3 * np.sin(w * t) + 0.8e-3 * np.sin(0.4 * w * t)
-    v = 1.5e-3 * w * np.cos(w * t) + 0.32e-3 * w * np.cos(0.4 * w * t)
-    a = -1.5e-3 * w * w * np.sin(w * t) - 0.128e-3 * w * w * np.sin(0.4 * w * t)
+    x = 1.5e-3 * np.sin(w * t) + second * np.sin(0.4 * w * t)
+    v = 1.5e-3 * w * np.cos(w * t) + 0.4 * second * w * np.cos(0.4 * w * t)
+    a = -1.5e-3 * w * w * np.sin(w * t) - 0.16 * second * w * w * np.sin(0.4 * w * t)
     q, tau = np.zeros((6, len(t))), draw.normal(scale=5.0, size=(6, len(t)))
     q[1] = -1.5 + x
     tau[1] = 900 * a + 8e3 * v + 60 * np.sign(v) + 1.9e6 * q[1] + LOCKED["Offk2"] + balancer
@@ -299,6 +301,13 @@ def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) 
     for name in lost:
         assert document["parameters"][name]["refused"].startswith("relative std")
         assert any(note.startswith(f"{name} cannot be told: relative std") for note in document["notes"])
+
+
+def test_of_one_wave_alone_inertia_is_not_told_from_stiffness(tmp_path: Path) -> None:
+    with pytest.raises(
+        InputError, match=r"k2 cannot be told from Iam2 and Fvm2 along this motion, expected .* several frequen"
+    ):
+        locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", second=0.0)])
 
 
 def test_runs_that_show_no_stiffness_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

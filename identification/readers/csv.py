@@ -26,6 +26,10 @@ _HEADER = "a header row with the columns' names"
 _SAYS_NOTHING = "; a line that begins with # or % says nothing"
 _SEPARATED = "names with commas, semicolons or tabs between them, as between the numbers"
 _NAME = "a name of letters, digits and _, such as q1"
+_INCOMPLETE = "a complete row; is the file cut off?"
+_MORE = "as many fields as names; where numbers have decimal commas, semicolons or tabs between them"
+#: Letters of a name that are shown.
+_SHOWN = 60
 _NO_UNITS = "a number; a row of units stands before the header, behind #"
 #: A unit is never taken from a name: what a sidecar does not say is in SI units.
 _UNIT = f"{_NAME}, in rad; q1_deg with 'columns: {{q1: q1_deg * pi / 180}}' in the sidecar"
@@ -113,8 +117,10 @@ def _of_words(form: Form, rows: int) -> list[str]:
 def _layout(file: str, path: Path) -> _Layout:
     try:
         layout = _Layout(file, form(path))
-    except UnicodeError:
-        raise InputError(Place(file), "this is not a text in UTF-8", _HEADER) from None
+    except UnicodeDecodeError as error:
+        before = error.object[: error.start]
+        place = Place(file, 1 + before.count(b"\n"), error.start - before.rfind(b"\n"))
+        raise InputError(place, f"byte 0x{error.object[error.start]:02x} is not UTF-8", _HEADER) from None
     names = layout.form.names
     if names == ("",):
         raise InputError(Place(file), "the file is empty", _HEADER)
@@ -125,7 +131,8 @@ def _layout(file: str, path: Path) -> _Layout:
                 expected = _SEPARATED
             if not name or layout.form.is_number(name):
                 expected = f"{_HEADER}{_SAYS_NOTHING if layout.form.header else ''}"
-            raise InputError(layout.at(None, k), f"column name {name!r}", expected)
+            shown = name if len(name) <= _SHOWN else f"{name[:_SHOWN]}..."
+            raise InputError(layout.at(None, k), f"column name {shown!r}", expected)
         if name in names[:k]:
             raise InputError(layout.at(None, k), f"column {name} is there twice", "each column once")
     return layout
@@ -152,5 +159,5 @@ def _find_fault(layout: _Layout, rows: int, problem: str, words: Sequence[str] =
                 raise InputError(layout.place(row, name), problem, f"a number with {mark!r}, as in the rows before")
         if len(fields) != len(form.names):
             problem = f"{len(fields)} fields in a row, {len(form.names)} names in the header"
-            raise InputError(Place(layout.file, line), problem, "a complete row; is the file cut off?")
+            raise InputError(Place(layout.file, line), problem, _INCOMPLETE if len(fields) < len(form.names) else _MORE)
     raise InputError(Place(layout.file), problem, "rows of numbers under a header")

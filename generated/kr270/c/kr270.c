@@ -43,6 +43,8 @@
 #else
 #define kr270_sin sin
 #endif
+#elif !defined(__cplusplus)
+kr270_real kr270_sin(kr270_real);
 #endif
 #ifndef kr270_cos
 #ifdef KR270_USE_FLOAT
@@ -50,6 +52,8 @@
 #else
 #define kr270_cos cos
 #endif
+#elif !defined(__cplusplus)
+kr270_real kr270_cos(kr270_real);
 #endif
 #ifndef kr270_sqrt
 #ifdef KR270_USE_FLOAT
@@ -57,6 +61,8 @@
 #else
 #define kr270_sqrt sqrt
 #endif
+#elif !defined(__cplusplus)
+kr270_real kr270_sqrt(kr270_real);
 #endif
 
 /* Sine and cosine of the first count of 4 angles by the functions above. */

@@ -43,6 +43,8 @@
 #else
 #define kr500_sin sin
 #endif
+#elif !defined(__cplusplus)
+kr500_real kr500_sin(kr500_real);
 #endif
 #ifndef kr500_cos
 #ifdef KR500_USE_FLOAT
@@ -50,6 +52,8 @@
 #else
 #define kr500_cos cos
 #endif
+#elif !defined(__cplusplus)
+kr500_real kr500_cos(kr500_real);
 #endif
 #ifndef kr500_sqrt
 #ifdef KR500_USE_FLOAT
@@ -57,6 +61,8 @@
 #else
 #define kr500_sqrt sqrt
 #endif
+#elif !defined(__cplusplus)
+kr500_real kr500_sqrt(kr500_real);
 #endif
 #ifndef kr500_log
 #ifdef KR500_USE_FLOAT
@@ -64,6 +70,8 @@
 #else
 #define kr500_log log
 #endif
+#elif !defined(__cplusplus)
+kr500_real kr500_log(kr500_real);
 #endif
 
 /* Sine and cosine of the first count of 4 angles by the functions above. */
