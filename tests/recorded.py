@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from generator.resources import find_robot
 from generator.robot.description import Robot
 from generator.robot.readers import read
+from identification.dataset import Run
 from identification.observation import Motion, Regressors
 
 Array = NDArray[np.float64]
@@ -178,3 +179,8 @@ def as_recorded(of: Regressors, t: Array, q: Array, tau: Array) -> Recorded:
 def stacked(run: Recorded, stem: str) -> Array:
     """Signals of the two links (2 x N)."""
     return np.stack([run.columns[f"{stem}{j}"] for j in (1, 2)])
+
+
+def same(run: Run, good: Recorded) -> bool:
+    """Whether a run of the two links was read as it was recorded."""
+    return np.allclose(run.q, stacked(good, "q"), atol=1e-12) and np.allclose(run.tau, stacked(good, "tau"), atol=1e-9)
