@@ -131,6 +131,23 @@ def test_columns_added_late_count_as_those_from_the_start() -> None:
         assert late.residual(r, 0, values) == pytest.approx(known.white(left[None], kept[r])[0])
 
 
+def test_columns_that_are_only_tried_have_the_products_of_those_that_are_kept() -> None:
+    draw = np.random.default_rng(8)
+    tau, columns, kept = draw.normal(size=(2, COUNT)), draw.normal(size=(2, 2, COUNT)), draw.random((2, COUNT)) > 0.1
+    known = colour([noise(9)], order=3)
+    first, tried = (hypothesis(f"column{i}", lambda r, shape, i=i: columns[i, r]) for i in range(2))  # type: ignore[misc]
+    one = bank([run(base(), y, rows) for y, rows in zip(tau, kept, strict=True)])
+    one.add(first, {})
+    one.whiten([[known], [known]])
+    count = one.count
+    products = one.products(tried, {}, [1, count - 1], [0, 1])
+    assert products is not None
+    assert one.count == count
+    one.add(tried, {})
+    expected = sum(one.grams)[count, [1, count - 1, count, count + 1]]
+    assert products[0] == pytest.approx(expected)
+
+
 def test_columns_that_are_nothing_or_no_numbers_are_refused() -> None:
     one = whitened(bank([run(base(), noise(10))]))
     before = one.count
