@@ -94,10 +94,11 @@ class Prepared:
         if not self.repeats and self.sampled.run.is_part:
             return "shows no two periods in a part of it"
         if not self.repeats:
-            return "does not repeat after a whole number of samples"
+            return "does not repeat, or not after a whole number of samples"
         factor = self.sampled.filters.factor
-        why = f"of which one in {factor} is looked at" if self.repeats % factor else "too late for its rows to hold two"
-        return f"repeats after {self.repeats} samples, {why}: periods are not compared"
+        if self.repeats % factor:
+            return f"repeats after {self.repeats} samples: periods are compared where they are a multiple of {factor}"
+        return f"repeats after {self.repeats} samples, too late for its rows to hold two: periods are not compared"
 
     def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:
         """The same without rows in which a speed nearly stands whose sign a joint's torque follows."""
