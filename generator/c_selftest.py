@@ -43,10 +43,11 @@ def run_self_test(folder: Path, name: str, precision: Precision) -> int:
         program = str(Path(build, "selftest"))
         done = run([*compiler(), *_FLAGS, *define, *sources, "-o", program, "-lm"])
         if done.status != 0:
-            problem = f"it cannot be compiled in {precision.name} ({done.reason})"
-            raise InputError(Place(sources[0]), problem, "a C99 compiler; is CC right?")
+            problem = f"its C cannot be compiled in {precision.name} ({done.reason})"
+            raise InputError(Place(str(folder)), problem, f"a C99 compiler that takes {' '.join(_FLAGS)}; set CC")
         done = run([program])
     tally = _TALLY.search(done.output)
     if done.status != 0 or tally is None or int(tally[1]) == 0 or int(tally[2]) != 0:
-        raise SelfTestFailure(f"the self-test of {name} in {precision.name} says:\n{done.output}")
+        what = f"the self-test of {name} in {precision.name} ends with status {done.status}"
+        raise SelfTestFailure(f"{what} and says:\n{done.output}")
     return int(tally[1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 from collections.abc import Sequence
@@ -22,7 +23,7 @@ class Done:
     def reason(self) -> str:
         """The first error that it told, or else the last line."""
         lines = self.output.strip().splitlines() or ["it says nothing"]
-        return next((line for line in lines if "error" in line), lines[-1])
+        return next((line for line in lines if re.search(r"\berror:", line)), lines[-1])
 
 
 def compiler() -> list[str]:

@@ -74,9 +74,10 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
         name = found.names[k]
         _inside(q[k], joint, name, where)
         steps = np.abs(np.diff(q[k]))
-        # There and back again: what comes first leads to the wrong row.
-        row = int(np.argmax(steps > steps.max() / 2))
-        if steps[row] > _JUMP * period and steps[row] > 20 * np.quantile(steps, 0.99):
+        jumps = np.flatnonzero(steps > max(_JUMP * period, 20 * float(np.quantile(steps, 0.99))))
+        if jumps.size:
+            # There and back again: what comes first leads to the wrong row.
+            row = int(jumps[0])
             problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
             raise InputError(where(row + 1, name), problem, "positions without jumps")
         _speed(q[k], joint, name, period, where)

@@ -21,8 +21,6 @@ _ORDER, _RIPPLE, _CORNER = 8, 0.05, 0.8
 _LARGEST = 13
 #: Weights of a first derivative by the differences of samples 1, 2, 3 and 4 before and after: exact to degree 8.
 _FLAT = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
-#: Decimated samples at either end of which noise is larger than that of the others.
-_ENDS = 2
 #: What an interior end may leave of a transient.
 _FORGOTTEN = 1e-14
 
@@ -147,16 +145,14 @@ def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
 
 
 def kept_rows(left_out: NDArray[np.bool_], factor: int, reach: int = 0) -> NDArray[np.bool_]:
-    """Which samples that decimation keeps are not next to an end, and have none of ``left_out`` (N) in their window:
-    ``factor`` samples to either side, ``reach`` if that is more.
-
-    About the sample at an end the run is continued: the filter leaves that one as it is, with all its noise.
+    """Which samples that decimation keeps have none of ``left_out`` (N) in their window: ``factor`` samples to either
+    side, ``reach`` if that is more.
     """
     indices = kept_indices(len(left_out), factor)
+    if not left_out.any():
+        return np.ones(len(indices), dtype=bool)
     total = np.concatenate([[0], np.cumsum(left_out)])
     reach = max(factor if factor > 1 else 0, reach)
     lower, upper = np.maximum(indices - reach, 0), np.minimum(indices + reach + 1, len(left_out))
     result: NDArray[np.bool_] = total[upper] == total[lower]
-    if factor > 1:
-        result[:_ENDS] = result[-_ENDS:] = False
     return result

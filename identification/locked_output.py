@@ -12,7 +12,7 @@ import numpy as np
 
 from generator.effects.library import effects_of
 from generator.errors import InputError
-from generator.review.words import listed, plural
+from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
 from identification.colour import inflation
@@ -102,12 +102,11 @@ def locked_output(
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
     if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:
         wanted = "a motor that turns slowly to and fro against the blocked output"
-        if name in reduced.names and kept[name].relative_std < 100 * LIMIT:
-            apart = listed(one for one in names if one not in reduced.names)
-            problem_text = f"{name} cannot be told from {apart} along this motion"
+        problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
+        inertia = f"Iam{number}"
+        if name in reduced.names and inertia not in reduced.names and kept[name].relative_std < 100 * LIMIT:
+            problem_text = f"{name} cannot be told from {inertia} along this motion"
             wanted += ", in waves of several frequencies: in one alone inertia and stiffness make the same torque"
-        else:
-            problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
         raise InputError(found[0][0].place, problem_text, wanted)
     if (full[name].value or 0.0) < 0:
         problem_text = f"{name} comes out negative: the torque falls as the motor turns on"

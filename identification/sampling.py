@@ -22,6 +22,8 @@ from identification.recipe import Filters, Recipe
 
 #: Samples of a part at the recorded rate.
 _PART = 1 << 15
+#: Decimated rows at either end of which noise is larger than that of the others.
+_ENDS = 2
 #: Range [rad, m] within which a joint that never moves faster than the threshold counts as standing still.
 _STILL = 1e-3
 
@@ -130,7 +132,8 @@ def _without_value(motion: Motion, regressors: Regressors) -> str:
 
 
 def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:
-    """All rows of a run, joint by joint, in parts; rows whose decimation window holds a left-out sample are not there.
+    """All rows of a run, joint by joint, in parts; rows whose decimation window holds a left-out sample are not there,
+    nor those next to an end: the filter leaves the sample there, about which the run is continued, all its noise.
 
     The columns of a joint are those of the base parameters that it depends on, then those of the run's payload.
     """
@@ -140,7 +143,9 @@ def rows_of(one: Sampled, regressors: Regressors) -> Iterator[Rows]:
             row += one.run.payload.names().values()
     times = one.times
     factor = one.filters.factor
-    keep = [kept_rows(one.left_out[k], factor) for k in range(len(names))]
+    keep = np.array([kept_rows(one.left_out[k], factor) for k in range(len(names))])
+    if factor > 1:
+        keep[:, :_ENDS] = keep[:, -_ENDS:] = False
     indices = kept_indices(one.motion.samples, factor)
     for part in _decimated_parts(one, regressors):
         for k, (W, Y) in enumerate(part.columns):

@@ -1,8 +1,8 @@
-"""Fits that are too bad to be believed: is it another robot's run, are columns swapped, or of the wrong sign?
+"""Fits that are too bad to be believed: is it another robot's run, are columns swapped, of the wrong sign or unit?
 
 Where a joint's residual is large, the fit is repeated on a thinned run with each two joints' columns exchanged, or two
-motors', and with the sign of each one's torques or positions changed. If that explains the torques far better, the
-columns are refused and named.
+motors', with the sign of each one's torques or positions changed, and with its torques in another unit. If that
+explains the torques far better, the columns are refused and named.
 """
 
 from __future__ import annotations
@@ -54,7 +54,9 @@ _FEWEST, _FEWEST_TURNED = 5, 3
 
 
 def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> list[str]:
-    """Doubts about a fit; raises InputError where columns are swapped and where the model does not explain the data."""
+    """Doubts about a fit; raises InputError where columns are swapped, or of another unit, and where the model does not
+    explain the data.
+    """
     ordered(runs, regressors, residuals)
     each, total = residuals.per_joint, residuals.total.relative_to_mean
     bad = _doubtful(residuals)
@@ -99,13 +101,13 @@ def _asked(one: Residual) -> str:
 
 
 def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals | None = None) -> None:
-    """Raises InputError where columns of two joints or motors are swapped, one of which has large ``residuals``;
-    without any, each run is fitted by itself in some of its samples.
+    """Raises InputError where columns of two joints or motors are swapped, or efforts of one are of another unit, of
+    which one has large ``residuals``; without any, each run is fitted by itself in some of its samples.
     """
     bad = None if residuals is None else _doubtful(residuals)
     if bad is None or bad:
         for one in runs:
-            _swapped(one, regressors, bad)
+            _in_order(one, regressors, bad)
 
 
 def directed(
@@ -220,16 +222,36 @@ def _thinned(one: Sampled) -> tuple[Motion, Array, NDArray[np.bool_], float]:
     return one.motion.at(thin), tau[:, thin], ~one.left_out[:, thin], independent
 
 
-def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) -> None:
+def _in_order(one: Sampled, regressors: Regressors, bad: Collection[int] | None) -> None:
+    """Raises InputError where a run is explained far better with two columns exchanged, or one of the efforts in
+    another unit, which stands out as one of another joint does.
+    """
     motion, tau, used, independent = _thinned(one)
-    same = np.eye(len(tau))
     given = _Thinned(regressors, motion, tau, used, independent)
-    left = given.left(same)
-    if bad is None:
-        spread = {k: float(np.std(tau[k, used[k]])) for k in left if used[k].any()}
-        bad = {k for k, x in left.items() if 100 * x > _DOUBTFUL * spread.get(k, np.inf)}
-    best, what, of = _size(left) - np.log(_BETTER), "", ""
     robot = regressors.model.robot
+    if bad is None:
+        bad = [k for k, x in given.relative(np.eye(len(tau))).items() if x > _DOUBTFUL]
+    swapped, of = _swapped(one, regressors, given, bad)
+    scaled = _in_other_units(given, robot, one.run.by_motors) if bad else {}
+    now = given.misfit(np.eye(len(tau))) - np.log(_BETTER)
+    least, exchanged = (min(each.values(), default=np.inf) for each in (scaled, swapped))
+    if least < min(exchanged, now):
+        what = " or ".join(each for each, x in scaled.items() if x < least + _ALIKE)
+        raise InputError(one.run.place, what, "all efforts in their units: N m, N or A")
+    if exchanged < now:
+        what = min(swapped, key=lambda each: swapped[each])
+        raise InputError(one.run.place, what, f"columns in the {of[what]}' order")
+
+
+def _swapped(
+    one: Sampled, regressors: Regressors, given: _Thinned, bad: Collection[int]
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Misfits with the columns of two joints or motors exchanged, one of which is ``bad``, by what that says; and whose
+    columns those are.
+    """
+    motion, tau, used, independent = _thinned(one)
+    same, robot = np.eye(len(tau)), regressors.model.robot
+    misfits, of = dict[str, float](), dict[str, str]()
     for i, k in combinations(range(len(tau)), 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue
@@ -239,22 +261,16 @@ def _swapped(one: Sampled, regressors: Regressors, bad: Collection[int] | None) 
             rows = np.all(used | (A == 0)[:, :, None], axis=1)
             other = _Thinned(regressors, motion.mixed(A), tau, rows, independent)
             tried = {"torques": given.misfit(B), "positions": other.misfit(same), "columns": other.misfit(B)}
-            name = min(tried, key=lambda which: tried[which])
-            if tried[name] < best:
-                best, of = tried[name], whose
+            for name, misfit in tried.items():
                 what = f"the {name} of {whose} {robot.numbers[i]} and {robot.numbers[k]} look swapped"
-    expected = f"columns in the {of}' order"
-    # In another unit a column stands out as one of another joint does.
-    scaled = _in_other_units(given, robot, one.run.by_motors) if bad else {}
-    if (least := min(scaled.values(), default=np.inf)) < best:
-        what = " or ".join(each for each, x in scaled.items() if x < least + _ALIKE)
-        expected = "all efforts in their units: N m, N or A"
-    if what:
-        raise InputError(one.run.place, what, expected)
+                misfits[what], of[what] = min(misfit, misfits.get(what, np.inf)), whose
+    return misfits, of
 
 
 def _in_other_units(given: _Thinned, robot: Robot, by_motors: bool) -> dict[str, float]:
-    """Misfits with one column of the efforts in another unit, in parts of its own size, by what that says."""
+    """Misfits with one column of the efforts in another unit, in parts of its own size, by what that says; only of
+    those with which the model explains all torques.
+    """
     misfits: dict[str, float] = {}
     count = len(robot.moving)
     for k, factor in product((k for k in range(count) if given.shows(k)), _UNITS):
@@ -262,7 +278,8 @@ def _in_other_units(given: _Thinned, robot: Robot, by_motors: bool) -> dict[str,
         scale = np.diag(np.where(np.arange(count) == k, factor, 1.0))
         for whose, _, B in _mixed(robot, scale, by_motors):
             what = f"the torques of {whose.removesuffix('s')} {robot.numbers[k]} look {times}"
-            misfits[what] = min(given.misfit(B) - np.log(factor), misfits.get(what, np.inf))
+            if max(given.relative(B).values()) < _DOUBTFUL:
+                misfits[what] = min(given.misfit(B) - np.log(factor), misfits.get(what, np.inf))
     return misfits
 
 
@@ -315,7 +332,7 @@ class _Thinned:
         self, regressors: Regressors, motion: Motion, tau: Array, used: NDArray[np.bool_], independent: float
     ) -> None:
         self._names, self._structure = regressors.names, regressors.structure
-        self._rows = independent * used.sum(axis=1)
+        self._rows, self._tau, self._used = independent * used.sum(axis=1), tau, used
         self._factors = [
             triangular(np.concatenate([W[:, rows], tau[:, rows]]).T)
             for W, rows in zip(regressors.base(motion), used, strict=True)
@@ -328,6 +345,12 @@ class _Thinned:
     def misfit(self, mix: Array) -> float:
         """The ``_size`` of what is left with torques that are ``mix`` (n x n) times the given ones."""
         return _size(self.left(mix))
+
+    def relative(self, mix: Array) -> Mapping[int, float]:
+        """The joints' residuals with such torques [% of their spread], of those that have rows."""
+        torques = mix @ self._tau
+        spread = {k: float(np.std(torques[k, rows])) for k, rows in enumerate(self._used) if rows.any()}
+        return {k: 100 * x / spread[k] if spread[k] else 0.0 for k, x in self.left(mix).items() if k in spread}
 
     def left(self, mix: Array) -> Mapping[int, float]:
         """The joints' residuals [N m, N] with torques that are ``mix`` (n x n) times the given ones."""

@@ -72,13 +72,18 @@ class Form:
         return line.rstrip("\n").removesuffix(self.separator) if self.trailing else line
 
 
+def encoding_of(path: Path) -> str:
+    """Of a text, told by its order mark."""
+    with path.open("rb") as stream:
+        return "utf-16" if stream.read(2) in _ORDER_MARKS else "utf-8-sig"
+
+
 def form(path: Path) -> Form:
     """The form of the text ``path``, told by its first lines; ``names`` are as written, without quotes and blanks.
 
     Raises UnicodeDecodeError where they are neither UTF-8 nor, after a byte order mark, UTF-16.
     """
-    with path.open("rb") as stream:
-        encoding = "utf-16" if stream.read(2) in _ORDER_MARKS else "utf-8-sig"
+    encoding = encoding_of(path)
     separator, number = "", 0
     with path.open(encoding=encoding) as text:
         while (line := text.readline(_LONGEST)) and (not line.strip() or line.startswith((*_COMMENTS, _SAID))):

@@ -135,6 +135,17 @@ def test_a_position_far_from_all_others_is_refused_at_its_row(wrong: list[int], 
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "far.csv")), robot)
 
 
+def test_the_first_of_several_jumps_is_told_though_others_are_larger(tmp_path: Path) -> None:
+    robot = two_links(tmp_path)
+    t, motion = fourier(robot, 10.0, 500.0)
+    columns = columns_of(motion.q, motion.qd)
+    columns["q1"][700] += 0.3
+    columns["q1"][3000] += 0.9
+    columns["q1"][400] += 0.15
+    with pytest.raises(InputError, match=r"several.csv:702:\d+: q1 jumps"):
+        load(str(Recorded({"t": t, **columns}).save(tmp_path / "several.csv")), robot)
+
+
 def test_a_torque_that_is_cut_off_is_not_hidden_by_glitches(tmp_path: Path) -> None:
     robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)

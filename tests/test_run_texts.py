@@ -1,4 +1,4 @@
-"""Runs as text, of every form that logs have; and texts that are not what they should be"""
+"""Runs as text, of every form that logs have; and texts that are not what they should be."""
 
 from __future__ import annotations
 
@@ -130,6 +130,6 @@ def test_a_line_without_end_is_left_out_and_told(good: Recorded, robot: Robot, t
 
 def test_a_byte_that_is_not_utf_8_has_its_place(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     path = tmp_path / "latin.csv"
-    path.write_bytes(b"# arm 2\n# Gr\xf6\xdfe\n" + text_of(good, tmp_path).encode())
-    with pytest.raises(InputError, match=r"latin.csv:2:5: byte 0xf6 is not UTF-8, expected a header row"):
+    path.write_bytes(2000 * "# é\n".encode() + b"# Gr\xf6\xdfe\n" + text_of(good, tmp_path).encode())
+    with pytest.raises(InputError, match=r"latin.csv:2001:5: byte 0xf6 is not UTF-8, expected a header row"):
         load(str(path), robot)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.special import j0
 
 from benchmarks import sine_cosine_constants
 from benchmarks.sine_cosine import SineCosine, exact, near_multiples, samples, sources
@@ -111,9 +110,8 @@ def test_where_sums_may_be_reordered_or_one_is_given_the_library_is_taken(build:
 
 
 def test_a_sine_of_ones_own_leaves_the_cosine_alone(build: Path) -> None:
-    """In standard C <math.h> does not declare Bessel's function, which the library has."""
-    sines, cosines = compiled(build, "double", "-O2", "-Dwheel_sin=j0")(np.array([0.5, 2.0]))
-    np.testing.assert_allclose(sines, j0([0.5, 2.0]), rtol=1e-14)
+    sines, cosines = compiled(build, "double", "-O2", "-Dwheel_sin=-")(np.array([0.5, 2.0]))
+    assert sines.tolist() == [-0.5, -2.0]
     np.testing.assert_allclose(cosines, np.cos([0.5, 2.0]), rtol=1e-15)
 
 

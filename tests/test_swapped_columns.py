@@ -123,3 +123,22 @@ def test_a_column_in_another_unit_is_found_out(
     each = [f"the torques of joint {joint} look 1000 times too {one}" for joint, one in enumerate(told, 1)]
     with pytest.raises(InputError, match=f"milli.csv:1:1: {' or '.join(each)}, expected all efforts in their units"):
         identify(links.model.robot, [path], regressors=links)
+
+
+@pytest.mark.parametrize("factor", [0.003, 0.01, 300.0])
+def test_another_factor_is_no_unit(factor: float, links: Regressors, tmp_path: Path) -> None:
+    run = recorded(links, TRUTH, seed=7, noise=0.03)
+    path = run.with_columns(tau2=factor * run.columns["tau2"]).save(tmp_path / "scaled.csv")
+    told = ""
+    try:
+        identify(links.model.robot, [path], regressors=links)
+    except InputError as refused:
+        told = str(refused)
+    assert "1000 times" not in told
+
+
+def test_a_column_of_noise_is_none_in_another_unit(links: Regressors, tmp_path: Path) -> None:
+    run = recorded(links, TRUTH, seed=7, noise=0.03)
+    nothing = 0.03 * np.random.default_rng(1).normal(size=len(run.columns["t"]))
+    found = identify(links.model.robot, [run.with_columns(tau2=nothing).save(tmp_path / "noise.csv")], regressors=links)
+    assert any("joint 2" in note and "unexplained" in note for note in found.notes)

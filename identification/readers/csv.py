@@ -18,7 +18,7 @@ import numpy as np
 from generator.errors import InputError, Place
 from identification.arrays import Array
 from identification.recording import Recording, digest, left_out
-from identification.text_form import Form, decimal_mark, form, other_marks, split
+from identification.text_form import Form, decimal_mark, encoding_of, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")
 
@@ -114,13 +114,23 @@ def _of_words(form: Form, rows: int) -> list[str]:
     return [form.names[k] for k in words]
 
 
+def _undecodable(file: str, path: Path) -> InputError:
+    """That a text holds what is none, with its place."""
+    content, encoding = path.read_bytes(), encoding_of(path)
+    try:
+        content.decode(encoding)
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode(encoding, "ignore")
+        place = Place(file, 1 + before.count("\n"), len(before) - before.rfind("\n"))
+        return InputError(place, f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()}", _HEADER)
+    return InputError(Place(file), "this is not a text in UTF-8", _HEADER)
+
+
 def _layout(file: str, path: Path) -> _Layout:
     try:
         layout = _Layout(file, form(path))
-    except UnicodeDecodeError as error:
-        before = error.object[: error.start]
-        place = Place(file, 1 + before.count(b"\n"), error.start - before.rfind(b"\n"))
-        raise InputError(place, f"byte 0x{error.object[error.start]:02x} is not UTF-8", _HEADER) from None
+    except UnicodeDecodeError:
+        raise _undecodable(file, path) from None
     names = layout.form.names
     if names == ("",):
         raise InputError(Place(file), "the file is empty", _HEADER)

@@ -93,7 +93,7 @@ def test_a_joint_that_is_held_does_not_count() -> None:
     ("name", "period", "rows", "note"),
     [
         ("A", 2000, 200, ""),
-        ("A", 2003, 0, "repeats after 2003 samples: periods are compared where they are a multiple of 10"),
+        ("A", 2003, 0, "repeats after 2003 samples: periods are not compared; of a multiple of 10 they would be"),
         ("A", 0, 0, "does not repeat, or not after a whole number of samples"),
         ("A@:12", 0, 0, "shows no two periods in a part of it"),
     ],

@@ -36,15 +36,13 @@
 #endif
 #endif
 
-/* Mathematics; each may be defined from outside, such as -Dkr270_sin=my_sin. */
+/* Mathematics; each may be defined from outside, such as -Dkr270_sin=my_sin -include my_sin.h. */
 #ifndef kr270_sin
 #ifdef KR270_USE_FLOAT
 #define kr270_sin sinf
 #else
 #define kr270_sin sin
 #endif
-#elif !defined(__cplusplus)
-kr270_real kr270_sin(kr270_real);
 #endif
 #ifndef kr270_cos
 #ifdef KR270_USE_FLOAT
@@ -52,8 +50,6 @@ kr270_real kr270_sin(kr270_real);
 #else
 #define kr270_cos cos
 #endif
-#elif !defined(__cplusplus)
-kr270_real kr270_cos(kr270_real);
 #endif
 #ifndef kr270_sqrt
 #ifdef KR270_USE_FLOAT
@@ -61,8 +57,6 @@ kr270_real kr270_cos(kr270_real);
 #else
 #define kr270_sqrt sqrt
 #endif
-#elif !defined(__cplusplus)
-kr270_real kr270_sqrt(kr270_real);
 #endif
 
 /* Sine and cosine of the first count of 4 angles by the functions above. */

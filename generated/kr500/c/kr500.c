@@ -36,15 +36,13 @@
 #endif
 #endif
 
-/* Mathematics; each may be defined from outside, such as -Dkr500_sin=my_sin. */
+/* Mathematics; each may be defined from outside, such as -Dkr500_sin=my_sin -include my_sin.h. */
 #ifndef kr500_sin
 #ifdef KR500_USE_FLOAT
 #define kr500_sin sinf
 #else
 #define kr500_sin sin
 #endif
-#elif !defined(__cplusplus)
-kr500_real kr500_sin(kr500_real);
 #endif
 #ifndef kr500_cos
 #ifdef KR500_USE_FLOAT
@@ -52,8 +50,6 @@ kr500_real kr500_sin(kr500_real);
 #else
 #define kr500_cos cos
 #endif
-#elif !defined(__cplusplus)
-kr500_real kr500_cos(kr500_real);
 #endif
 #ifndef kr500_sqrt
 #ifdef KR500_USE_FLOAT
@@ -61,8 +57,6 @@ kr500_real kr500_cos(kr500_real);
 #else
 #define kr500_sqrt sqrt
 #endif
-#elif !defined(__cplusplus)
-kr500_real kr500_sqrt(kr500_real);
 #endif
 #ifndef kr500_log
 #ifdef KR500_USE_FLOAT
@@ -70,8 +64,6 @@ kr500_real kr500_sqrt(kr500_real);
 #else
 #define kr500_log log
 #endif
-#elif !defined(__cplusplus)
-kr500_real kr500_log(kr500_real);
 #endif
 
 /* Sine and cosine of the first count of 4 angles by the functions above. */

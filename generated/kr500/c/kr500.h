@@ -17,8 +17,8 @@
  *   Angles    sine and cosine are computed here, four angles side by side: wrong by at most 2 units in the last place
  *             for |x| <= 1e3, and by 2.2e-16 for |x| <= 1e5 (float: 2 units and 1.2e-7 for |x| <= 1e3). Larger angles,
  *             infinities and NaN go to <math.h>; with KR500_USE_LIBM all do, as under -ffast-math and in excess
- *             precision. -Dkr500_sin=my_sin -Dkr500_cos=my_cos takes yours, of a kr500_real.
- *             Rounding is to nearest.
+ *             precision. -Dkr500_sin=my_sin -Dkr500_cos=my_cos -include my_angles.h takes
+ *             yours, which that header declares. Rounding is to nearest.
  *             Vectors are types of GCC and Clang; with KR500_LANES=1 the code is standard C throughout.
  *
  * Model

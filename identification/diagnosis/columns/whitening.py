@@ -34,6 +34,8 @@ class Colour:
 
     def white(self, rows: Array, stretch: NDArray[np.bool_]) -> Array:
         """Consecutive ``rows`` (k x N), of which ``stretch`` (N) tells the ones that are kept, white (k x kept)."""
+        if not rows.size:
+            return rows[:, stretch]
         place = _places(stretch)
         order = len(self.filters) - 1
         result = lfilter(self.filters[order] / self.deviations[order], 1.0, rows)

@@ -29,8 +29,6 @@ Value: TypeAlias = Any
 _SMALL = 1e-4
 #: k h^2 / M up to which central differences swing and do not grow: where it is 4 times ``_second``, and 4 with a gap.
 _STABLE, _STABLE_IN_GAPS = 20 - np.sqrt(160), 4.0
-
-
 #: Steps that are one for the interpreter.
 _STEPS = 50
 

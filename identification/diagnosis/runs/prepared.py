@@ -97,7 +97,8 @@ class Prepared:
             return "does not repeat, or not after a whole number of samples"
         factor = self.sampled.filters.factor
         if self.repeats % factor:
-            return f"repeats after {self.repeats} samples: periods are compared where they are a multiple of {factor}"
+            would = f"of a multiple of {factor} they would be"
+            return f"repeats after {self.repeats} samples: periods are not compared; {would}"
         return f"repeats after {self.repeats} samples, too late for its rows to hold two: periods are not compared"
 
     def without_standstill(self, jumps: Sequence[Jump]) -> Prepared:

@@ -14,6 +14,7 @@ from scipy.optimize import minimize
 
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Variant, columns_of
+from identification.diagnosis.columns.growing import Products
 from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis, reshaped
 from identification.diagnosis.columns.normal_equations import inverse, square
 from identification.diagnosis.search.weighing import Weighing
@@ -35,8 +36,13 @@ def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
 
 def _products(weighing: Weighing, chosen: Sequence[Variant]) -> Array:
     """Of the base columns, of those that are ``chosen`` and of the torque."""
-    normal = weighing.normal
-    return square(normal.whole, np.array([*range(normal.base), *columns_of(chosen), len(normal.whole) - 1]))
+    at = [*_numbers(weighing, chosen), len(weighing.normal.gram) - 1]
+    return weighing.normal.products(at, at)
+
+
+def _numbers(weighing: Weighing, chosen: Sequence[Variant]) -> list[int]:
+    """Of the base columns and of those that are ``chosen``."""
+    return [*range(weighing.normal.base), *columns_of(chosen)]
 
 
 def _tied_cost(weighing: Weighing, chosen: Sequence[Variant], G: Array) -> float:
@@ -75,13 +81,12 @@ def refined_tied(weighing: Weighing, start: Variant, beside: Sequence[Variant]) 
     hypothesis, chosen = start.hypothesis, [*beside, start]
     free = [shape for shape in hypothesis.shapes if shape.free]
     best, least = start.shape, tied_cost(weighing, chosen)
-    known = _products(weighing, beside)
+    known, numbers = _products(weighing, beside), _numbers(weighing, beside)
 
     def cost(steps: Array) -> float:
         nonlocal best, least
         pairs = zip(free, steps.tolist(), strict=True)
         shape = {**start.shape, **{one.name: one.moved(start.shape[one.name], x) for one, x in pairs}}
-        numbers = [*range(weighing.normal.base), *columns_of(beside)]
         found = weighing.bank.products(hypothesis, shape, numbers, weighing.train)
         if found is None:
             return inf
@@ -103,12 +108,10 @@ def refined_tied(weighing: Weighing, start: Variant, beside: Sequence[Variant]) 
 
 def _with_more(G: Array, found: Array, used: Sequence[int]) -> Array:
     """Products with columns more, of all those ``found`` (``Bank.products``) with the ``used`` ones."""
-    old, all_ = len(G) - 1, len(found)
-    columns = [old + i for i in used]
-    whole = np.zeros((old + all_ + 1,) * 2)
-    whole[:old, :old], whole[:old, -1], whole[-1, :old], whole[-1, -1] = G[:-1, :-1], G[:-1, -1], G[-1, :-1], G[-1, -1]
-    whole[old:-1], whole[:, old:-1] = found, found.T
-    return square(whole, np.array([*range(old), *columns, old + all_]))
+    products, old = Products(G.copy()), len(G) - 1
+    grown = products.join(len(found))
+    grown[old:-1], grown[:, old:-1] = found, found.T
+    return square(grown, np.array([*range(old), *(old + i for i in used), len(grown) - 1]))
 
 
 def whole(weighing: Weighing, one: Variant, chosen: Sequence[Variant]) -> bool:

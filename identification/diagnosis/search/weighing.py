@@ -54,8 +54,8 @@ _UNSEEN, _CHANCE, _AGREED = 0.01, 2.0, 2.5
 _FLOOR, _RARE_FLOOR, _SHARE, _LIKELY_SHARE, _RARE_SHARE = 0.06, 0.15, 0.01, 0.05, 0.1
 #: A power that is none.
 _TINY = 1e-300
-#: Part of what an effect explains that it explains without what refines it, and the same of a body: what is known of
-#: the others may hold its weight, and not how its mass is spread.
+#: Part of what an effect explains that it explains without what refines it, and the same of a body beside known ones:
+#: the runs may outweigh what is known of these where it shows as its weight does, and not where as its products.
 _MAIN, _MAIN_OF_BODY = 0.5, 0.1
 #: Part of what an effect explains that is not of the noise of positions.
 _TRUE = 0.5
@@ -328,7 +328,8 @@ class Weighing:
             return found
         plain = variant.only(kept)
         values, less = self.beside(plain, others)
-        main = _MAIN_OF_BODY if variant.hypothesis.kind in (BODY, LOAD) else _MAIN
+        body = variant.hypothesis.kind in (BODY, LOAD) and not self.free
+        main = _MAIN_OF_BODY if body else _MAIN
         refined = chi2.sf(drop - less, len(x) - len(kept)) < _ALPHA and less > main * drop
         return found if refined else (less, plain, values)
 
