@@ -19,7 +19,7 @@ from generator.discovery import modules
 
 EXPERIMENTS = {one.__name__.rpartition(".")[2]: one for one in modules(benchmarks.reproduction.experiments)}
 #: Experiments short enough to be played here, with their draws of the noise.
-PLAYED = {"idim_ls": 2, "gains": 2}
+PLAYED = {"idim_ls": 2, "locked_output": 10, "gains": 2}
 #: Parts of all estimates that must be inside, and that of each parameter at least [%].
 POOLED, LEAST = (92.0, 98.0), 86.0
 #: Draws of the noise that count.
@@ -75,7 +75,7 @@ def test_every_table_has_its_rows(results: Results) -> None:
 # -- played anew ------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module", params=["idim_ls", pytest.param("gains", marks=pytest.mark.long)])
+@pytest.fixture(scope="module", params=["idim_ls", "locked_output", pytest.param("gains", marks=pytest.mark.long)])
 def fresh(request: pytest.FixtureRequest) -> tuple[str, list[Found]]:
     return request.param, played(request.param, range(PLAYED[request.param]))
 
