@@ -226,45 +226,40 @@ def _in_order(one: Sampled, regressors: Regressors, bad: Collection[int] | None)
     """Raises InputError where a run is explained far better with two columns exchanged, or one of the efforts in
     another unit, which stands out as one of another joint does.
     """
-    motion, tau, used, independent = _thinned(one)
-    given = _Thinned(regressors, motion, tau, used, independent)
-    robot = regressors.model.robot
+    given, robot = _Thinned(regressors, *_thinned(one)), regressors.model.robot
+    same = np.eye(len(robot.moving))
     if bad is None:
-        bad = [k for k, x in given.relative(np.eye(len(tau))).items() if x > _DOUBTFUL]
-    swapped, of = _swapped(one, regressors, given, bad)
+        bad = [k for k, x in given.relative(same).items() if x > _DOUBTFUL]
+    swapped = _swapped(given, robot, one.run.by_motors, bad)
     scaled = _in_other_units(given, robot, one.run.by_motors) if bad else {}
-    now = given.misfit(np.eye(len(tau))) - np.log(_BETTER)
+    now = given.misfit(same) - np.log(_BETTER)
     least, exchanged = (min(each.values(), default=np.inf) for each in (scaled, swapped))
     if least < min(exchanged, now):
         what = " or ".join(each for each, x in scaled.items() if x < least + _ALIKE)
         raise InputError(one.run.place, what, "all efforts in their units: N m, N or A")
     if exchanged < now:
-        what = min(swapped, key=lambda each: swapped[each])
-        raise InputError(one.run.place, what, f"columns in the {of[what]}' order")
+        what, whose = min(swapped, key=lambda each: swapped[each])
+        raise InputError(one.run.place, what, f"columns in the {whose}' order")
 
 
-def _swapped(
-    one: Sampled, regressors: Regressors, given: _Thinned, bad: Collection[int]
-) -> tuple[dict[str, float], dict[str, str]]:
-    """Misfits with the columns of two joints or motors exchanged, one of which is ``bad``, by what that says; and whose
+def _swapped(given: _Thinned, robot: Robot, by_motors: bool, bad: Collection[int]) -> dict[tuple[str, str], float]:
+    """Misfits with the columns of two joints or motors exchanged, one of which is ``bad``, by what that says and whose
     columns those are.
     """
-    motion, tau, used, independent = _thinned(one)
-    same, robot = np.eye(len(tau)), regressors.model.robot
-    misfits, of = dict[str, float](), dict[str, str]()
-    for i, k in combinations(range(len(tau)), 2):
+    same = np.eye(len(robot.moving))
+    misfits: dict[tuple[str, str], float] = {}
+    for i, k in combinations(range(len(same)), 2):
         if (i not in bad and k not in bad) or not (given.shows(i) and given.shows(k)):
             continue
-        P = np.eye(len(tau))
+        P = same.copy()
         P[[i, k]] = P[[k, i]]
-        for whose, A, B in _mixed(robot, P, one.run.by_motors):
-            rows = np.all(used | (A == 0)[:, :, None], axis=1)
-            other = _Thinned(regressors, motion.mixed(A), tau, rows, independent)
+        for whose, A, B in _mixed(robot, P, by_motors):
+            other = given.mixed(A)
             tried = {"torques": given.misfit(B), "positions": other.misfit(same), "columns": other.misfit(B)}
             for name, misfit in tried.items():
-                what = f"the {name} of {whose} {robot.numbers[i]} and {robot.numbers[k]} look swapped"
-                misfits[what], of[what] = min(misfit, misfits.get(what, np.inf)), whose
-    return misfits, of
+                what = f"the {name} of {whose} {robot.numbers[i]} and {robot.numbers[k]} look swapped", whose
+                misfits[what] = min(misfit, misfits.get(what, np.inf))
+    return misfits
 
 
 def _in_other_units(given: _Thinned, robot: Robot, by_motors: bool) -> dict[str, float]:
@@ -331,12 +326,20 @@ class _Thinned:
     def __init__(
         self, regressors: Regressors, motion: Motion, tau: Array, used: NDArray[np.bool_], independent: float
     ) -> None:
+        self._regressors, self._motion, self._independent = regressors, motion, independent
         self._names, self._structure = regressors.names, regressors.structure
         self._rows, self._tau, self._used = independent * used.sum(axis=1), tau, used
         self._factors = [
             triangular(np.concatenate([W[:, rows], tau[:, rows]]).T)
             for W, rows in zip(regressors.base(motion), used, strict=True)
         ]
+
+    def mixed(self, mix: Array) -> _Thinned:
+        """The same rows where the joints' motion is ``mix`` (n x n) times the given one, of joints all of whose given
+        ones count.
+        """
+        used = np.all(self._used | (mix == 0)[:, :, None], axis=1)
+        return _Thinned(self._regressors, self._motion.mixed(mix), self._tau, used, self._independent)
 
     def shows(self, k: int, fewest: int = _FEWEST) -> bool:
         """Whether joint k has rows enough to doubt its columns."""

@@ -16,6 +16,7 @@ from typing import NoReturn
 import numpy as np
 
 from generator.errors import InputError, Place
+from generator.robot.readers import undecodable
 from identification.arrays import Array
 from identification.recording import Recording, digest, left_out
 from identification.text_form import Form, decimal_mark, encoding_of, form, other_marks, split
@@ -115,14 +116,11 @@ def _of_words(form: Form, rows: int) -> list[str]:
 
 
 def _undecodable(file: str, path: Path) -> InputError:
-    """That a text holds what is none, with its place."""
-    content, encoding = path.read_bytes(), encoding_of(path)
+    """That a file holds what is no text: a stream tells the place in a part of it alone."""
     try:
-        content.decode(encoding)
+        path.read_bytes().decode(encoding_of(path))
     except UnicodeDecodeError as error:
-        before = content[: error.start].decode(encoding, "ignore")
-        place = Place(file, 1 + before.count("\n"), len(before) - before.rfind("\n"))
-        return InputError(place, f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()}", _HEADER)
+        return undecodable(file, error, _HEADER)
     return InputError(Place(file), "this is not a text in UTF-8", _HEADER)
 
 

@@ -57,10 +57,15 @@ def text_of(path: Path, file: str, expected: str = "a robot file") -> str:
     try:
         return with_single_ends(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        before = with_single_ends(error.object[: error.start].decode())
-        place = Place(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
-        problem = f"byte 0x{error.object[error.start]:02x} is not UTF-8"
-        raise InputError(place, problem, "a text file in UTF-8") from None
+        raise undecodable(file, error, "a text file in UTF-8") from None
+
+
+def undecodable(file: str, error: UnicodeDecodeError, expected: str) -> InputError:
+    """That a file holds a byte of no text, with its place, by the ``error`` of decoding all that it holds."""
+    before = with_single_ends(error.object[: error.start].decode(error.encoding, "ignore"))
+    place = Place(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
+    problem = f"byte 0x{error.object[error.start]:02x} is not {error.encoding.upper()}"
+    return InputError(place, problem, expected)
 
 
 def _check_file(path: Path, file: str, expected: str) -> None:
