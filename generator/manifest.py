@@ -66,14 +66,13 @@ def _parameters(parameters: Iterable[Parameter]) -> list[dict[str, Any]]:
 
 
 def _function(function: Function) -> dict[str, Any]:
-    parameter_only = [node for node in function.nodes if node.parameter_only]
     return {
         "summary": function.summary,
         "inputs": [_signal(signal) for signal in function.inputs],
         "outputs": [_signal(output.signal) for output in function.outputs],
         "uses_parameters": function.uses_parameters,
         "operations": function.count.as_dict(),
-        "prepare_operations": function.program.count(parameter_only).as_dict(),
+        "prepare_operations": function.prepare_count.as_dict(),
     }
 
 

@@ -23,7 +23,7 @@ from generator.symbolic.parameter_sets import parameter_vector
 #: States per function.
 _STATES = 3
 #: Relative to an output's largest entry; a direct model loses what its inertia matrix's condition costs.
-_TOLERANCE, _DIRECT_TOLERANCE = 1e-11, 1e-8
+_TOLERANCE, _SOLVED_TOLERANCE = 1e-11, 1e-8
 _PACKED = "_packed"
 _NOTHING = 1e-25
 
@@ -64,7 +64,7 @@ def cases(model: Model) -> tuple[Case, ...]:
             continue
         for state in range(_STATES):
             inputs = {s.name: _input(s, state, positions[state], standard) for s in function.inputs}
-            tolerance = _DIRECT_TOLERANCE if "direct" in function.name else _TOLERANCE
+            tolerance = _SOLVED_TOLERANCE if function.solves else _TOLERANCE
             outputs = _outputs(model, reference, function, inputs | _of_known(inputs, states))
             result.append(Case(function.name, parameters, inputs, outputs, tolerance))
     return tuple(result)

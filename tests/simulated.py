@@ -192,7 +192,7 @@ class Simulation:
             setattr(wanted, name, self._pointer(value))
         logs = {"q": self.size, "qd": self.size, "tau": self.n}
         written = {name: np.full((rows + 1, size), np.nan, self.real) for name, size in logs.items()}
-        target = self._new("log *")
+        target = self._new("run_log *")
         for name, value in written.items() if log else ():
             setattr(target, name, self._pointer(value))
         memory = self._new("controller_state *")

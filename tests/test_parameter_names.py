@@ -12,6 +12,7 @@ from generator.backends.printing.c_names import taken
 from generator.derivation import derive
 from generator.generation import generate
 from generator.python_library import build_library, load_library
+from generator.resources import find_robot
 from generator.robot.readers import read
 
 ARM = """\
@@ -91,6 +92,12 @@ def test_names_taken_by_the_c_sources_are_all_that_they_define(tmp_path: Path) -
     constants = {f"R2_{prefix}{one.name}" for one in model.parameters for prefix in ("", "STD_")}
     constants |= {f"R2_STD_{one.name}" for one in model.standard_parameters}
     assert set(re.findall(r"\bR2_\w+", code)) - constants <= set(taken(model))
+
+
+def test_no_type_is_called_like_a_function_of_the_mathematics() -> None:
+    """Of a gas balancer, which takes logarithms: all sources in one translation unit."""
+    names = list(taken(derive(read(find_robot("kr500")), names=())))
+    assert len(names) == len(set(names))
 
 
 def test_what_an_older_generation_had_and_a_new_one_has_not_is_gone(tmp_path: Path) -> None:

@@ -317,7 +317,7 @@ static size_t go(const @_real *width, @_method method)
     @_real zero[#N_FLEXIBLE_SIZE] = { 0 };
     @_integration how = { method, 2, width };
     @_reference wanted = { 60, NULL, NULL, NULL, NULL };
-    @_log log;
+    @_run_log log;
     @_real *reference = calloc(60 * #N_NQ, sizeof(@_real));
     size_t done;
     log.q = calloc(60 * #N_FLEXIBLE_SIZE, sizeof(@_real));

@@ -18,6 +18,7 @@ from generator.backends.printing.straight_line import Block
 from generator.backends.printing.templates import render
 from generator.robot.parameters import Parameter
 from generator.selftest import Case, cases
+from generator.symbolic.counts import HEADS
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved_sets
 from generator.symbolic.statements import Node
@@ -51,6 +52,7 @@ class Packed:
     """The places of a packed output's entries in the matrix of ``shape``, as lines of tables."""
 
     function: str
+    constant: str
     size: int
     shape: tuple[int, int]
     rows: tuple[str, ...]
@@ -87,9 +89,10 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "prepared": prepared,
         "operations": _table(functions, prepared),
         "functions": functions,
-        "packed": [_packed(function) for function in functions if function.source.sparsity],
+        "packed": [_packed(function, macro) for function in functions if function.source.sparsity],
         "sets": _values(model, constants),
         "uses_angles": angles,
+        "quotients": paragraph(_quotients(model), LINE - 3),
     }
     used = moving | _operations([prepared.nodes]) | ({"sin", "cos"} if angles else set())
     source = {
@@ -98,6 +101,7 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "uses_sign": "sign" in used,
         "uses_directed": "directed" in used,
         "block": BLOCK,
+        "ways": _ways(model),
     }
     return {
         f"{prefix}.h": render("c/header.h.jinja", **context),
@@ -111,7 +115,7 @@ def _table(functions: Sequence[CFunction], prepared: Prepared) -> list[str]:
     """Operation counts per call, and those of the prepare function, as lines."""
     counts = {function.name: function.source.count for function in functions} | {"prepare (once)": prepared.count}
     width = max(map(len, counts))
-    rows: list[tuple[str, ...]] = [("", "mul", "add", "div", "sin/cos", "other")]
+    rows: list[tuple[str, ...]] = [("", *HEADS)]
     rows += [(name, *(str(number) for number in count.as_dict().values())) for name, count in counts.items()]
     return ["".join([row[0].ljust(width), *(cell.rjust(9) for cell in row[1:])]) for row in rows]
 
@@ -151,8 +155,28 @@ def _values(model: Model, constants: Sequence[Constant]) -> list[Values]:
     return result
 
 
-def _packed(function: CFunction) -> Packed:
+def _packed(function: CFunction, macro: str) -> Packed:
     sparsity = function.source.sparsity
     assert sparsity is not None
     rows, columns = (tuple(listed(map(str, places), LINE - 8)) for places in (sparsity.rows, sparsity.columns))
-    return Packed(function.name, len(sparsity.rows), sparsity.shape, rows, columns)
+    constant = f"{macro}_{function.name.upper()}_SIZE"
+    return Packed(function.name, constant, len(sparsity.rows), sparsity.shape, rows, columns)
+
+
+def _quotients(model: Model) -> str:
+    """Which functions have no result where parameters make a divisor 0; nothing where none divides by them alone."""
+    divided = [function.name for function in model.functions.values() if function.quotients]
+    if not divided:
+        return ""
+    names = ", ".join(f"{model.robot.name}_{name}()" for name in divided)
+    return (
+        "Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no inertias: "
+        f"with that one {names} {'have' if len(divided) > 1 else 'has'} no result; the others do not read them."
+    )
+
+
+def _ways(model: Model) -> list[str]:
+    """How the equations of the bodies are written, a kind in a line or more."""
+    choices = model.strategies.choices or {}
+    told = (f"{kind}: {choice.way}" for kind, choice in choices.items())
+    return [line for text in told for line in paragraph(text, LINE - 5, hanging=4)]

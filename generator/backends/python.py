@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED, Identifiers
 from generator.backends.printing.language import LINE
-from generator.backends.printing.many_samples import of_many_samples
+from generator.backends.printing.many_samples import DYNAMICS, REGRESSOR, of_many_samples
 from generator.backends.printing.observation import layout
 from generator.backends.printing.plants import plants
 from generator.backends.printing.prepared import prepare
 from generator.backends.printing.python_functions import module_constants
-from generator.backends.printing.signals import described, listed, paragraph
+from generator.backends.printing.signals import documented, listed
 from generator.backends.printing.templates import render
 from generator.symbolic.function import Function, Signal
 from generator.symbolic.model import Model
@@ -42,9 +42,9 @@ class Method:
 
 def emit(model: Model) -> dict[str, str | bytes]:
     """The module, by its path; nothing for a model without the functions that the batch functions are made of."""
-    if not {"inverse_dynamics", "regressor_packed"} <= model.functions.keys():
+    if not {DYNAMICS, REGRESSOR} <= model.functions.keys():
         return {}
-    structure = model.functions["regressor_packed"].sparsity
+    structure = model.functions[REGRESSOR].sparsity
     assert structure is not None
     context = {
         "version": VERSION,
@@ -65,16 +65,5 @@ def _method(function: Function) -> Method:
     names = Identifiers(_RESERVED)
     inputs = tuple(Argument(names.claim(signal.name), signal) for signal in function.inputs)
     outputs = tuple(Argument(names.claim(output.signal.name), output.signal) for output in function.outputs)
-    return Method(function.name, _documentation(function, inputs, outputs), inputs, outputs)
-
-
-def _documentation(function: Function, inputs: tuple[Argument, ...], outputs: tuple[Argument, ...]) -> tuple[str, ...]:
-    lines = [*paragraph(function.summary, LINE - 12), ""]
-    if function.details:
-        lines += [*paragraph(function.details, LINE - 12), ""]
-    for title, arguments in (("Inputs", inputs), ("Outputs", outputs)):
-        lines.append(f"{title}:")
-        for argument in arguments:
-            text = f"{argument.name}: {described(argument.signal)}"
-            lines += [f"    {line}" for line in paragraph(text, LINE - 16, hanging=4)]
-    return tuple(lines)
+    read, made = ([(one.name, one.signal) for one in arguments] for arguments in (inputs, outputs))
+    return Method(function.name, documented(function, read, made, LINE - 12), inputs, outputs)

@@ -13,6 +13,7 @@ from typing import Any
 from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.progress import stage
 from generator.resources import find_robot
+from generator.symbolic.counts import HEADS
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -78,13 +79,9 @@ def _effect(effect: dict[str, Any]) -> str:
 
 
 def _operations(functions: dict[str, Any]) -> list[str]:
-    columns = ("mul", "add", "div", "trig", "other")
     width = max(map(len, functions))
-    lines = [" ".join(["operations".ljust(width), *(column.rjust(6) for column in columns)])]
-    for name, function in functions.items():
-        counts = (str(function["operations"][column]).rjust(6) for column in columns)
-        lines.append(" ".join([name.ljust(width), *counts]))
-    return lines
+    rows = [("operations", HEADS), *((name, one["operations"].values()) for name, one in functions.items())]
+    return [" ".join([name.ljust(width), *(str(cell).rjust(7) for cell in cells)]) for name, cells in rows]
 
 
 def _files(paths: list[str]) -> str:

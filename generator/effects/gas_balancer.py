@@ -37,12 +37,7 @@ def _positive(at: Site) -> tuple[Positive, ...]:
 
 
 def _observables(at: Site) -> Mapping[str, tuple[sympy.Expr, str, str]]:
-    force = sympy.Symbol("F0", real=True) * _force(at)
-    return {
-        "length": (crank.length(at), "m", "distance r24 between the balancer's pivots"),
-        "force": (force, "N", "force F1 with which the balancer pulls its pivots together"),
-        "torque": (force * crank.lever_arm(at), "N m", "torque of the balancer in the inverse dynamic model"),
-    }
+    return crank.observables(at, sympy.Symbol("F0", real=True) * _force(at))
 
 
 EFFECT = Effect(

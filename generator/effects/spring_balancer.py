@@ -20,15 +20,9 @@ def _columns(at: Site) -> tuple[Column, ...]:
 
 
 def _observables(at: Site) -> Mapping[str, tuple[sympy.Expr, str, str]]:
-    length = crank.length(at)
-    per_kr, per_k0 = linear_spring.force_columns(length)
+    per_kr, per_k0 = linear_spring.force_columns(crank.length(at))
     kr, k0 = sympy.symbols("Kr K0", real=True)
-    force = kr * per_kr + k0 * per_k0
-    return {
-        "length": (length, "m", "distance r24 between the balancer's pivots"),
-        "force": (force, "N", "force F1 with which the balancer pulls its pivots together"),
-        "torque": (force * crank.lever_arm(at), "N m", "torque of the balancer in the inverse dynamic model"),
-    }
+    return crank.observables(at, kr * per_kr + k0 * per_k0)
 
 
 EFFECT = Effect(

@@ -6,7 +6,7 @@ parameters; e is quadratic in V (Gautier and Khalil 1990).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from generator.grouping.linear_algebra import Matrix, Vector
 from generator.grouping.scalars import Numbers, Scalar, fixed_angle, fixed_shift
@@ -137,8 +137,8 @@ def _cross(a: Vector, b: Vector) -> Vector:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def _sum(numbers: Numbers, terms: object) -> Scalar:
+def _sum(numbers: Numbers, terms: Iterable[Scalar]) -> Scalar:
     total = numbers.zero
-    for term in terms:  # type: ignore[attr-defined]
+    for term in terms:
         total = total + term
     return total

@@ -10,4 +10,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q, signals.qd, signals.tau),
     outputs=signals.together(signals.qdd),
     build=lambda model: (model.base.direct_dynamics(model.tau),),
+    solves=True,
 )

@@ -11,4 +11,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q, signals.qd, signals.tau, signals.wrench, signals.payload),
     outputs=signals.together(signals.qdd),
     build=lambda model: (model.loaded.direct_dynamics(model.tau, tool_wrench(model)),),
+    solves=True,
 )

@@ -19,4 +19,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q, signals.qd, signals.tau, signals.direction),
     outputs=signals.together(signals.qdd),
     build=_build,
+    solves=True,
 )

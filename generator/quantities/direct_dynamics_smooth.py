@@ -20,4 +20,5 @@ QUANTITY = Quantity(
     inputs=signals.together(signals.q, signals.qd, signals.tau, signals.width),
     outputs=signals.together(signals.qdd),
     build=_build,
+    solves=True,
 )

@@ -11,4 +11,5 @@ QUANTITY = Quantity(
     outputs=signals.together(signals.flexible_qdd),
     build=lambda model: (model.flexible.direct_dynamics(model.tau),),
     applies=lambda model: bool(model.elastic),
+    solves=True,
 )

@@ -22,4 +22,5 @@ QUANTITY = Quantity(
     outputs=signals.together(signals.flexible_qdd),
     build=_build,
     applies=lambda model: bool(model.elastic),
+    solves=True,
 )

@@ -32,8 +32,8 @@ class Quantity:
     ``inputs`` and ``outputs`` are signals of a model (their shapes depend on the robot); what effects read beside the
     motion (their states, warmth) follows the inputs where the outputs depend on it. ``build`` returns the output
     arrays, one per output signal, of nodes. ``applies`` tells for which models it exists. ``sparsity`` gives the
-    structure of a packed output, ``caveat`` what its user must know of it on a robot, ``absence`` why a robot that
-    might have it has it not.
+    structure of a packed output; ``solves`` tells whether equations are solved, whose condition magnifies rounding.
+    ``caveat`` is what its user must know of it on a robot, ``absence`` why a robot that might have it has it not.
     """
 
     name: str
@@ -44,6 +44,7 @@ class Quantity:
     build: Callable[[Model], Sequence[Any]]
     applies: Callable[[Model], bool] = always
     sparsity: Callable[[Model], Sparsity] | None = None
+    solves: bool = False
     caveat: Callable[[Model], str] = nothing
     absence: Callable[[Model], str] = nothing
 
@@ -59,7 +60,7 @@ class Quantity:
         sparsity = self.sparsity(model) if self.sparsity else None
         inputs = (*self.inputs(model), *_further(model, self.inputs(model), outputs))
         details = " ".join(filter(None, (self.details, self.caveat(model))))
-        return Function(self.name, self.summary, details, inputs, tuple(outputs), model.program, sparsity)
+        return Function(self.name, self.summary, details, inputs, tuple(outputs), model.program, sparsity, self.solves)
 
 
 def _further(model: Model, inputs: Sequence[Signal], outputs: Sequence[Output]) -> list[Signal]:

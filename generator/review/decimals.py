@@ -5,10 +5,6 @@ from __future__ import annotations
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 
-import sympy
-
-from generator.constants import exact_constant
-
 #: Digits that keep products of two lengths given to the millimetre exact in print.
 DIGITS = 7
 
@@ -36,11 +32,6 @@ def scientific(value: float, digits: int = 4) -> str:
         return _positional(exact)
     mantissa = exact.scaleb(-exponent)
     return f"{_positional(mantissa)}e{exponent}"
-
-
-def constant(expression: sympy.Expr) -> Fraction:
-    """The exact value of a constant expression (an irrational one to sixty digits)."""
-    return exact_constant(expression)
 
 
 def terminates(value: Fraction) -> bool:

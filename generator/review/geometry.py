@@ -7,7 +7,8 @@ from fractions import Fraction
 
 import sympy
 
-from generator.review.decimals import constant, decimal
+from generator.constants import exact_constant
+from generator.review.decimals import decimal
 from generator.review.formula import Formula, formula
 from generator.robot.description import PRISMATIC, Joint, Length, Robot
 
@@ -46,9 +47,9 @@ def limits(joint: Joint) -> str:
 
 def length_value(length: Length) -> str:
     """The value of a length with its unit."""
-    return f"{decimal(constant(length.value))} {length.unit}"
+    return f"{decimal(exact_constant(length.value))} {length.unit}"
 
 
 def _end(value: sympy.Expr, joint: Joint) -> str:
-    exact: Fraction = constant(value if joint.sigma == PRISMATIC else value * 180 / sympy.pi)
+    exact: Fraction = exact_constant(value if joint.sigma == PRISMATIC else value * 180 / sympy.pi)
     return decimal(exact, 5)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sympy
 
+from generator.constants import exact_constant
 from generator.effects.library import Instance
-from generator.review.decimals import constant, decimal, rounded
+from generator.review.decimals import decimal, rounded
 from generator.review.words import on_joints, ranges
 from generator.robot.description import Robot
 from generator.robot.signal_units import signal_unit
@@ -115,4 +116,4 @@ def _with_unit(text: str, symbol: str) -> str:
 
 def number(value: sympy.Expr) -> str:
     """A constant expression in decimal notation."""
-    return decimal(constant(value))
+    return decimal(exact_constant(value))

@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass
 
 _KINDS = {"mul": "mul", "add": "add", "sub": "add", "div": "div", "sin": "trig", "cos": "trig"}
 _FREE = ("constant", "input", "neg")
+#: What the kinds of operation are called, in the order of ``Count.as_dict``.
+HEADS = ("mul", "add", "div", "sin/cos", "other")
 
 
 @dataclass(frozen=True)

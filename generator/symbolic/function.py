@@ -50,7 +50,8 @@ class Function:
     """A quantity of one robot, ready to print.
 
     ``inputs`` are the signals read per call, in call order; the parameters are not among them. ``uses_parameters``
-    tells whether any output depends on the parameters. ``sparsity`` belongs to a packed output.
+    tells whether any output depends on the parameters. ``sparsity`` belongs to a packed output; ``solves``
+    tells whether equations are solved, whose condition magnifies rounding.
     """
 
     name: str
@@ -60,6 +61,7 @@ class Function:
     outputs: tuple[Output, ...]
     program: Program
     sparsity: Sparsity | None = None
+    solves: bool = False
 
     @cached_property
     def roots(self) -> tuple[Node, ...]:
@@ -104,3 +106,13 @@ class Function:
     def count(self) -> Count:
         """Operations per call, parameter-only work left out."""
         return self.program.count(self.moving)
+
+    @cached_property
+    def prepare_count(self) -> Count:
+        """Operations of the parameter-only work, done once."""
+        return self.program.count(node for node in self.nodes if node.parameter_only)
+
+    @property
+    def quotients(self) -> list[Node]:
+        """Those of the ``prepared`` nodes that divide by parameters: infinite where these make a divisor 0."""
+        return [node for node in self.prepared if node.operation == "div"]

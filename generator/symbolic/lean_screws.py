@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from generator.symbolic.frames import Chain
+from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.segments import Spun, segments
+from generator.symbolic.statements import Program
 from generator.symbolic.vectors import Array, array, cross, zeros
 
 #: Screws by frame number and coordinate.
@@ -27,9 +28,7 @@ def screws_beside(chain: Chain, positions: Mapping[int, Array]) -> Mapping[int, 
 
     Of joints with parallel axes in a row, the last has its screw and the others stand beside it.
     """
-    program = chain.program
     spun = segments(chain)
-    z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
     in_unspun: dict[int, dict[int, Screw | Beside]] = {}
     own: dict[int, dict[int, Screw | Beside]] = {}
     for frame in chain.frames:
@@ -37,20 +36,35 @@ def screws_beside(chain: Chain, positions: Mapping[int, Array]) -> Mapping[int, 
         mine: dict[int, Screw | Beside] = {}
         if frame.parent is not None:
             k, last = frame.parent.number, frame.parent.coordinate
-            arm = spun[k].to_unspun(positions[j]) if link.continues else positions[j]
+            arm = _arm(spun[k], positions[j], link)
             for coordinate, screw in (in_unspun if link.continues else own)[k].items():
                 if isinstance(screw, Screw):
-                    v = screw.v + cross(screw.w, arm)
-                    mine[coordinate] = Screw(link.entry.T @ screw.w, link.entry.T @ v)
+                    mine[coordinate] = _carried(screw, arm, link)
                 else:
                     mine[coordinate] = Beside(screw.coordinate, link.entry.T @ screw.v)
             if link.continues and last is not None and frame.coordinate is not None:
                 mine = _based_on(frame.coordinate, last, mine)
         if frame.coordinate is not None:
-            mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
+            mine[frame.coordinate] = _own(frame, chain.program)
         in_unspun[j] = mine
         own[j] = {c: _turned(screw, link) for c, screw in mine.items()}
     return own
+
+
+def _own(frame: Frame, program: Program) -> Screw:
+    """The screw of a frame's own joint, in its axes."""
+    z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
+    return Screw(z, nothing) if frame.revolute else Screw(nothing, z)
+
+
+def _arm(antecedent: Spun, position: Array, link: Spun) -> Array:
+    """A frame's origin in the axes of its antecedent from which ``link`` leads on: the unspun ones in a row."""
+    return antecedent.to_unspun(position) if link.continues else position
+
+
+def _carried(screw: Screw, arm: Array, link: Spun) -> Screw:
+    """A screw of the antecedent at the origin of the next frame, in that one's unspun axes."""
+    return Screw(link.entry.T @ screw.w, link.entry.T @ (screw.v + cross(screw.w, arm)))
 
 
 def _based_on(coordinate: int, last: int, mine: Mapping[int, Screw | Beside]) -> dict[int, Screw | Beside]:
@@ -72,8 +86,6 @@ def _turned(screw: Screw | Beside, link: Spun) -> Screw | Beside:
 
 def screws(chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array]) -> tuple[Screws, Screws]:
     """The screws in own and in unspun axes, for origins at ``positions`` in their antecedents."""
-    program = chain.program
-    z, nothing = array(program, [0, 0, 1]), zeros(program, 3)
     in_unspun: dict[int, dict[int, Screw]] = {}
     own: dict[int, dict[int, Screw]] = {}
     for frame in chain.frames:
@@ -81,12 +93,11 @@ def screws(chain: Chain, spun: Mapping[int, Spun], positions: Mapping[int, Array
         mine: dict[int, Screw] = {}
         if frame.parent is not None:
             k = frame.parent.number
-            arm = spun[k].to_unspun(positions[j]) if link.continues else positions[j]
+            arm = _arm(spun[k], positions[j], link)
             for coordinate, screw in (in_unspun if link.continues else own)[k].items():
-                v = screw.v + cross(screw.w, arm)
-                mine[coordinate] = Screw(link.entry.T @ screw.w, link.entry.T @ v)
+                mine[coordinate] = _carried(screw, arm, link)
         if frame.coordinate is not None:
-            mine[frame.coordinate] = Screw(z, nothing) if frame.revolute else Screw(nothing, z)
+            mine[frame.coordinate] = _own(frame, chain.program)
         in_unspun[j] = mine
         own[j] = {c: Screw(link.to_own(screw.w), link.to_own(screw.v)) for c, screw in mine.items()}
     return own, in_unspun

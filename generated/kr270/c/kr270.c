@@ -7,6 +7,16 @@
  * U = skew(WP) + skew(W)^2, VP acceleration of the origin (gravity included), F and N force and moment that move a
  * body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and first moment; u marks
  * axes that do not spin with the joint, a trailing n the negative.
+ *
+ * Equations of the bodies, as they were chosen for this chain; a unit of length other than the metre is that of VP, F
+ * and MS as well, and leaves S and torques as they are:
+ *   torques: segments of parallel axes, pseudo-inertias, bodies 2, 6 in axes that do not spin,
+ *       frames 6 slid along their axes, a mass kept at O4 against a first moment, lengths in units
+ *       of 1.1 m
+ *   gravity: first moments of composite bodies, as weights
+ *   inertia matrix: composite bodies on segments, wrenches meet screws at frame 3, frames 1, 4, 6
+ *       slid along their axes, lengths in units of 1.1 m
+ *   regressor: wrenches on screws, parallel ones by their difference, behind frame 5 at that frame
  */
 #include "kr270.h"
 
@@ -8100,9 +8110,10 @@ void kr270_wrench_torque(
     tau[5] = wrench[5];
 }
 
-void kr270_regressor_packed_sparsity(int row[165], int column[165])
+void kr270_regressor_packed_sparsity(
+    int row[KR270_REGRESSOR_PACKED_SIZE], int column[KR270_REGRESSOR_PACKED_SIZE])
 {
-    static const int rows[165] = {
+    static const int rows[KR270_REGRESSOR_PACKED_SIZE] = {
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
         0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
         1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
@@ -8110,7 +8121,7 @@ void kr270_regressor_packed_sparsity(int row[165], int column[165])
         3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5,
         5, 5, 5, 5, 5, 5, 5, 5, 5, 5,
     };
-    static const int columns[165] = {
+    static const int columns[KR270_REGRESSOR_PACKED_SIZE] = {
         0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 16, 17, 18, 19, 20, 21, 22, 27, 28, 29, 30, 31, 32, 33,
         38, 39, 40, 41, 42, 43, 44, 49, 50, 51, 52, 53, 54, 55, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
         14, 15, 16, 17, 18, 19, 20, 21, 22, 27, 28, 29, 30, 31, 32, 33, 38, 39, 40, 41, 42, 43, 44,
@@ -8120,15 +8131,16 @@ void kr270_regressor_packed_sparsity(int row[165], int column[165])
         43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58,
         59,
     };
-    for (int i = 0; i < 165; ++i) {
+    for (int i = 0; i < KR270_REGRESSOR_PACKED_SIZE; ++i) {
         row[i] = rows[i];
         column[i] = columns[i];
     }
 }
 
-void kr270_regressor_standard_packed_sparsity(int row[216], int column[216])
+void kr270_regressor_standard_packed_sparsity(
+    int row[KR270_REGRESSOR_STANDARD_PACKED_SIZE], int column[KR270_REGRESSOR_STANDARD_PACKED_SIZE])
 {
-    static const int rows[216] = {
+    static const int rows[KR270_REGRESSOR_STANDARD_PACKED_SIZE] = {
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1,
         1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
@@ -8137,7 +8149,7 @@ void kr270_regressor_standard_packed_sparsity(int row[216], int column[216])
         3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4,
         4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5,
     };
-    static const int columns[216] = {
+    static const int columns[KR270_REGRESSOR_STANDARD_PACKED_SIZE] = {
         5, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 30, 31, 32, 33, 34, 35, 36, 37,
         38, 39, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 72,
         73, 74, 75, 76, 77, 78, 79, 80, 81, 14, 15, 16, 17, 18, 19, 20, 21, 24, 25, 26, 27, 28, 29,
@@ -8149,7 +8161,7 @@ void kr270_regressor_standard_packed_sparsity(int row[216], int column[216])
         60, 61, 62, 63, 64, 65, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 72, 73, 74,
         75, 76, 77, 78, 79, 82, 83, 84, 85,
     };
-    for (int i = 0; i < 216; ++i) {
+    for (int i = 0; i < KR270_REGRESSOR_STANDARD_PACKED_SIZE; ++i) {
         row[i] = rows[i];
         column[i] = columns[i];
     }

@@ -121,6 +121,12 @@ typedef double kr270_real;
 /** Number of base parameters, the first of the parameters. */
 #define KR270_NBASE 60
 
+/** Number of entries that kr270_regressor_packed() computes. */
+#define KR270_REGRESSOR_PACKED_SIZE 165
+
+/** Number of entries that kr270_regressor_standard_packed() computes. */
+#define KR270_REGRESSOR_STANDARD_PACKED_SIZE 216
+
 /** The parameters: places in kr270_params. */
 enum {
     KR270_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
@@ -528,7 +534,15 @@ KR270_STATIC_ASSERT(
 KR270_STATIC_ASSERT(
     kr270_prepared_has_no_padding, sizeof(kr270_prepared) == sizeof(kr270_real[185]));
 
-/** Computes *prepared from *params; again after a parameter has changed. */
+/**
+ * Computes *prepared from *params; again after a parameter has changed.
+ *
+ * Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no
+ * inertias: with that one kr270_direct_dynamics(), kr270_direct_dynamics_sliding(),
+ * kr270_direct_dynamics_smooth(), kr270_flexible_direct_dynamics(),
+ * kr270_flexible_direct_dynamics_sliding(), kr270_flexible_direct_dynamics_smooth() have no result;
+ * the others do not read them.
+ */
 void kr270_prepare(const kr270_params *params, kr270_prepared *prepared);
 
 /**
@@ -1122,12 +1136,14 @@ void kr270_wrench_torque(
 /**
  * Row and column, in a matrix of 6 x 60, of each entry that kr270_regressor_packed() computes.
  */
-void kr270_regressor_packed_sparsity(int row[165], int column[165]);
+void kr270_regressor_packed_sparsity(
+    int row[KR270_REGRESSOR_PACKED_SIZE], int column[KR270_REGRESSOR_PACKED_SIZE]);
 
 /**
  * Row and column, in a matrix of 6 x 86, of each entry that kr270_regressor_standard_packed() computes.
  */
-void kr270_regressor_standard_packed_sparsity(int row[216], int column[216]);
+void kr270_regressor_standard_packed_sparsity(
+    int row[KR270_REGRESSOR_STANDARD_PACKED_SIZE], int column[KR270_REGRESSOR_STANDARD_PACKED_SIZE]);
 
 #ifdef __cplusplus
 }

@@ -646,7 +646,7 @@ void kr270_rigid_advance(
 size_t kr270_rigid_simulate(
     const kr270_prepared *prepared, const kr270_controller *controller, const kr270_integration *integration,
     const kr270_reference *reference, kr270_controller_state *memory, kr270_rigid_state *state,
-    const kr270_log *log)
+    const kr270_run_log *log)
 {
     size_t sample = 0;
     int finite = 1;
@@ -1273,7 +1273,7 @@ void kr270_flexible_advance(
 size_t kr270_flexible_simulate(
     const kr270_prepared *prepared, const kr270_controller *controller, const kr270_integration *integration,
     const kr270_reference *reference, kr270_controller_state *memory, kr270_flexible_state *state,
-    const kr270_log *log)
+    const kr270_run_log *log)
 {
     size_t sample = 0;
     int finite = 1;

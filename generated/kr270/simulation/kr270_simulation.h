@@ -116,11 +116,11 @@ typedef struct kr270_reference {
 } kr270_reference;
 
 /** Where a run is written, row k at the instant of sample k, with what acts from then on; any may be NULL. */
-typedef struct kr270_log {
+typedef struct kr270_run_log {
     kr270_real *q; /**< (samples x size of the plant) [rad, m] */
     kr270_real *qd; /**< (samples x size of the plant) [rad/s, m/s] */
     kr270_real *tau; /**< (samples x KR270_NQ) [N m, N] motor torques, on the joint side, after the cut */
-} kr270_log;
+} kr270_run_log;
 
 /**
  * One sample of the controller.
@@ -182,7 +182,7 @@ void kr270_rigid_advance(
 size_t kr270_rigid_simulate(
     const kr270_prepared *prepared, const kr270_controller *controller, const kr270_integration *integration,
     const kr270_reference *reference, kr270_controller_state *memory, kr270_rigid_state *state,
-    const kr270_log *log);
+    const kr270_run_log *log);
 
 /**
  * A state of the flexible robot; surfaces at rest that have dry friction are stuck until a torque moves them.
@@ -225,7 +225,7 @@ void kr270_flexible_advance(
 size_t kr270_flexible_simulate(
     const kr270_prepared *prepared, const kr270_controller *controller, const kr270_integration *integration,
     const kr270_reference *reference, kr270_controller_state *memory, kr270_flexible_state *state,
-    const kr270_log *log);
+    const kr270_run_log *log);
 
 #ifdef __cplusplus
 }

@@ -7,6 +7,16 @@
  * U = skew(WP) + skew(W)^2, VP acceleration of the origin (gravity included), F and N force and moment that move a
  * body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and first moment; u marks
  * axes that do not spin with the joint, a trailing n the negative.
+ *
+ * Equations of the bodies, as they were chosen for this chain; a unit of length other than the metre is that of VP, F
+ * and MS as well, and leaves S and torques as they are:
+ *   torques: segments of parallel axes, pseudo-inertias, bodies 2, 6 in axes that do not spin,
+ *       frames 6 slid along their axes, a mass kept at O4 against a first moment, lengths in units
+ *       of 1.025 m
+ *   gravity: first moments of composite bodies, as weights
+ *   inertia matrix: composite bodies on segments, wrenches meet screws at frame 3, frames 1, 4, 6
+ *       slid along their axes, lengths in units of 1.025 m
+ *   regressor: wrenches on screws, parallel ones by their difference, behind frame 5 at that frame
  */
 #include "kr500.h"
 
@@ -8207,9 +8217,10 @@ void kr500_wrench_torque(
     tau[5] = wrench[5];
 }
 
-void kr500_regressor_packed_sparsity(int row[164], int column[164])
+void kr500_regressor_packed_sparsity(
+    int row[KR500_REGRESSOR_PACKED_SIZE], int column[KR500_REGRESSOR_PACKED_SIZE])
 {
-    static const int rows[164] = {
+    static const int rows[KR500_REGRESSOR_PACKED_SIZE] = {
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
         0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
         1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
@@ -8217,7 +8228,7 @@ void kr500_regressor_packed_sparsity(int row[164], int column[164])
         3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5,
         5, 5, 5, 5, 5, 5, 5, 5, 5,
     };
-    static const int columns[164] = {
+    static const int columns[KR500_REGRESSOR_PACKED_SIZE] = {
         0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 15, 16, 17, 18, 19, 20, 21, 26, 27, 28, 29, 30, 31, 32,
         37, 38, 39, 40, 41, 42, 43, 48, 49, 50, 51, 52, 53, 54, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
         14, 15, 16, 17, 18, 19, 20, 21, 26, 27, 28, 29, 30, 31, 32, 37, 38, 39, 40, 41, 42, 43, 48,
@@ -8226,15 +8237,16 @@ void kr500_regressor_packed_sparsity(int row[164], int column[164])
         34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 48, 49, 50, 51, 52, 53, 54, 37, 38, 39, 40, 41, 42,
         43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58,
     };
-    for (int i = 0; i < 164; ++i) {
+    for (int i = 0; i < KR500_REGRESSOR_PACKED_SIZE; ++i) {
         row[i] = rows[i];
         column[i] = columns[i];
     }
 }
 
-void kr500_regressor_standard_packed_sparsity(int row[215], int column[215])
+void kr500_regressor_standard_packed_sparsity(
+    int row[KR500_REGRESSOR_STANDARD_PACKED_SIZE], int column[KR500_REGRESSOR_STANDARD_PACKED_SIZE])
 {
-    static const int rows[215] = {
+    static const int rows[KR500_REGRESSOR_STANDARD_PACKED_SIZE] = {
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1,
         1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
@@ -8243,7 +8255,7 @@ void kr500_regressor_standard_packed_sparsity(int row[215], int column[215])
         3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4,
         4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5,
     };
-    static const int columns[215] = {
+    static const int columns[KR500_REGRESSOR_STANDARD_PACKED_SIZE] = {
         5, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 29, 30, 31, 32, 33, 34, 35, 36,
         37, 38, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 71,
         72, 73, 74, 75, 76, 77, 78, 79, 80, 14, 15, 16, 17, 18, 19, 20, 21, 24, 25, 26, 27, 28, 29,
@@ -8255,7 +8267,7 @@ void kr500_regressor_standard_packed_sparsity(int row[215], int column[215])
         60, 61, 62, 63, 64, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 71, 72, 73, 74,
         75, 76, 77, 78, 81, 82, 83, 84,
     };
-    for (int i = 0; i < 215; ++i) {
+    for (int i = 0; i < KR500_REGRESSOR_STANDARD_PACKED_SIZE; ++i) {
         row[i] = rows[i];
         column[i] = columns[i];
     }

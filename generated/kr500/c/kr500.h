@@ -121,6 +121,12 @@ typedef double kr500_real;
 /** Number of base parameters, the first of the parameters. */
 #define KR500_NBASE 59
 
+/** Number of entries that kr500_regressor_packed() computes. */
+#define KR500_REGRESSOR_PACKED_SIZE 164
+
+/** Number of entries that kr500_regressor_standard_packed() computes. */
+#define KR500_REGRESSOR_STANDARD_PACKED_SIZE 215
+
 /** The parameters: places in kr500_params. */
 enum {
     KR500_ZZ1R = 0, /**< [kg m2] moment of inertia about z, about the frame's origin; holds Ia1 YY2 M2 YY3 M3 M4 M5 M6 */
@@ -521,7 +527,15 @@ KR500_STATIC_ASSERT(
 KR500_STATIC_ASSERT(
     kr500_prepared_has_no_padding, sizeof(kr500_prepared) == sizeof(kr500_real[180]));
 
-/** Computes *prepared from *params; again after a parameter has changed. */
+/**
+ * Computes *prepared from *params; again after a parameter has changed.
+ *
+ * Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no
+ * inertias: with that one kr500_direct_dynamics(), kr500_direct_dynamics_sliding(),
+ * kr500_direct_dynamics_smooth(), kr500_flexible_direct_dynamics(),
+ * kr500_flexible_direct_dynamics_sliding(), kr500_flexible_direct_dynamics_smooth() have no result;
+ * the others do not read them.
+ */
 void kr500_prepare(const kr500_params *params, kr500_prepared *prepared);
 
 /**
@@ -1124,12 +1138,14 @@ void kr500_wrench_torque(
 /**
  * Row and column, in a matrix of 6 x 59, of each entry that kr500_regressor_packed() computes.
  */
-void kr500_regressor_packed_sparsity(int row[164], int column[164]);
+void kr500_regressor_packed_sparsity(
+    int row[KR500_REGRESSOR_PACKED_SIZE], int column[KR500_REGRESSOR_PACKED_SIZE]);
 
 /**
  * Row and column, in a matrix of 6 x 85, of each entry that kr500_regressor_standard_packed() computes.
  */
-void kr500_regressor_standard_packed_sparsity(int row[215], int column[215]);
+void kr500_regressor_standard_packed_sparsity(
+    int row[KR500_REGRESSOR_STANDARD_PACKED_SIZE], int column[KR500_REGRESSOR_STANDARD_PACKED_SIZE]);
 
 #ifdef __cplusplus
 }

@@ -646,7 +646,7 @@ void kr500_rigid_advance(
 size_t kr500_rigid_simulate(
     const kr500_prepared *prepared, const kr500_controller *controller, const kr500_integration *integration,
     const kr500_reference *reference, kr500_controller_state *memory, kr500_rigid_state *state,
-    const kr500_log *log)
+    const kr500_run_log *log)
 {
     size_t sample = 0;
     int finite = 1;
@@ -1273,7 +1273,7 @@ void kr500_flexible_advance(
 size_t kr500_flexible_simulate(
     const kr500_prepared *prepared, const kr500_controller *controller, const kr500_integration *integration,
     const kr500_reference *reference, kr500_controller_state *memory, kr500_flexible_state *state,
-    const kr500_log *log)
+    const kr500_run_log *log)
 {
     size_t sample = 0;
     int finite = 1;

@@ -116,11 +116,11 @@ typedef struct kr500_reference {
 } kr500_reference;
 
 /** Where a run is written, row k at the instant of sample k, with what acts from then on; any may be NULL. */
-typedef struct kr500_log {
+typedef struct kr500_run_log {
     kr500_real *q; /**< (samples x size of the plant) [rad, m] */
     kr500_real *qd; /**< (samples x size of the plant) [rad/s, m/s] */
     kr500_real *tau; /**< (samples x KR500_NQ) [N m, N] motor torques, on the joint side, after the cut */
-} kr500_log;
+} kr500_run_log;
 
 /**
  * One sample of the controller.
@@ -182,7 +182,7 @@ void kr500_rigid_advance(
 size_t kr500_rigid_simulate(
     const kr500_prepared *prepared, const kr500_controller *controller, const kr500_integration *integration,
     const kr500_reference *reference, kr500_controller_state *memory, kr500_rigid_state *state,
-    const kr500_log *log);
+    const kr500_run_log *log);
 
 /**
  * A state of the flexible robot; surfaces at rest that have dry friction are stuck until a torque moves them.
@@ -225,7 +225,7 @@ void kr500_flexible_advance(
 size_t kr500_flexible_simulate(
     const kr500_prepared *prepared, const kr500_controller *controller, const kr500_integration *integration,
     const kr500_reference *reference, kr500_controller_state *memory, kr500_flexible_state *state,
-    const kr500_log *log);
+    const kr500_run_log *log);
 
 #ifdef __cplusplus
 }

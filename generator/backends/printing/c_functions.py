@@ -35,8 +35,8 @@ MATHEMATICS = {
 #: Angles whose sines and cosines one call computes side by side.
 BLOCK = 4
 _ZERO = "R(0.0)"
-#: Zeros in a row that are worth a loop.
-_RUN = 16
+#: Zeros in a row that are worth a loop, which goes over a whole number of vectors of so many.
+_RUN, _VECTOR = 16, 4
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ def _results(
         entries = enumerate(zip(output.nodes, values, strict=False))
         for is_zero, run in groupby(entries, lambda entry: entry[1][0].number == 0):
             places = [(place, value) for place, (node, value) in run if node not in written]
-            looped = len(places) // BLOCK * BLOCK if is_zero and len(places) >= _RUN else 0
+            looped = len(places) // _VECTOR * _VECTOR if is_zero and len(places) >= _RUN else 0
             if looped:
                 yield Result(argument.name, places[0][0], looped, places[0][1])
             yield from (Result(argument.name, place, 1, value) for place, value in places[looped:])

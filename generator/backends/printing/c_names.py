@@ -17,8 +17,8 @@ _WRITTEN = """
     real params prepared prepare size sign directed sines_cosines library_sines_cosines params_has_no_padding
     prepared_has_no_padding has_the_precision_of_casadi selftest batch_filter batch_inverse_dynamics filter
     filtered_count observation_gram observation_matrix_columns observation_matrix_rows observation_qr
-    observation_stride lanes bits lane_bits finite contact control controller controller_state integration log method
-    reference
+    observation_stride lanes bits lane_bits finite contact control controller controller_state integration run_log
+    method reference
 """
 #: What the type and the functions of a simulation are called, behind the robot's name and what is simulated.
 _SIMULATED = ("rigid", "flexible")
@@ -36,6 +36,7 @@ def taken(model: Model) -> Iterator[str]:
     yield from (f"{prefix.upper()}_{word}" for word in _MACROS.split())
     yield from (f"{prefix}_{word}" for word in (*_WRITTEN.split(), *MATHEMATICS, *functions))
     yield from (f"{prefix}_{name}_sparsity" for name in functions)
+    yield from (f"{prefix.upper()}_{name.upper()}_SIZE" for name in functions)
     yield from (f"{prefix}_casadi_{name}{end}" for name in functions for end in _OF_EXTERNAL)
     yield from (f"{prefix}_params_{name}" for name in model.robot.parameter_sets)
     yield from (f"{prefix}_{plant}_{word}" for plant in _SIMULATED for word in _OF_SIMULATION.split())

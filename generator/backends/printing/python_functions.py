@@ -13,7 +13,7 @@ from itertools import islice
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE, Language
 from generator.backends.printing.prepared import index, signal_of
-from generator.backends.printing.signals import described, listed, paragraph
+from generator.backends.printing.signals import documented, listed
 from generator.backends.printing.straight_line import Block, straight_line
 from generator.robot.parameters import Parameter
 from generator.symbolic.function import PARAMETERS, Function, Signal
@@ -80,9 +80,9 @@ def python_function(function: Function, model: Model, language: Language) -> Pyt
     leaves = {node: names.claim(_entry(node, model)) for node in sorted(read, key=lambda n: (signal_of(n), index(n)))}
     block = straight_line(nodes, function.roots, leaves, language, names)
     inputs = tuple(_input(signal, arguments[signal.name], leaves) for signal in signals)
-    return PythonFunction(
-        function, _documentation(function, signals), inputs, block.statements, tuple(_results(function, results, block))
-    )
+    told = [(one.name, one) for one in signals], [(output.signal.name, output.signal) for output in function.outputs]
+    documentation = documented(function, *told, LINE - 8)
+    return PythonFunction(function, documentation, inputs, block.statements, tuple(_results(function, results, block)))
 
 
 def parameter_signal(model: Model) -> Signal:
@@ -132,14 +132,3 @@ def _results(function: Function, names: Sequence[str], block: Block) -> list[Res
         Result(output.signal, name, tuple(listed(islice(entries, output.signal.size), LINE - 16)))
         for output, name in zip(function.outputs, names, strict=True)
     ]
-
-
-def _documentation(function: Function, signals: Sequence[Signal]) -> tuple[str, ...]:
-    lines = [*paragraph(function.summary, LINE - 8), ""]
-    if function.details:
-        lines += [*paragraph(function.details, LINE - 8), ""]
-    for title, described_signals in (("Inputs", signals), ("Outputs", [output.signal for output in function.outputs])):
-        lines.append(f"{title}:")
-        for signal in described_signals:
-            lines += [f"    {line}" for line in paragraph(f"{signal.name}: {described(signal)}", LINE - 12, hanging=4)]
-    return tuple(lines)

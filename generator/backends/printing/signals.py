@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 
-from generator.symbolic.function import Signal
+from generator.symbolic.function import Function, Signal
 
 #: More changes of unit than this along a signal say less than its meaning does.
 _RUNS = 4
@@ -60,3 +60,18 @@ def listed(items: Iterable[str], width: int) -> list[str]:
         else:
             lines.append(f"{item},")
     return lines
+
+
+def documented(
+    function: Function, inputs: Sequence[tuple[str, Signal]], outputs: Sequence[tuple[str, Signal]], width: int
+) -> tuple[str, ...]:
+    """What a function's docstring says, in lines of at most ``width`` columns; inputs and outputs by their names."""
+    lines = [*paragraph(function.summary, width), ""]
+    if function.details:
+        lines += [*paragraph(function.details, width), ""]
+    for title, named in (("Inputs", inputs), ("Outputs", outputs)):
+        lines.append(f"{title}:")
+        for name, signal in named:
+            text = paragraph(f"{name}: {described(signal)}", width - 4, hanging=4)
+            lines += [f"    {line}" for line in text]
+    return tuple(lines)

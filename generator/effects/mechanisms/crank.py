@@ -59,3 +59,12 @@ def lever_arm(at: Site) -> sympy.Expr:
     """d r24 / d q [m]: equal to d22 sin(psi) of report eq. 20 with the quadrant kept."""
     d21, d22, phi = (at.values[name] for name in ("d21", "d22", "phi"))
     return -d21 * d22 * sympy.sin(phi + at.q) / length(at)
+
+
+def observables(at: Site, force: sympy.Expr) -> dict[str, tuple[sympy.Expr, str, str]]:
+    """What may be told of a balancer that pulls its pivots together with ``force`` [N]: each with unit and meaning."""
+    return {
+        "length": (length(at), "m", "distance r24 between the balancer's pivots"),
+        "force": (force, "N", "force F1 with which the balancer pulls its pivots together"),
+        "torque": (force * lever_arm(at), "N m", "torque of the balancer in the inverse dynamic model"),
+    }

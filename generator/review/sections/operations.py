@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Markup, element, join, table
+from generator.symbolic.counts import HEADS
 from generator.symbolic.function import Function
 from generator.symbolic.model import Model
 
@@ -15,7 +16,7 @@ def render(model: Model) -> Markup | None:
         return None
     largest = max(function.count.total for function in model.functions.values()) or 1
     rows = [_row(function, largest) for function in model.functions.values()]
-    heads = ("function", "mul", "add", "div", "trig", "other", "mul + add + div", "prepare", "inputs")
+    heads = ("function", *HEADS, "mul + add + div", "prepare", "inputs")
     return join(
         element(
             "p",
@@ -41,13 +42,13 @@ def _strategies(model: Model) -> list[Markup]:
 
 def _row(function: Function, largest: int) -> list[Markup | str]:
     count = function.count
-    prepare = function.program.count(node for node in function.nodes if node.parameter_only)
+    prepare = function.prepare_count
     total = join(
         element("span", style=f"width:{100 * count.total / largest:.1f}%", class_="bar"),
         element("b", str(count.total)),
     )
     inputs = ", ".join(signal.name for signal in function.inputs)
     name = element("code", function.name, title=function.summary)
-    numbers = [str(n) if n else "·" for n in (count.mul, count.add, count.div, count.trig, count.other)]
+    numbers = [str(n) if n else "·" for n in count.as_dict().values()]
     work = prepare.total + prepare.trig + prepare.other
     return [name, *numbers, element("div", total, class_="barred"), str(work) if work else "·", inputs]
