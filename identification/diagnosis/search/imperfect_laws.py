@@ -16,12 +16,12 @@ _ONE_OF = ("joint_elasticity", "backlash")
 #: Laws are never exact: least part of what others that are not common (beside another value than the known one, of all)
 #: explain on the same joint, where they show over nearly the same, and where they are alike: friction of the speed, or
 #: behind the motor.
-_ELSE, _BESIDE, _ALIKE = 0.01, 0.03, 0.15
+_ELSE, BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
 _SHIFTED = 0.002
 #: The same part of what they explain anywhere: base parameters bring it to every joint; and for a delay that the rows
 #: of several motors tell alike.
-_ANYWHERE = 1e-5
+ANYWHERE = 1e-5
 #: The same part of a balancer for a second one.
 _SECOND = 0.5
 #: Variables of the speed's history.
@@ -34,24 +34,35 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
     """What the laws of ``others``, which explain ``drops`` of the sum of squares, may lack and a variant would explain;
     infinite where it cannot be beside one of them.
     """
-    least, mine = 0.0, variant.hypothesis
-    # What is common is missing likely enough; what is known may only seem to have another value.
-    if common(variant) and mine.kind != VALUE:
-        return least
     there = {each.name for one in others for each in one.coefficients}
-    if not there.issuperset(mine.beyond):
+    if not (_likely_enough(variant) or there.issuperset(variant.hypothesis.beyond)):
         return inf
-    for one, drop in zip(others, drops, strict=True):
-        theirs = one.hypothesis
-        if _exclude(mine, theirs):
-            return inf
-        if balances(mine.effect) and balances(theirs.effect):
-            least = max(least, _SECOND * drop)
-        elif not common(one) or mine.kind == VALUE:
-            part = _part(mine, theirs)
-            near = bool(set(one.coordinates) & set(variant.coordinates))
-            least = max(least, (part if near else min(part, _ANYWHERE)) * drop)
-    return least
+    return max(lacks(variant, others, drops), default=0.0)
+
+
+def lacks(variant: Variant, others: Sequence[Variant], drops: Sequence[float]) -> list[float]:
+    """The same of each of the ``others``."""
+    return [_lacks(variant, one, drop) for one, drop in zip(others, drops, strict=True)]
+
+
+def _likely_enough(variant: Variant) -> bool:
+    """Whether it is missing likely enough: what is common; what is known may only seem to have another value."""
+    return common(variant) and variant.hypothesis.kind != VALUE
+
+
+def _lacks(variant: Variant, one: Variant, drop: float) -> float:
+    mine, theirs = variant.hypothesis, one.hypothesis
+    if _likely_enough(variant):
+        return 0.0
+    if _exclude(mine, theirs):
+        return inf
+    if balances(mine.effect) and balances(theirs.effect):
+        return _SECOND * drop
+    if common(one) and mine.kind != VALUE:
+        return 0.0
+    part = _part(mine, theirs)
+    near = bool(set(one.coordinates) & set(variant.coordinates))
+    return (part if near else min(part, ANYWHERE)) * drop
 
 
 def _exclude(one: Hypothesis, other: Hypothesis) -> bool:
@@ -70,11 +81,11 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
         return _ELSE
     # The rows of several motors tell it alike: no law of one joint lacks that.
     if one.preset and len(one.joints) > 1 and other.joint != 0:
-        return _ANYWHERE
+        return ANYWHERE
     # What a delay of the whole robot explains is not of one joint.
     behind = {one.effect, other.effect} <= set(_BEHIND) and other.joint != 0
     if behind or {one.variable, other.variable} <= set(OF_SPEED):
         return _ALIKE
     if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", SINCE_REVERSAL):
         return _SHIFTED
-    return _BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE
+    return BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE

@@ -31,6 +31,7 @@ from identification.diagnosis.columns.normal_equations import (
 )
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.search import known_friction, more_friction
+from identification.diagnosis.search.beyond_laws import BeyondLaws
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.few_rows import few_rows, small
 from identification.diagnosis.search.held_out import HeldOut
@@ -236,7 +237,9 @@ class Weighing:
         share = _SHARE if common(variant) else _LIKELY_SHARE if likely(variant, others) else _RARE_SHARE
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
-        if drop < lacking(variant, others, self._drops(others)):
+        drops = self._drops(others)
+        beyond = BeyondLaws(self.bank, self.normal, self.train)
+        if drop < lacking(variant, others, drops) and not beyond.explains(variant, drop, others, drops):
             return replace(one, why_not="may be what another effect's law lacks")
         more = more_friction.adds(variant, others)
         if more and drop < more_friction.left(self.bank, self.normal, self.train, variant, others):

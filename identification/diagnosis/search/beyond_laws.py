@@ -1,0 +1,53 @@
+"""What is of no law of another effect, though that explains so much that it may lack more.
+
+A law is wrong on the joints on which it acts: elsewhere only base parameters carry what it lacks. And what it lacks has
+a form of its own: another effect that leaves nothing of it, unlike its own kind, is no part of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from identification.diagnosis.columns.bank import Bank, Variant, columns_of
+from identification.diagnosis.columns.normal_equations import Normal
+from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, lacks
+
+#: Part of what a variant explains that is elsewhere; parts of what is left of its joints, beyond noise, between which
+#: it is all of that: by more than is left much of what falls is noise.
+_MOST, _ALL, _ONCE = 0.5, 0.9, 2.0
+
+
+@dataclass(frozen=True)
+class BeyondLaws:
+    """Asks the rows of some ``runs``, by number, with their ``normal`` equations."""
+
+    bank: Bank
+    normal: Normal
+    runs: Sequence[int]
+
+    def explains(self, variant: Variant, drop: float, others: Sequence[Variant], drops: Sequence[float]) -> bool:
+        """Whether a variant that lowers the sum of squares by ``drop``, beside ``others`` of ``drops`` whose laws may
+        lack as much, explains what is no part of them.
+        """
+        each = zip(others, drops, lacks(variant, others, drops), strict=True)
+        hiding = [(one, theirs, lack) for one, theirs, lack in each if lack > drop]
+        if not hiding or any(lack > BESIDE * theirs for _, theirs, lack in hiding):
+            return False
+        before, after = self._values(others), self._values([*others, variant])
+        left = sum(self._beyond_noise(before, k) for k in variant.coordinates)
+        if _ALL * left < drop < _ONCE * left:
+            return True
+        aside = set(variant.coordinates).difference(*(one.coordinates for one, *_ in hiding))
+        fallen = sum(self._beyond_noise(before, k) - self._beyond_noise(after, k) for k in sorted(aside))
+        return fallen > max(_MOST * drop, *(ANYWHERE * theirs for _, theirs, _ in hiding))
+
+    def _values(self, chosen: Sequence[Variant]) -> dict[int, float]:
+        """Values of the base columns and of those of what is ``chosen``, by number."""
+        columns = columns_of(chosen)
+        return dict(zip([*range(self.normal.base), *columns], self.normal.solution(columns)[0].tolist(), strict=True))
+
+    def _beyond_noise(self, values: dict[int, float], k: int) -> float:
+        """The sum of squares beyond the noise's that they leave of coordinate k."""
+        square, rows = self.bank.left_over(k, values, self.runs)
+        return square - rows
