@@ -257,6 +257,15 @@ def test_a_payload_that_the_sidecars_contradict_is_refused(arm: Regressors, tmp_
     assert alone == beside
 
 
+def test_one_payload_with_two_values_is_refused(arm: Regressors, tmp_path: Path) -> None:
+    runs = [saved(tmp_path / f"{s}.csv", *currents(arm, s, s > 0), 0.02, s) for s in range(3)]
+    for path, mass in zip(runs[1:], (20, 21), strict=True):
+        Path(path).with_suffix(".yaml").write_text(f"payload: {{M: {mass} kg}}\n")
+    told = f"{runs[2]}:1:1: payload L has other values here, expected one payload of a name"
+    with pytest.raises(InputError, match=f"^{re.escape(told)}$"):
+        drive_gains(arm.model.robot, runs[:1], runs[1:], regressors=arm)
+
+
 def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:
     empty, loaded = (saved(tmp_path / f"{s}.csv", *currents(arm, s, False), 0.02, s) for s in (1, 2))
     with pytest.raises(InputError, match="no drive gain of lifter can be told: what is known of the payload shows"):
