@@ -44,8 +44,8 @@ _ASTRAY = 0.8
 _LONGEST, _ROUNDS = 0.2, 8
 #: By how much a latency may change at the end, in parts of its standard deviation or of a sample.
 _SETTLED, _SETTLED_STEP = 0.05, 1e-3
-_UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
-_STANDS = Value(None, np.inf, "s", refused="the joint stands still")
+_UNSEEN = Value.unknown("s", "the joint's speed shows nothing beside its other motion")
+_STANDS = Value.unknown("s", "the joint stands still")
 _TOO_LATE = f"no latency up to {_LONGEST:g} s settles with the torque and the motion of then"
 _NO_ROW = "no row is above the joint's standstill speed"
 
@@ -185,7 +185,7 @@ def _of_then(
         ago = late.value
         rows = _rows(runs, k, joint, standstill, ago)
         told = _told(rows, joint, viscous)
-    stiffness, late = (Value(None, np.inf, unit, refused=_TOO_LATE) for unit in (joint.stiffness_unit, "s"))
+    stiffness, late = (Value.unknown(unit, _TOO_LATE) for unit in (joint.stiffness_unit, "s"))
     return rows, (stiffness, late, told[2])
 
 
@@ -238,7 +238,7 @@ def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
 def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
     """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
     if not len(rows.twist):
-        stiffness, latency = (Value(None, np.inf, unit, refused=_NO_ROW) for unit in (joint.stiffness_unit, "s"))
+        stiffness, latency = (Value.unknown(unit, _NO_ROW) for unit in (joint.stiffness_unit, "s"))
         return stiffness, latency, Residual(0, 0.0, 0.0, 0.0)
     moved = np.column_stack([rows.own[:, 1:], rows.constants, rows.own[:, 0]])
     compliance = _last(rows.twist, moved, rows.torque)
@@ -288,19 +288,21 @@ def _stiffness(compliance: float, std: float, joint: Joint) -> Value:
     """1/compliance, refused where it is not positive or not sure."""
     unit = joint.stiffness_unit
     if not np.isfinite(std):
-        return Value(None, np.inf, unit, refused="nothing is left of the torque beside the motor's own motion")
+        return Value.unknown(unit, "nothing is left of the torque beside the motor's own motion")
     relative = std / abs(compliance) if compliance else np.inf
     if relative > LIMIT:
         why = f"what the latency leaves shows it with a relative std of {100 * relative:.3g} %"
-        return Value(None, np.inf, unit, refused=why)
+        return Value.unknown(unit, why)
     if compliance < 0:
-        return Value(None, np.inf, unit, refused="the link moves against the torque; is the encoder's sign wrong?")
+        return Value.unknown(unit, "the link moves against the torque; is the encoder's sign wrong?")
     return _inverse(compliance, std, unit)
 
 
 def _inverse(compliance: float, std: float, unit: str) -> Value:
     """The stiffness, however unsure it is."""
-    return Value(1 / compliance, std / compliance**2, unit) if compliance else Value(None, np.inf, unit)
+    if not compliance:
+        return Value.unknown(unit, "no twist goes with the torque")
+    return Value(1 / compliance, std / compliance**2, unit)
 
 
 def _viscous(joint: Joint, friction: Mapping[str, float]) -> float | None:

@@ -17,12 +17,12 @@ from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
 from identification.colour import inflation
 from identification.dataset import Run, load
-from identification.drive_train import YIELDS
 from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, triangular
 from identification.filtering import decimated, derivative, kept_rows, smoothed
+from identification.held import check_held
 from identification.least_squares import Problem, Solution
-from identification.outcome import LIMIT, Value
+from identification.outcome import HIDDEN, LIMIT, Value
 from identification.recipe import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
@@ -85,7 +85,7 @@ def locked_output(
     for source in sources:
         run = load(str(source), robot, recipe.columns, resting=True)
         filters = filters_of(run, recipe)
-        _check(run, k, joint)
+        check_held(run, k, joint, "a blocked output")
         removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))
         stacked.append(_rows(run, filters, k, removed[-1]))
         found.append((run, filters))
@@ -134,14 +134,6 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
     raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
 
 
-def _check(run: Run, k: int, joint: Joint) -> None:
-    motion = float(np.ptp(run.q[k]))
-    if motion > YIELDS:
-        unit = joint.position_unit
-        problem = f"joint {joint.number} moves by {motion:.3g} {unit}"
-        raise InputError(run.place, problem, f"a blocked output, at most {YIELDS:g} {unit}")
-
-
 def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) -> float:
     """Torque [N m] of effects that depend on the joint's position alone, for those of ``values`` that are theirs."""
     total = 0.0
@@ -181,7 +173,7 @@ def _values(
     colour = np.sqrt(inflation(rows[:, -1] - rows[:, :-1] @ chi))
     units = {f"{stem}{joint.number}": pair[joint.sigma == PRISMATIC] for stem, pair in _STEMS}
     return {
-        name: Value(None, np.inf, units[name])
+        name: Value.unknown(units[name], HIDDEN)
         if name in solution.hidden
         else Value(solution.values[name], solution.std(name) * float(colour), units[name])
         for name in kept
@@ -192,7 +184,7 @@ def _shown(one: Value) -> Value:
     """A value, refused where its standard deviation is larger."""
     if one.value is None or one.relative_std <= 100:
         return one
-    return Value(None, np.inf, one.unit, refused=f"relative std {one.relative_std:.3g} %")
+    return Value.unknown(one.unit, f"relative std {one.relative_std:.3g} %")
 
 
 def _residual(factor: Factor, solution: Solution) -> Residual:

@@ -303,6 +303,24 @@ def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) 
         assert any(note.startswith(f"{name} cannot be told: relative std") for note in document["notes"])
 
 
+def test_a_motor_that_turns_one_way_does_not_tell_friction_from_offset(tmp_path: Path) -> None:
+    """Refused by name with the reason, while the stiffness is told."""
+    path = Path(blocked(tmp_path / "a.csv", noise=0.0))
+    lines = path.read_text().splitlines()
+    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    x, w = columns["q2"] + 1.5, 2 * np.pi * 0.15
+    ramp = 2.5e-3 * w * columns["t"]
+    columns["q2"] += ramp
+    a = -w * w * x
+    columns["tau2"] = 900 * a + 8e3 * np.gradient(columns["q2"], columns["t"]) + 60 + 1.9e6 * (x + ramp)
+    found = locked_output(ROBOT, 2, [f"{Recorded(columns).save(path)}@0:15"])
+    assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
+    document = of_locked(found)
+    for name in ("Fcm2", "Offk2"):
+        assert found.values[name].value is None
+        assert f"{name} cannot be told: no motion in the data shows it alone" in document["notes"]
+
+
 def test_of_one_wave_alone_inertia_is_not_told_from_stiffness(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"k2 cannot be told from Iam2 along this motion, expected .* several frequen"):
         locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", second=0.0)])
