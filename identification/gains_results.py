@@ -72,7 +72,6 @@ def document(found: DriveGains) -> dict[str, Any]:
         },
         "condition": found.condition,
         "separation": found.separation,
-        "gains": {**outcome.parameters(gains(found))},
         "gains_by_payload_percent": {f"kt{numbers[m]}": 100 * share for m, share in found.payload_share.items()},
         "parameters": outcome.parameters({**gains(found), **parameters(found)}),
         "payloads": {

@@ -195,6 +195,11 @@ def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.
     assert done.out.startswith("lifter: 3 of 3 drive gains\n")
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert 1 < results["condition"] < 1e4
+    assert results.keys() == {
+        *("robot", "robot_sha256", "version", "method", "data", "condition", "separation", "gains_by_payload_percent"),
+        *("parameters", "payloads", "residual", "notes"),
+    }
+    assert results["payloads"] == {"L": {"ML": {"value": 20, "std": 0.02, "unit": "kg"}}}
     one = results["parameters"]["g_tau1"]
     assert one["value"] == pytest.approx(-120 * KT[0], abs=4 * one["std"])
     assert (one["unit"], one["identifiable"]) == ("N m/A", True)
