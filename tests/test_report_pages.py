@@ -17,6 +17,7 @@ import pytest
 
 import identification.report.identify.sections
 from generator.review.page import sections
+from identification.excitation.request import Request
 from identification.observation import Motion
 from identification.report import series
 from identification.report.excite.sections import summary as designed
@@ -279,7 +280,11 @@ def test_a_designed_motion_is_summed_up_with_the_parameters_that_are_zero() -> N
         scaled_condition=3.0, values=values, hidden=(), relative_std=lambda name: 2.0 if values[name] else math.inf
     )
     found = SimpleNamespace(
-        expected=expected, duration=10.0, periods=1, rate=200.0, limits=SimpleNamespace(loads=np.zeros(0)), units=values
+        expected=expected,
+        duration=10.0,
+        request=Request(periods=1, rate=200.0),
+        limits=SimpleNamespace(loads=np.zeros(0)),
+        units=values,
     )
     text = str(designed.render(cast(Any, found)))
     assert "Of 4 base parameters 2 will be known to 10\u202f% or better." in text
