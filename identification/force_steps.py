@@ -82,6 +82,11 @@ class ForceSteps:
     motor_residuals: Mapping[int, Residual]
     notes: tuple[str, ...]
 
+    @property
+    def values(self) -> dict[str, Value]:
+        """All that was found, by name."""
+        return {**self.stiffness, **self.constants}
+
 
 def force_steps(
     robot: Robot,

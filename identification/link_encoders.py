@@ -91,6 +91,11 @@ class LinkEncoders:
     rows: Mapping[int, Rows]
     notes: tuple[str, ...]
 
+    @property
+    def values(self) -> dict[str, Value]:
+        """All that was found, by name."""
+        return {**self.stiffness, **self.latency}
+
 
 def link_encoders(
     robot: Robot, sources: Sequence[str], friction: Mapping[str, float] | None = None, recipe: Recipe = RECIPE

@@ -22,7 +22,7 @@ from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
-from identification.stiffness_results import of_link_encoders
+from identification.stiffness_results import document
 from tests.commands import command
 from tests.elastic_links import MOTORS, N, robot_text
 from tests.recorded import SLIDE, Recorded
@@ -181,7 +181,7 @@ def test_a_joint_that_creeps_tells_nothing(machine: Machine, tmp_path: Path) -> 
     assert refused == found.stiffness["k2"].refused == "no row is above the joint's standstill speed"
     both = link_encoders(machine.robot, [str(run), recorded(machine, RUN, tmp_path / "moving.csv")])
     for one in (found, both):
-        page = stiffness_report.report(one, of_link_encoders(one)).decode()
+        page = stiffness_report.report(one).decode()
         assert ("k2 cannot be told" in page) is (one is found)
     still = Recorded({**columns, "q2": slow, "qs2": slow, "q1": slow, "qs1": slow}).save(tmp_path / "still.csv")
     with pytest.raises(InputError, match="no joint with a link-side encoder moves, expected rows above"):
@@ -249,7 +249,7 @@ def test_a_joint_that_crawls_is_refused_and_the_other_is_not(machine: Machine, t
     found = of_runs(machine.robot, [slow], MOTORS)
     assert found.stiffness["k1"].value is not None
     assert found.stiffness["k2"].value is None
-    assert np.isfinite(of_link_encoders(found)["condition"])
+    assert np.isfinite(document(found)["condition"])
     crawls = replace(slow, others={"qs2": crawling})
     assert of_runs(machine.robot, [crawls], MOTORS).stiffness["k2"].value is None
     with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in a.csv"):
