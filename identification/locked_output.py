@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.effects.library import effects_of
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
@@ -98,24 +98,13 @@ def locked_output(
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()
     reduced, best = essential(problem, RATIO, GROWTH)
-    name = f"k{number}"
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
-    if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:
-        wanted = "a motor that turns slowly to and fro against the blocked output"
-        problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
-        inertia = f"Iam{number}"
-        if name in reduced.names and inertia not in reduced.names and kept[name].relative_std < 100 * LIMIT:
-            problem_text = f"{name} cannot be told from {inertia} along this motion"
-            wanted += ", in waves of several frequencies: in one alone inertia and stiffness make the same torque"
-        raise InputError(found[0][0].place, problem_text, wanted)
-    if (full[name].value or 0.0) < 0:
-        problem_text = f"{name} comes out negative: the torque falls as the motor turns on"
-        raise InputError(found[0][0].place, problem_text, f"torque and position of joint {number} with one sign")
+    _check_shown(found[0][0].place, number, full, kept)
     full = {one: _shown(value) for one, value in full.items()}
     notes = [note for run, _ in found for note in notes_of(run, recipe)]
     ways = [float(np.ptp(run.q[k])) for run, _ in found]
     notes += [
-        f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of {name}"
+        f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of k{number}"
         for (run, _), way in zip(found, ways, strict=True)
         if way < _TURNS * max(ways)
     ]
@@ -132,6 +121,24 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
             return k, joint
     known = ", ".join(str(joint.number) for joint in robot.moving)
     raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
+
+
+def _check_shown(place: Place, number: int, full: Mapping[str, Value], kept: Mapping[str, Value]) -> None:
+    """Raises InputError where the runs, of which the first has its ``place``, do not show the stiffness: not among all
+    values, or not among the essential ones that are ``kept``, or not a positive one.
+    """
+    name, inertia = f"k{number}", f"Iam{number}"
+    stiffness = full[name]
+    if stiffness.value is None or stiffness.relative_std > 100 * LIMIT or name not in kept:
+        expected = "a motor that turns slowly to and fro against the blocked output"
+        problem = f"{name} cannot be told: relative std {stiffness.relative_std:.3g} %"
+        if name in kept and inertia not in kept and kept[name].relative_std < 100 * LIMIT:
+            problem = f"{name} cannot be told from {inertia} along this motion"
+            expected += ", in waves of several frequencies: in one alone inertia and stiffness make the same torque"
+        raise InputError(place, problem, expected)
+    if stiffness.value < 0:
+        problem = f"{name} comes out negative: the torque falls as the motor turns on"
+        raise InputError(place, problem, f"torque and position of joint {number} with one sign")
 
 
 def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) -> float:
