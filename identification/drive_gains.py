@@ -14,8 +14,7 @@ import numpy as np
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification import recipe as recipes
-from identification import torque_constants
+from identification import recipes, torque_constants
 from identification.arrays import Array
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
@@ -24,7 +23,7 @@ from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.outcome import LIMIT
 from identification.own_load import settled
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of, notes_of
 from identification.sampling import SPOILED, Sampled, sampled

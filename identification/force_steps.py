@@ -28,7 +28,7 @@ from identification.filtering import decimated, derivative, kept_indices, kept_r
 from identification.held import check_held
 from identification.observation import generated_module
 from identification.outcome import LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared

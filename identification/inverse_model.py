@@ -11,7 +11,7 @@ import numpy as np
 from generator.errors import InputError
 from generator.review.words import listed
 from generator.robot.description import Robot
-from identification import recipe as recipes
+from identification import recipes
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import GROWTH, RATIO, essential
@@ -20,7 +20,7 @@ from identification.least_squares import Problem, Solution, not_shown
 from identification.observation import Regressors
 from identification.observed import Observed
 from identification.own_load import under_own_load
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of, notes_of

@@ -26,7 +26,7 @@ from identification.dataset import Run, load
 from identification.drive_train import YIELDS
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
@@ -51,7 +51,7 @@ _NO_ROW = "no row is above the joint's standstill speed"
 
 
 @dataclass(frozen=True)
-class Rows:
+class TwistRows:
     """Of one joint in all runs: ``twist`` q - qs (N) [rad, m], ``own`` columns of the motor's motion (N x p), those of
     speed first, ``constants`` of the runs (N x runs), ``torque`` (N) [N m, N].
     """
@@ -88,7 +88,7 @@ class LinkEncoders:
     stiffness: Mapping[str, Value]
     mistaken: Mapping[str, Value]
     residuals: Mapping[int, Residual]
-    rows: Mapping[int, Rows]
+    rows: Mapping[int, TwistRows]
     notes: tuple[str, ...]
 
     @property
@@ -167,13 +167,13 @@ def _check(run: Run, k: int, joint: Joint) -> None:
 
 
 def _of_then(
-    at_once: Rows,
+    at_once: TwistRows,
     runs: Sequence[tuple[Run, Filters]],
     k: int,
     joint: Joint,
     standstill: float,
     viscous: float | None,
-) -> tuple[Rows, tuple[Value, Value, Residual]]:
+) -> tuple[TwistRows, tuple[Value, Value, Residual]]:
     """Rows with torque and motion of then, and what they tell, beginning with those ``at_once``; refused where no
     latency that is not too long is told by rows of its own.
     """
@@ -199,7 +199,7 @@ def _stands(runs: Sequence[tuple[Run, Filters]], k: int) -> bool:
     return all(float(np.ptp(run.q[k])) < _STILL for run, _ in runs)
 
 
-def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> Rows:
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> TwistRows:
     """Without torques that are cut off and, of a joint that moves, without what is near a standstill [rad/s, m/s]:
     what sticks hides from the twist any torque up to its friction.
 
@@ -230,7 +230,7 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
         parts.append(np.concatenate([columns, constants]))
     joined = np.concatenate(parts, axis=1)
     count = len(runs)
-    return Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
+    return TwistRows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
 
 
 def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
@@ -240,7 +240,7 @@ def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
     return np.asarray(maximum_filter1d(around, 2 * steps + 1)[steps : len(around) - steps])
 
 
-def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
+def _told(rows: TwistRows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
     """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
     if not len(rows.twist):
         stiffness, latency = (Value.unknown(unit, _NO_ROW) for unit in (joint.stiffness_unit, "s"))

@@ -23,7 +23,7 @@ from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.held import check_held
 from identification.least_squares import Problem, Solution
 from identification.outcome import HIDDEN, LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared

@@ -9,7 +9,7 @@ from typing import Any
 
 from generator.robot.description import ParameterValue
 from identification.dataset import Run
-from identification.recipe import Filters
+from identification.recipes import Filters
 from identification.residuals import Residual, Residuals
 
 #: Relative standard deviation from which a gain, a torque constant or a stiffness is refused.

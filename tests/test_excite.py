@@ -25,7 +25,7 @@ from identification.inverse_model import Options, identify
 from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
 from identification.readers import csv
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.settings import Settings

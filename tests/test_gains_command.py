@@ -15,7 +15,7 @@ from generator.robot.readers import read
 from identification.drive_gains import DriveGains, drive_gains
 from identification.motor_rows import motor_rows
 from identification.observation import Motion, Regressors
-from identification.recipe import read as recipe_of
+from identification.recipes import read as recipe_of
 from identification.sidecar import Payload
 from tests.commands import command
 from tests.recorded import Recorded, fourier

@@ -13,7 +13,7 @@ from generator.errors import InputError
 from identification.drive_gains import drive_gains
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.results import document
 from identification.sidecar import UNITS, Payload
 from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_links

@@ -16,7 +16,7 @@ from generator.robot.readers import read
 from identification.dataset import load
 from identification.inverse_model import identify
 from identification.link_encoders import astray, link_encoders, of_runs
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.report.stiffness import report as stiffness_report
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save

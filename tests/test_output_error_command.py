@@ -28,7 +28,7 @@ from identification.executors.here import Here
 from identification.executors.processes import Processes
 from identification.output_error.multi_start import output_error
 from identification.output_error.search import Settings
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.study import key_of, study
 from tests.commands import command
 from tests.recorded import SLIDE

@@ -96,7 +96,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     with needing(command_line("counterpoise excite")):
-        from identification import recipe as recipes
+        from identification import recipes
         from identification.excitation.checks import check
         from identification.excitation.excite import excite
         from identification.excitation.request import Request

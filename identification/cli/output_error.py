@@ -113,7 +113,7 @@ def run(arguments: argparse.Namespace) -> None:
 def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
     from generator.derivation import derive
     from generator.robot.fields import nearest
-    from identification import recipe as recipes
+    from identification import recipes
     from identification.fixing import fixed
     from identification.output_error.methods import methods
     from identification.output_error.search import Settings

@@ -62,8 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _identified(arguments: argparse.Namespace, robot: Robot) -> Found:
-    from identification import force_steps, link_encoders, locked_output
-    from identification import recipe as recipes
+    from identification import force_steps, link_encoders, locked_output, recipes
 
     data, prior = arguments.data, {} if arguments.prior is None else _prior(arguments.prior, robot)
     recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)

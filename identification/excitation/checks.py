@@ -9,7 +9,7 @@ from generator.robot.description import Robot
 from identification.excitation.criterion import CONDITION, DETERMINANT
 from identification.excitation.design import DRAWN
 from identification.excitation.request import Request
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 
 #: Rows that a motion may have.
 _MOST = 1e7

@@ -6,7 +6,7 @@ import numpy as np
 
 from generator.command_line import command_line
 from generator.robot.description import Robot
-from identification import recipe as recipes
+from identification import recipes
 from identification.excitation.checks import check
 from identification.excitation.criterion import Criterion
 from identification.excitation.design import Progress, designed, usual_torques

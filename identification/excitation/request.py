@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from identification.excitation.criterion import DETERMINANT
 from identification.excitation.noise import PART
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 
 
 @dataclass(frozen=True)

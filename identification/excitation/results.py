@@ -19,7 +19,7 @@ from identification.excitation.noise import Noise
 from identification.excitation.request import Request
 from identification.least_squares import Solution
 from identification.observation import Motion
-from identification.recipe import Filters
+from identification.recipes import Filters
 from identification.results import written
 
 #: Names of the files.

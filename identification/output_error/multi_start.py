@@ -15,7 +15,7 @@ import numpy as np
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from generator.version import VERSION
-from identification import recipe as recipes
+from identification import recipes
 from identification.arrays import Array
 from identification.dataset import load
 from identification.executors import Executor

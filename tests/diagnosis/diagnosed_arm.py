@@ -12,7 +12,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis, diagnose

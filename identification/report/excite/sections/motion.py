@@ -9,8 +9,7 @@ from identification.excitation.results import Excitation
 from identification.report.chart import COLOURS, ESTIMATED, Trace, axis, chart, line
 from identification.report.choice import choice
 from identification.report.numbers import number
-from identification.report.series import line as thinned
-from identification.report.series import points_each
+from identification.report.series import points_each, thinned
 
 TITLE = "Motion"
 ORDER = 20
