@@ -23,12 +23,11 @@ from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from identification.stiffness_results import document
+from tests.at_hand import RECORDINGS
 from tests.commands import command
 from tests.elastic_links import MOTORS, N, robot_text
 from tests.recorded import SLIDE, Recorded
-from tests.test_real_runs import DATA as RECORDINGS
 
-DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
 
@@ -218,10 +217,10 @@ def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path
         link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
 
 
-@pytest.mark.skipif(not DATA.is_dir(), reason="no recordings in ../shared/data")
+@RECORDINGS.needed
 def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the a-priori model's."""
-    runs = [DATA / "A.csv", DATA / "B.csv"]
+    runs = [RECORDINGS.path / "kr300_r2500" / f"{name}.csv" for name in "AB"]
     robot = read(find_robot("kr300"))
     friction = identify(robot, [str(run) for run in runs], options=None).full.solution.values
     found = link_encoders(robot, [str(run) for run in runs], friction, Recipe())
