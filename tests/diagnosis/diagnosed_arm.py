@@ -110,3 +110,12 @@ def torque(hidden: str) -> Hidden:
         return np.asarray(result)
 
     return of
+
+
+def bumps(size: float, width: float) -> Hidden:
+    """Torques of a ``size`` [N m] at two places, up and down, each of a ``width`` [rad], which no law makes."""
+
+    def of(q: Array, qd: Array) -> Array:
+        return np.asarray(size * (np.exp(-(((q - 0.5) / width) ** 2)) - np.exp(-(((q + 0.3) / width) ** 2))))
+
+    return of
