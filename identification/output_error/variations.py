@@ -75,7 +75,7 @@ class Variations:
 
 
 def variations(model: Any, motion: SimulatedMotion, step: float, columns: NDArray[np.int64]) -> Variations:
-    """Of a simulated ``motion``; ``columns`` are the base parameters that vary, ``model`` has all their values."""
+    """Of a simulated ``motion``; ``columns`` (b) are the base parameters that vary, ``model`` has all their values."""
     segments, samples, n = motion.q.shape
     q, qd, tau = (np.ascontiguousarray(x.reshape(-1, n)) for x in (motion.q, motion.qd, motion.tau))
     inertia = mass_matrix(model, q)
