@@ -214,7 +214,7 @@ def moved(unusable: NDArray[np.bool_], robot: Robot, period: float) -> NDArray[n
 
 
 def true_links(columns: Mapping[str, Array], robot: Robot, period: float) -> dict[str, Array]:
-    """The recording's further columns, link-side positions ``qs1`` ... at their own time."""
+    """The recording's further columns (N each), link-side positions ``qs1`` ... at their own time; ``period`` in s."""
     result = dict(columns)
     for joint, delay in zip(robot.moving, robot.signals.link_delay, strict=False):
         if (name := f"qs{joint.number}") in result:

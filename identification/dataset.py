@@ -105,6 +105,10 @@ class Run:
         temperatures = {name: values for name, values in self.others.items() if name.startswith("temp")}
         return {name: values - self.began.get(name, values[0]) for name, values in temperatures.items()}
 
+    def carrying(self, payload: Payload | None) -> Run:
+        """The same run with ``payload`` where nothing tells yet whether it carries one."""
+        return self if self.empty or self.payload is not None else replace(self, payload=payload)
+
 
 def load(
     source: str,

@@ -7,15 +7,14 @@ from it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification import recipe as recipes
-from identification import torque_constants
+from identification import recipes, torque_constants
 from identification.arrays import Array
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
@@ -24,12 +23,12 @@ from identification.motor_rows import MotorRows, motor_rows
 from identification.observation import Regressors
 from identification.outcome import LIMIT
 from identification.own_load import settled
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.residuals import Residual, Residuals
 from identification.run_filters import filters_of, notes_of
 from identification.sampling import SPOILED, Sampled, sampled
 from identification.shared_samples import unshared
-from identification.sidecar import Payload, check_carried
+from identification.sidecar import Payload, by_name, check_carried
 from identification.total_least_squares import Fit, Part, solve
 
 #: Step of a payload's known value for its derivative, in standard deviations.
@@ -214,22 +213,20 @@ def _check_empty(run: Run) -> None:
 def _carrying(run: Run, payload: Payload | None) -> Run:
     if run.empty:
         raise InputError(run.place, "no payload is on a run that counts as loaded", "a run with one")
-    carried = run.payload or payload
-    if carried is None:
+    run = run.carrying(payload)
+    if run.payload is None:
         raise InputError(run.place, "nothing tells the payload of this run", "payload: {M: ... kg} in its sidecar")
-    if not any(carried.known.values()):
-        raise InputError(run.place, f"nothing is known of payload {carried.name}", "its mass or first moments")
-    return replace(run, payload=carried)
+    if not any(run.payload.known.values()):
+        raise InputError(run.place, f"nothing is known of payload {run.payload.name}", "its mass or first moments")
+    return run
 
 
 def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
     if not loaded:
         raise ValueError("no loaded run")
-    values: dict[str, Mapping[str, float]] = {}
+    by_name((run.place, run.payload) for run in loaded)
     for run in loaded:
         assert run.payload is not None
-        if values.setdefault(run.payload.name, run.payload.known) != run.payload.known:
-            raise InputError(run.place, f"payload {run.payload.name} has other values here", "one payload of a name")
         for stem, std in stds.items():
             if stem not in run.payload.known:
                 raise InputError(run.place, f"{stem} of payload {run.payload.name} is not known", "a value for its std")

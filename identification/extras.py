@@ -14,4 +14,5 @@ def needing(place: Place, extra: str = "identification") -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        raise InputError(place, f"{error.name} is not installed", f"pip install 'counterpoise[{extra}]'") from None
+        expected = f"make setup or pip install '.[{extra}]' in the checkout"
+        raise InputError(place, f"{error.name} is not installed", expected) from None

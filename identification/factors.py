@@ -32,7 +32,7 @@ class Factor:
     total: float
 
     def on(self, names: Sequence[str]) -> Array:
-        """The factor with the columns of ``names`` and Y, zero columns for parameters that it lacks."""
+        """R with the columns of k ``names`` and Y (rows x (k + 1)), zero columns for parameters that it lacks."""
         result = np.zeros((len(self.R), len(names) + 1))
         place = {name: k for k, name in enumerate(self.names)}
         for k, name in enumerate(names):
@@ -83,7 +83,7 @@ def added(some: Sequence[Factor], names: tuple[str, ...] | None = None) -> tuple
 
 
 def triangular(matrix: Array) -> Array:
-    """R of the QR factorisation, itself where the matrix is wider than high."""
+    """R (n x n) of the QR factorisation of a matrix (m x n), the matrix itself where m <= n."""
     if len(matrix) <= matrix.shape[1]:
         return matrix
     return np.asarray(np.linalg.qr(matrix, mode="r"), dtype=float)

@@ -45,7 +45,7 @@ def smoothed(x: Array, order: int, cutoff: float, rate: float) -> Array:
 
 
 def derivative(x: Array, period: float) -> Array:
-    """Central differences over two ``period`` [s] (report eq. 46), one-sided at the two ends; the length stays."""
+    """Central differences (.. x N) over two ``period`` [s] (report eq. 46), one-sided at the two ends."""
     result = np.empty_like(x)
     result[..., 1:-1] = (x[..., 2:] - x[..., :-2]) / 2
     result[..., 0], result[..., -1] = x[..., 1] - x[..., 0], x[..., -1] - x[..., -2]
@@ -54,7 +54,7 @@ def derivative(x: Array, period: float) -> Array:
 
 
 def flat_derivative(x: Array, period: float) -> Array:
-    """Central differences over nine samples, as ``derivative`` at the four of each end.
+    """Central differences over nine samples (.. x N), as ``derivative`` at the four of each end.
 
     They pass 0.99 of a fifth of the sampling rate, where ``derivative`` passes 0.76: an acceleration that lacks what
     its torque has looks like an elastic drive train.
@@ -130,14 +130,14 @@ def stages(factor: int) -> tuple[Stage, ...]:
 
 
 def decimated(x: Array, factor: int) -> Array:
-    """``x`` decimated by all stages of ``factor``."""
+    """``x`` (.. x N) decimated by all stages of ``factor`` (.. x K)."""
     for stage in stages(factor):
         x = stage(x)
     return x
 
 
 def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
-    """Indices, from 0, of the ``count`` samples that decimation by all stages of ``factor`` keeps."""
+    """Indices (K), from 0, of those of ``count`` samples that decimation by all stages of ``factor`` keeps."""
     indices = np.arange(count)
     for stage in stages(factor):
         indices = indices[stage.first(len(indices)) :: stage.factor]
@@ -145,8 +145,8 @@ def kept_indices(count: int, factor: int) -> NDArray[np.int64]:
 
 
 def kept_rows(left_out: NDArray[np.bool_], factor: int, reach: int = 0) -> NDArray[np.bool_]:
-    """Which samples that decimation keeps have none of ``left_out`` (N) in their window: ``factor`` samples to either
-    side, ``reach`` if that is more.
+    """Which of the samples that decimation keeps (K) have none of ``left_out`` (N) in their window: ``factor`` samples
+    to either side, ``reach`` if that is more.
     """
     indices = kept_indices(len(left_out), factor)
     if not left_out.any():

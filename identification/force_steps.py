@@ -23,11 +23,12 @@ from identification.arrays import Array
 from identification.colour import scatter
 from identification.corrections import with_unit_constants
 from identification.dataset import Run, load
-from identification.drive_train import YIELDS, constants, coupling, motor_torques, stated_constants
+from identification.drive_train import constants, coupling, motor_torques, stated_constants
 from identification.filtering import decimated, derivative, kept_indices, kept_rows, smoothed
+from identification.held import check_held
 from identification.observation import generated_module
 from identification.outcome import LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
@@ -80,6 +81,11 @@ class ForceSteps:
     residuals: Mapping[int, Residual]
     motor_residuals: Mapping[int, Residual]
     notes: tuple[str, ...]
+
+    @property
+    def values(self) -> dict[str, Value]:
+        """All that was found, by name."""
+        return {**self.stiffness, **self.constants}
 
 
 def force_steps(
@@ -140,11 +146,8 @@ def _pose(run: Run, with_current: bool, robot: Robot, recipe: Recipe, Ia: Array,
     filters = filters_of(run, recipe)
     if not any(name in run.others for name in WRENCH):
         raise InputError(run.place, "there are no columns of the wrench", f"one at least of {' '.join(WRENCH)}")
-    for joint, positions in zip(robot.moving, run.q, strict=True):
-        if np.ptp(positions) > YIELDS:
-            unit = joint.position_unit
-            problem = f"joint {joint.number} moves by {np.ptp(positions):.3g} {unit}"
-            raise InputError(run.place, problem, f"a robot pressed on a stop, at most {YIELDS:g} {unit}")
+    for k, joint in enumerate(robot.moving):
+        check_held(run, k, joint, "a robot pressed on a stop")
     q = smoothed(run.q, filters.order, filters.cutoff, run.rate)
     qd = derivative(q, run.period)
     qdd = derivative(qd, run.period)
@@ -234,7 +237,7 @@ def _stiffness(
         shown = [one for one in poses if _changes(one.wrench_torque, k)]
         if not shown:
             why = f"{' '.join(components)} has no lever arm about joint {joint.number} in any pose"
-            values[name] = Value(None, np.inf, unit, refused=why)
+            values[name] = Value.unknown(unit, why)
             continue
         slope, residuals[k] = _slope([one.q[k] for one in shown], [one.wrench_torque[k] for one in shown])
         values[name] = _stiff(_value(slope, unit))
@@ -253,12 +256,12 @@ def _constants(robot: Robot, poses: Sequence[Pose]) -> tuple[dict[str, Value], d
         pressed = [one for one in poses if one.i is not None and _changes(one.wrench_torque, m)]
         if not pressed:
             why = f"the measured force asks nothing of motor {joint.number} in any pose"
-            values[name] = Value(None, np.inf, "N m/A", refused=why)
+            values[name] = Value.unknown("N m/A", why)
             continue
         try:
             kt, std, residuals[m] = torque_constants.torque_constant([_of_motor(one, m, to_motors) for one in pressed])
         except ValueError as error:
-            values[name] = Value(None, np.inf, "N m/A", refused=str(error))
+            values[name] = Value.unknown("N m/A", str(error))
             continue
         values[name] = _value((kt, std), "N m/A")
     return values, residuals
@@ -299,7 +302,7 @@ def _value(slope: tuple[float, float], unit: str) -> Value:
     value, std = slope
     relative = std / abs(value) if value else np.inf
     if relative > LIMIT:
-        return Value(None, np.inf, unit, refused=f"relative std {100 * relative:.3g} %")
+        return Value.unknown(unit, f"relative std {100 * relative:.3g} %")
     return Value(value, std, unit)
 
 
@@ -307,7 +310,7 @@ def _stiff(one: Value) -> Value:
     """A stiffness, refused where it is negative."""
     if one.value is None or one.value > 0:
         return one
-    return Value(None, np.inf, one.unit, refused="the joint turns against the force; is the wrench's sign right?")
+    return Value.unknown(one.unit, "the joint turns against the force; is the wrench's sign right?")
 
 
 def _contradictions(name: str, pooled: tuple[float, float], poses: Sequence[tuple[str, Array, Array]]) -> list[str]:

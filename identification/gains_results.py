@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,21 +26,17 @@ def gains(found: DriveGains) -> dict[str, Value]:
     result: dict[str, Value] = {}
     joints = list(enumerate(found.robot.moving))
     for m, joint in joints:
-        unit = joint.gain_unit
-        reason = found.refused.get(m, "")
-        result[f"g_tau{joint.number}"] = (
-            Value(None, math.inf, unit, refused=reason) if reason else _gain(found, m, unit)
-        )
+        result[f"g_tau{joint.number}"] = _told(found, m, found.gain, joint.gain_unit)
     for m, joint in joints:
-        reason = found.refused.get(m, "")
-        value = Value(None, math.inf, "N m/A", refused=reason)
-        result[f"kt{joint.number}"] = value if reason else Value(*found.constants[m], "N m/A")
+        result[f"kt{joint.number}"] = _told(found, m, found.constants.__getitem__, "N m/A")
     return result
 
 
-def _gain(found: DriveGains, motor: int, unit: str) -> Value:
-    value, std = found.gain(motor)
-    return Value(value, std, unit)
+def _told(found: DriveGains, motor: int, of: Callable[[int], tuple[float, float]], unit: str) -> Value:
+    """A gain with its standard deviation, or why the motor has none."""
+    if motor in found.refused:
+        return Value.unknown(unit, found.refused[motor])
+    return Value(*of(motor), unit)
 
 
 def parameters(found: DriveGains) -> dict[str, Value]:
@@ -50,7 +46,7 @@ def parameters(found: DriveGains) -> dict[str, Value]:
         if run.run.payload is not None:
             units |= {name: UNITS[stem] for stem, name in run.run.payload.names().items()}
     return {
-        name: Value(value if math.isfinite(std) else None, std, units[name])
+        name: Value(value, std, units[name]) if math.isfinite(std) else Value.unknown(units[name], outcome.HIDDEN)
         for name, (value, std) in found.parameters.items()
     }
 
@@ -76,7 +72,6 @@ def document(found: DriveGains) -> dict[str, Any]:
         },
         "condition": found.condition,
         "separation": found.separation,
-        "gains": {**outcome.parameters(gains(found))},
         "gains_by_payload_percent": {f"kt{numbers[m]}": 100 * share for m, share in found.payload_share.items()},
         "parameters": outcome.parameters({**gains(found), **parameters(found)}),
         "payloads": {

@@ -11,7 +11,7 @@ import numpy as np
 from generator.errors import InputError
 from generator.review.words import listed
 from generator.robot.description import Robot
-from identification import recipe as recipes
+from identification import recipes
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import GROWTH, RATIO, essential
@@ -20,14 +20,14 @@ from identification.least_squares import Problem, Solution, not_shown
 from identification.observation import Regressors
 from identification.observed import Observed
 from identification.own_load import under_own_load
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.residuals import Residuals, residuals
 from identification.robust import robust
 from identification.run_filters import filters_of, notes_of
 from identification.sampling import SPOILED, Rows, Sampled, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
-from identification.sidecar import Payload, check_carried
+from identification.sidecar import Payload, by_name, check_carried
 from identification.suspicion import beyond, directed, of_one_sense, opposed, ordered, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
@@ -147,8 +147,7 @@ def identify(
 
 
 def _loaded(source: str, robot: Robot, recipe: Recipe, options: Options) -> Run:
-    run = load(source, robot, recipe.columns)
-    return run if run.payload is not None or run.empty else replace(run, payload=options.payload)
+    return load(source, robot, recipe.columns).carrying(options.payload)
 
 
 def _observed(run: Run, recipe: Recipe, regressors: Regressors) -> Observed:
@@ -161,15 +160,7 @@ def _added(runs: Iterable[Observed]) -> tuple[Factor, ...]:
 
 
 def _payloads(runs: Iterable[Observed]) -> dict[str, Payload]:
-    """By name; the first run that has one of a name tells what is known of it."""
-    result: dict[str, Payload] = {}
-    for one in runs:
-        payload = one.sampled.run.payload
-        if payload is not None:
-            known = result.setdefault(payload.name, payload).known
-            if known != payload.known:
-                raise InputError(one.sampled.run.place, f"payload {payload.name} has other values here", "one payload")
-    return result
+    return by_name((one.sampled.run.place, one.sampled.run.payload) for one in runs)
 
 
 def _known_payloads(trained: Sequence[Observed], tried: Sequence[Observed]) -> dict[str, Payload]:

@@ -26,7 +26,7 @@ from identification.dataset import Run, load
 from identification.drive_train import YIELDS
 from identification.filtering import decimated, derivative, kept_rows, smoothed
 from identification.outcome import LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
@@ -44,14 +44,14 @@ _ASTRAY = 0.8
 _LONGEST, _ROUNDS = 0.2, 8
 #: By how much a latency may change at the end, in parts of its standard deviation or of a sample.
 _SETTLED, _SETTLED_STEP = 0.05, 1e-3
-_UNSEEN = Value(None, np.inf, "s", refused="the joint's speed shows nothing beside its other motion")
-_STANDS = Value(None, np.inf, "s", refused="the joint stands still")
+_UNSEEN = Value.unknown("s", "the joint's speed shows nothing beside its other motion")
+_STANDS = Value.unknown("s", "the joint stands still")
 _TOO_LATE = f"no latency up to {_LONGEST:g} s settles with the torque and the motion of then"
 _NO_ROW = "no row is above the joint's standstill speed"
 
 
 @dataclass(frozen=True)
-class Rows:
+class TwistRows:
     """Of one joint in all runs: ``twist`` q - qs (N) [rad, m], ``own`` columns of the motor's motion (N x p), those of
     speed first, ``constants`` of the runs (N x runs), ``torque`` (N) [N m, N].
     """
@@ -88,8 +88,13 @@ class LinkEncoders:
     stiffness: Mapping[str, Value]
     mistaken: Mapping[str, Value]
     residuals: Mapping[int, Residual]
-    rows: Mapping[int, Rows]
+    rows: Mapping[int, TwistRows]
     notes: tuple[str, ...]
+
+    @property
+    def values(self) -> dict[str, Value]:
+        """All that was found, by name."""
+        return {**self.stiffness, **self.latency}
 
 
 def link_encoders(
@@ -162,13 +167,13 @@ def _check(run: Run, k: int, joint: Joint) -> None:
 
 
 def _of_then(
-    at_once: Rows,
+    at_once: TwistRows,
     runs: Sequence[tuple[Run, Filters]],
     k: int,
     joint: Joint,
     standstill: float,
     viscous: float | None,
-) -> tuple[Rows, tuple[Value, Value, Residual]]:
+) -> tuple[TwistRows, tuple[Value, Value, Residual]]:
     """Rows with torque and motion of then, and what they tell, beginning with those ``at_once``; refused where no
     latency that is not too long is told by rows of its own.
     """
@@ -185,7 +190,7 @@ def _of_then(
         ago = late.value
         rows = _rows(runs, k, joint, standstill, ago)
         told = _told(rows, joint, viscous)
-    stiffness, late = (Value(None, np.inf, unit, refused=_TOO_LATE) for unit in (joint.stiffness_unit, "s"))
+    stiffness, late = (Value.unknown(unit, _TOO_LATE) for unit in (joint.stiffness_unit, "s"))
     return rows, (stiffness, late, told[2])
 
 
@@ -194,7 +199,7 @@ def _stands(runs: Sequence[tuple[Run, Filters]], k: int) -> bool:
     return all(float(np.ptp(run.q[k])) < _STILL for run, _ in runs)
 
 
-def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> Rows:
+def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> TwistRows:
     """Without torques that are cut off and, of a joint that moves, without what is near a standstill [rad/s, m/s]:
     what sticks hides from the twist any torque up to its friction.
 
@@ -225,7 +230,7 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
         parts.append(np.concatenate([columns, constants]))
     joined = np.concatenate(parts, axis=1)
     count = len(runs)
-    return Rows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
+    return TwistRows(joined[0], joined[2:-count].T, joined[-count:].T, joined[1])
 
 
 def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
@@ -235,10 +240,10 @@ def _bad(run: Run, k: int, steps: int) -> NDArray[np.bool_]:
     return np.asarray(maximum_filter1d(around, 2 * steps + 1)[steps : len(around) - steps])
 
 
-def _told(rows: Rows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
+def _told(rows: TwistRows, joint: Joint, viscous: float | None) -> tuple[Value, Value, Residual]:
     """Stiffness and latency, and what both leave; without torque where it shows no stiffness."""
     if not len(rows.twist):
-        stiffness, latency = (Value(None, np.inf, unit, refused=_NO_ROW) for unit in (joint.stiffness_unit, "s"))
+        stiffness, latency = (Value.unknown(unit, _NO_ROW) for unit in (joint.stiffness_unit, "s"))
         return stiffness, latency, Residual(0, 0.0, 0.0, 0.0)
     moved = np.column_stack([rows.own[:, 1:], rows.constants, rows.own[:, 0]])
     compliance = _last(rows.twist, moved, rows.torque)
@@ -288,19 +293,21 @@ def _stiffness(compliance: float, std: float, joint: Joint) -> Value:
     """1/compliance, refused where it is not positive or not sure."""
     unit = joint.stiffness_unit
     if not np.isfinite(std):
-        return Value(None, np.inf, unit, refused="nothing is left of the torque beside the motor's own motion")
+        return Value.unknown(unit, "nothing is left of the torque beside the motor's own motion")
     relative = std / abs(compliance) if compliance else np.inf
     if relative > LIMIT:
         why = f"what the latency leaves shows it with a relative std of {100 * relative:.3g} %"
-        return Value(None, np.inf, unit, refused=why)
+        return Value.unknown(unit, why)
     if compliance < 0:
-        return Value(None, np.inf, unit, refused="the link moves against the torque; is the encoder's sign wrong?")
+        return Value.unknown(unit, "the link moves against the torque; is the encoder's sign wrong?")
     return _inverse(compliance, std, unit)
 
 
 def _inverse(compliance: float, std: float, unit: str) -> Value:
     """The stiffness, however unsure it is."""
-    return Value(1 / compliance, std / compliance**2, unit) if compliance else Value(None, np.inf, unit)
+    if not compliance:
+        return Value.unknown(unit, "no twist goes with the torque")
+    return Value(1 / compliance, std / compliance**2, unit)
 
 
 def _viscous(joint: Joint, friction: Mapping[str, float]) -> float | None:

@@ -11,19 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.effects.library import effects_of
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
 from identification.colour import inflation
 from identification.dataset import Run, load
-from identification.drive_train import YIELDS
 from identification.essential import GROWTH, RATIO, essential
 from identification.factors import Factor, triangular
 from identification.filtering import decimated, derivative, kept_rows, smoothed
+from identification.held import check_held
 from identification.least_squares import Problem, Solution
-from identification.outcome import LIMIT, Value
-from identification.recipe import Filters, Recipe
+from identification.outcome import HIDDEN, LIMIT, Value
+from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
@@ -85,7 +85,7 @@ def locked_output(
     for source in sources:
         run = load(str(source), robot, recipe.columns, resting=True)
         filters = filters_of(run, recipe)
-        _check(run, k, joint)
+        check_held(run, k, joint, "a blocked output")
         removed.append(_balancer(robot, number, balancer or {}, float(run.q[k].mean())))
         stacked.append(_rows(run, filters, k, removed[-1]))
         found.append((run, filters))
@@ -98,24 +98,13 @@ def locked_output(
     problem = Problem((factor,), names, {}, weighted=False)
     solution = problem.solve()
     reduced, best = essential(problem, RATIO, GROWTH)
-    name = f"k{number}"
     full, kept = _values(solution, rows, names, joint, names), _values(best, rows, names, joint, reduced.names)
-    if full[name].value is None or full[name].relative_std > 100 * LIMIT or name not in reduced.names:
-        wanted = "a motor that turns slowly to and fro against the blocked output"
-        problem_text = f"{name} cannot be told: relative std {full[name].relative_std:.3g} %"
-        inertia = f"Iam{number}"
-        if name in reduced.names and inertia not in reduced.names and kept[name].relative_std < 100 * LIMIT:
-            problem_text = f"{name} cannot be told from {inertia} along this motion"
-            wanted += ", in waves of several frequencies: in one alone inertia and stiffness make the same torque"
-        raise InputError(found[0][0].place, problem_text, wanted)
-    if (full[name].value or 0.0) < 0:
-        problem_text = f"{name} comes out negative: the torque falls as the motor turns on"
-        raise InputError(found[0][0].place, problem_text, f"torque and position of joint {number} with one sign")
+    _check_shown(found[0][0].place, number, full, kept)
     full = {one: _shown(value) for one, value in full.items()}
     notes = [note for run, _ in found for note in notes_of(run, recipe)]
     ways = [float(np.ptp(run.q[k])) for run, _ in found]
     notes += [
-        f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of {name}"
+        f"{run.name}: the motor of joint {number} hardly turns: this run tells nothing of k{number}"
         for (run, _), way in zip(found, ways, strict=True)
         if way < _TURNS * max(ways)
     ]
@@ -134,12 +123,22 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
     raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
 
 
-def _check(run: Run, k: int, joint: Joint) -> None:
-    motion = float(np.ptp(run.q[k]))
-    if motion > YIELDS:
-        unit = joint.position_unit
-        problem = f"joint {joint.number} moves by {motion:.3g} {unit}"
-        raise InputError(run.place, problem, f"a blocked output, at most {YIELDS:g} {unit}")
+def _check_shown(place: Place, number: int, full: Mapping[str, Value], kept: Mapping[str, Value]) -> None:
+    """Raises InputError where the runs, of which the first has its ``place``, do not show the stiffness: not among all
+    values, or not among the essential ones that are ``kept``, or not a positive one.
+    """
+    name, inertia = f"k{number}", f"Iam{number}"
+    stiffness = full[name]
+    if stiffness.value is None or stiffness.relative_std > 100 * LIMIT or name not in kept:
+        expected = "a motor that turns slowly to and fro against the blocked output"
+        problem = f"{name} cannot be told: relative std {stiffness.relative_std:.3g} %"
+        if name in kept and inertia not in kept and kept[name].relative_std < 100 * LIMIT:
+            problem = f"{name} cannot be told from {inertia} along this motion"
+            expected += ", in waves of several frequencies: in one alone inertia and stiffness make the same torque"
+        raise InputError(place, problem, expected)
+    if stiffness.value < 0:
+        problem = f"{name} comes out negative: the torque falls as the motor turns on"
+        raise InputError(place, problem, f"torque and position of joint {number} with one sign")
 
 
 def _balancer(robot: Robot, number: int, values: Mapping[str, float], q: float) -> float:
@@ -181,7 +180,7 @@ def _values(
     colour = np.sqrt(inflation(rows[:, -1] - rows[:, :-1] @ chi))
     units = {f"{stem}{joint.number}": pair[joint.sigma == PRISMATIC] for stem, pair in _STEMS}
     return {
-        name: Value(None, np.inf, units[name])
+        name: Value.unknown(units[name], HIDDEN)
         if name in solution.hidden
         else Value(solution.values[name], solution.std(name) * float(colour), units[name])
         for name in kept
@@ -192,7 +191,7 @@ def _shown(one: Value) -> Value:
     """A value, refused where its standard deviation is larger."""
     if one.value is None or one.relative_std <= 100:
         return one
-    return Value(None, np.inf, one.unit, refused=f"relative std {one.relative_std:.3g} %")
+    return Value.unknown(one.unit, f"relative std {one.relative_std:.3g} %")
 
 
 def _residual(factor: Factor, solution: Solution) -> Residual:

@@ -84,7 +84,7 @@ class Motion:
 
     @property
     def signals(self) -> tuple[Array, Array, Array]:
-        """Positions, speeds, accelerations."""
+        """Positions, speeds, accelerations (n x N each) [rad, m, s]."""
         return self.q, self.qd, self.qdd
 
 

@@ -9,11 +9,13 @@ from typing import Any
 
 from generator.robot.description import ParameterValue
 from identification.dataset import Run
-from identification.recipe import Filters
+from identification.recipes import Filters
 from identification.residuals import Residual, Residuals
 
 #: Relative standard deviation from which a gain, a torque constant or a stiffness is refused.
 LIMIT = 0.1
+#: Why a parameter has no value that shows only together with others, or not at all.
+HIDDEN = "no motion in the data shows it alone"
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,11 @@ class Value:
     essential: bool = True
     refused: str = ""
     given: bool = False
+
+    @classmethod
+    def unknown(cls, unit: str, why: str) -> Value:
+        """One that the data do not show, and ``why``."""
+        return cls(None, math.inf, unit, refused=why)
 
     @property
     def relative_std(self) -> float:

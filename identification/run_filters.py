@@ -5,7 +5,7 @@ from __future__ import annotations
 from generator.errors import InputError
 from generator.review.words import plural
 from identification.dataset import Run
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 
 
 def filters_of(run: Run, recipe: Recipe) -> Filters:

@@ -18,7 +18,7 @@ from identification.arrays import Array
 from identification.dataset import Run
 from identification.filtering import Stage, decimated, derivative, kept_indices, kept_rows, smoothed, stages
 from identification.observation import Motion, Regressors, standing
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 
 #: Samples of a part at the recorded rate.
 _PART = 1 << 15

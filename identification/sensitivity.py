@@ -9,7 +9,7 @@ from pathlib import Path
 
 from generator.errors import InputError
 from identification.inverse_model import Identification, identify
-from identification.recipe import Filters, Recipe, possible_factor
+from identification.recipes import Filters, Recipe, possible_factor
 
 #: Parts of its own value that each setting is tried at.
 _PARTS = (0.5, 2.0)

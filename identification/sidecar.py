@@ -158,6 +158,18 @@ def given(words: Sequence[str], place: Place) -> Payload:
     return Payload(name, known)
 
 
+def by_name(carried: Iterable[tuple[Place, Payload | None]]) -> dict[str, Payload]:
+    """The payloads ``carried`` by runs, each with its run's place, by name.
+
+    Raises InputError at the place of a run where other values are known of a payload than in a run before.
+    """
+    result: dict[str, Payload] = {}
+    for place, payload in carried:
+        if payload is not None and result.setdefault(payload.name, payload).known != payload.known:
+            raise InputError(place, f"payload {payload.name} has other values here", "one payload of a name")
+    return result
+
+
 def check_carried(payload: Payload | None, carried: Iterable[Payload | None]) -> None:
     """Raises InputError where the ``payload`` that was given is none of those that runs have ``carried``, because all
     sidecars tell something else.

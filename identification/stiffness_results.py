@@ -20,13 +20,26 @@ from identification.residuals import Residuals
 from identification.results import RESULTS, written
 from identification.robot_file import with_parameter_set
 
+#: Stiffness by one of the methods; ``values`` of each are all that it found, by name.
+Found = LockedOutput | ForceSteps | LinkEncoders
+
 #: Name of the parameter set in the robot file.
 SET = "identified_stiffness"
 _STD = "of coloured residuals, their correlation as found"
 
 
-def of_locked(found: LockedOutput) -> dict[str, Any]:
+def document(found: Found) -> dict[str, Any]:
     """The content of results.json, see docs/identification.md."""
+    match found:
+        case LockedOutput():
+            return _of_locked(found)
+        case ForceSteps():
+            return _of_steps(found)
+        case LinkEncoders():
+            return _of_link_encoders(found)
+
+
+def _of_locked(found: LockedOutput) -> dict[str, Any]:
     number = found.joint.number
     values = {name: dataclasses.replace(one, essential=name in found.essential) for name, one in found.values.items()}
     norms = {
@@ -51,10 +64,8 @@ def of_locked(found: LockedOutput) -> dict[str, Any]:
     }
 
 
-def of_steps(found: ForceSteps) -> dict[str, Any]:
-    """The content of results.json, see docs/identification.md."""
+def _of_steps(found: ForceSteps) -> dict[str, Any]:
     numbers = found.robot.numbers
-    values = {**found.stiffness, **found.constants}
     each = [{numbers[k]: one for k, one in some.items()} for some in (found.residuals, found.motor_residuals)]
     joints, motors = (outcome.norms(one, Residuals(one).total) if one else None for one in each)
     return {
@@ -67,16 +78,14 @@ def of_steps(found: ForceSteps) -> dict[str, Any]:
         },
         "data": {"train": [outcome.run(one.run, one.filters) for one in found.poses]},
         "condition": None,
-        "parameters": outcome.parameters(values),
+        "parameters": outcome.parameters(found.values),
         "residual": {"train": joints, "test": None, "motors": motors},
-        "notes": [*found.notes, *refusals(values)],
+        "notes": [*found.notes, *refusals(found.values)],
     }
 
 
-def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
-    """The content of results.json, see docs/identification.md."""
+def _of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
     numbers = found.robot.numbers
-    values = {**found.stiffness, **found.latency}
     each = {numbers[k]: one for k, one in found.residuals.items()}
     return {
         **_head(found.robot),
@@ -87,10 +96,10 @@ def of_link_encoders(found: LinkEncoders) -> dict[str, Any]:
         },
         "data": {"train": [outcome.run(run, filters) for run, filters in found.runs]},
         "condition": max((rows.condition for rows in found.rows.values() if len(rows.torque)), default=inf),
-        "parameters": outcome.parameters(values),
+        "parameters": outcome.parameters(found.values),
         "taken_for_elasticity": outcome.parameters(found.mistaken),
         "residual": {"train": outcome.norms(each, Residuals(each).total), "test": None},
-        "notes": [*found.notes, *mistakes(found), *refusals(values)],
+        "notes": [*found.notes, *mistakes(found), *refusals(found.values)],
     }
 
 
@@ -108,29 +117,26 @@ def refusals(values: Mapping[str, Value]) -> list[str]:
     return [f"{name} cannot be told: {one.refused}" for name, one in values.items() if one.refused]
 
 
-def save(
-    document: Mapping[str, Any],
-    values: Mapping[str, Value],
-    robot: Robot,
-    robot_file: Path,
-    folder: Path,
-    beside: Mapping[str, bytes] | None = None,
-) -> list[str]:
+def save(found: Found, robot_file: Path, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
     """Writes results.json, ROBOT.yaml and the files ``beside`` into ``folder``; returns their names.
 
     Raises InputError where the folder cannot be written.
     """
-    runs = ", ".join(Path(one["file"]).name for one in document["data"]["train"])
-    source = f"{document['method']['name']} from {runs}"
-    elastic = {f"k{number}" for number in robot.flexible}
-    own = {name: one for name, one in values.items() if name in elastic}
-    others = {name: one for name, one in values.items() if name not in elastic}
-    kept, further = outcome.values_of_set(own), outcome.values_of_set(others)
-    one = ParameterSet(SET, "stiffness of the drive trains", source, kept, further)
-    text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), one)
-    files = {RESULTS: written(document).encode(), f"{robot.name}.yaml": text.encode(), **(beside or {})}
+    results, robot = document(found), found.robot
+    text = with_parameter_set(robot_file.read_text(encoding="utf-8-sig"), _set(found, results))
+    files = {RESULTS: written(results).encode(), f"{robot.name}.yaml": text.encode(), **(beside or {})}
     replace(folder, files)
     return sorted(files)
+
+
+def _set(found: Found, results: Mapping[str, Any]) -> ParameterSet:
+    runs = ", ".join(Path(one["file"]).name for one in results["data"]["train"])
+    source = f"{results['method']['name']} from {runs}"
+    elastic = {f"k{number}" for number in found.robot.flexible}
+    own = {name: one for name, one in found.values.items() if name in elastic}
+    others = {name: one for name, one in found.values.items() if name not in elastic}
+    kept, further = outcome.values_of_set(own), outcome.values_of_set(others)
+    return ParameterSet(SET, "stiffness of the drive trains", source, kept, further)
 
 
 def _head(robot: Robot) -> dict[str, Any]:

@@ -91,7 +91,7 @@ class Task:
 
     @property
     def times(self) -> Array:
-        """Times of the samples [s]."""
+        """Times of the samples (N) [s]."""
         numbers: Array = np.arange(self.samples, dtype=float)
         return self.period * numbers
 

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
-from identification.diagnosis.columns.bank import Bank
+from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.whitening import Colour
 
@@ -19,8 +20,8 @@ Array = NDArray[np.float64]
 WHITE = Colour((np.ones(1),), (1.0,))
 
 
-#: Rows a second.
-RATE = 50.0
+#: Rows a second; rows after which nothing is left of how a process begins.
+RATE, SETTLED = 50.0, 200
 
 
 def run(W: Array, tau: Array, kept: NDArray[np.bool_] | None = None, period: int = 0) -> Any:
@@ -64,6 +65,12 @@ def whitened(one: Bank) -> Bank:
     return one
 
 
+def process(law: Array, deviation: float, count: int, seed: int) -> Array:
+    """Noise in its steady state (``count``), of which ``law`` (p + 1) leaves white noise of a ``deviation``."""
+    drawn = np.random.default_rng(seed).normal(size=count + SETTLED)
+    return np.asarray(lfilter([deviation], law, drawn)[SETTLED:])
+
+
 def several(effect: str, coefficients: Sequence[Coefficient], columns: Sequence[Array]) -> Hypothesis:
     """An effect of several coefficients, each with its column in every run (runs x N)."""
 
@@ -85,3 +92,12 @@ def hypothesis(
         return columns(scene.number, shape)[None, None]
 
     return Hypothesis(effect, effect, 1, (Coefficient("c1", "1", *bounds),), of, shapes=tuple(shapes))
+
+
+def variant(effect: str, coefficient: Coefficient, column: int, joint: int = 1, **told: Any) -> Variant:
+    """A variant of one coefficient, in the ``column`` of a bank, whose torque nobody asks for.
+
+    ``told`` are further fields of its hypothesis.
+    """
+    one = Hypothesis(effect, effect, joint, (coefficient,), lambda scene, shape: np.zeros((1, 1, 1)), **told)
+    return Variant(one, {}, (column,), (joint - 1,), (0,))

@@ -13,7 +13,6 @@ import numpy as np
 from generator.cli.main import main
 from generator.robot.description import Robot
 from generator.robot.readers import read
-from identification import stiffness_results
 from identification.comparison import compare
 from identification.consistent_fit import consistent_fit
 from identification.inverse_model import identify
@@ -58,9 +57,9 @@ def pages(folder: Path) -> dict[str, bytes]:
     return {
         "identify": identify_report.report(subject.found, subject.consistent),
         "gains": gains_report.report(lifter.found(_lifter(folder), folder)),
-        "steps": stiffness_report.report(steps, stiffness_results.of_steps(steps)),
-        "locked": stiffness_report.report(locked, stiffness_results.of_locked(locked)),
-        "links": stiffness_report.report(links, stiffness_results.of_link_encoders(links)),
+        "steps": stiffness_report.report(steps),
+        "locked": stiffness_report.report(locked),
+        "links": stiffness_report.report(links),
         "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
         **_of_commands(folder / "commands"),
     }

@@ -14,7 +14,7 @@ from identification.consistency import grouped
 from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.recorded import Recorded, recorded, two_links
 
 #: Two bars with rotors; what the base parameters are made of.

@@ -20,6 +20,7 @@ from typing import Any
 import pytest
 
 from generator.resources import robots
+from tests.at_hand import RECORDINGS, TRANSCRIBED, Folder
 from tests.documents import ROOT, SESSIONS, Workshop, agree, blocks
 
 DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").glob("*.md"))]
@@ -245,6 +246,17 @@ def test_report_md_accounts_for_each_number_once(numbers: str, count: int) -> No
             first, _, last = item.partition("-")
             told.update(range(int(first), int(last or first) + 1))
     assert told == Counter(range(1, count + 1))
+
+
+# -- folders that are not part of the repository ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("folder", "document"), [(RECORDINGS, "docs/identification.md"), (TRANSCRIBED, "docs/parameter_sets.md")]
+)
+def test_where_files_are_looked_for_is_told_where_they_are_missed(folder: Folder, document: str) -> None:
+    assert f"`{folder.variable}`" in text(document)
+    assert folder.variable in folder.needed.kwargs["reason"]
 
 
 # -- the quantities ---------------------------------------------------------------------------------------------------

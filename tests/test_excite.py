@@ -12,23 +12,26 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.errors import Place
+from generator.errors import InputError, Place
 from generator.robot.readers import read
 from identification.dataset import Run
 from identification.excitation.design import improved
+from identification.excitation.excite import excite
 from identification.excitation.expectation import expected
 from identification.excitation.noise import Noise
+from identification.excitation.request import Request
 from identification.factors import factors
 from identification.inverse_model import Options, identify
 from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
 from identification.readers import csv
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
-from tests.commands import PENDULUM, command
+from tests.commands import PENDULUM, ROOT, command
+from tests.documents import blocks
 from tests.recorded import TRUTH, TWO_LINKS, fourier, parameters_text, regressors
 from tests.scattering import squares
 
@@ -169,6 +172,28 @@ def test_ordinary_least_squares_are_expected_to_scatter_as_they_do() -> None:
         found = Problem(factors(noisy), names, {}, weighted=False).solve()
         errors.append([found.values[name] for name in names])
     squares(errors, np.array([foreseen.std(name) for name in names]))
+
+
+def test_the_passage_for_python_designs_what_the_command_does(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With another robot, and with so few motions that they are seen through at once."""
+    (passage,) = (one.text for one in blocks((ROOT / "docs" / "excite.md").read_text()) if one.language == "python")
+    passage = passage.replace('"kr500"', f'"{file}"').replace("speed=0.8", "speed=0.8, evaluations=256")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(passage, "docs/excite.md", "exec"), {})
+    relative, duration = map(float, capsys.readouterr().out.split())
+    words = ("--noise", "0.3", "--speed", "0.8", "--evaluations", "256")
+    assert command("excite", file, "--out", "command", *words, capsys=capsys).status == 0
+    for name in ("excitation.json", "trajectory.csv", "trajectory.yaml"):
+        assert Path("excitation", "kr500", name).read_bytes() == Path("command", name).read_bytes()
+    told = json.loads(Path("command", "excitation.json").read_text())
+    assert (duration, relative) == (20.0, told["expected"]["Fv1"]["relative_std_percent"])
+
+
+def test_a_request_for_an_unknown_criterion_is_refused(file: Path) -> None:
+    with pytest.raises(InputError, match=r"^--criterion:1:1: 'trace', expected determinant or condition$"):
+        excite(read(file), Request(criterion="trace"))
 
 
 def test_what_no_row_shows_is_named(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,7 +13,7 @@ from generator.robot.readers import read
 from identification.inverse_model import Options, identify
 from identification.observation import Regressors
 from identification.readers import csv
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.commands import command
 from tests.scattering import squares
 

@@ -15,7 +15,7 @@ from generator.robot.readers import read
 from identification.drive_gains import DriveGains, drive_gains
 from identification.motor_rows import motor_rows
 from identification.observation import Motion, Regressors
-from identification.recipe import read as recipe_of
+from identification.recipes import read as recipe_of
 from identification.sidecar import Payload
 from tests.commands import command
 from tests.recorded import Recorded, fourier
@@ -195,6 +195,11 @@ def test_results_and_robot_file(arm: Regressors, tmp_path: Path, capsys: pytest.
     assert done.out.startswith("lifter: 3 of 3 drive gains\n")
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert 1 < results["condition"] < 1e4
+    assert results.keys() == {
+        *("robot", "robot_sha256", "version", "method", "data", "condition", "separation", "gains_by_payload_percent"),
+        *("parameters", "payloads", "residual", "notes"),
+    }
+    assert results["payloads"] == {"L": {"ML": {"value": 20, "std": 0.02, "unit": "kg"}}}
     one = results["parameters"]["g_tau1"]
     assert one["value"] == pytest.approx(-120 * KT[0], abs=4 * one["std"])
     assert (one["unit"], one["identifiable"]) == ("N m/A", True)
@@ -255,6 +260,15 @@ def test_a_payload_that_the_sidecars_contradict_is_refused(arm: Regressors, tmp_
         for payload in (None, Payload("L", {"M": 20.0}))
     )
     assert alone == beside
+
+
+def test_one_payload_with_two_values_is_refused(arm: Regressors, tmp_path: Path) -> None:
+    runs = [saved(tmp_path / f"{s}.csv", *currents(arm, s, s > 0), 0.02, s) for s in range(3)]
+    for path, mass in zip(runs[1:], (20, 21), strict=True):
+        Path(path).with_suffix(".yaml").write_text(f"payload: {{M: {mass} kg}}\n")
+    told = f"{runs[2]}:1:1: payload L has other values here, expected one payload of a name"
+    with pytest.raises(InputError, match=f"^{re.escape(told)}$"):
+        drive_gains(arm.model.robot, runs[:1], runs[1:], regressors=arm)
 
 
 def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from identification.consistent_fit import consistent_fit
 from identification.fixing import fixed
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.results import parameter_sets
 from identification.sensitivity import sensitivity
 from tests.commands import command

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from generator.errors import InputError
 from identification.drive_gains import drive_gains
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.results import document
 from identification.sidecar import UNITS, Payload
 from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_links
@@ -69,6 +70,14 @@ def test_a_payload_that_all_sidecars_contradict_is_refused(links: Regressors, tm
     silent = carrying(links, 0.5, tmp_path / "silent.csv", "notes: of the day after\n")
     assert fitted(empty, silent, payload=Payload("K", POINT_OF_HALF))["MX2"] == pytest.approx(TRUTH["MX2"], rel=0.01)
     fitted(empty, test=(silent,), payload=Payload("K", POINT_OF_HALF))
+
+
+def test_one_payload_with_two_values_is_refused(links: Regressors, tmp_path: Path) -> None:
+    """In the same words, whatever is sought, at the run that comes later."""
+    runs = [carrying(links, mass, tmp_path / f"{mass}.csv", known("L", mass)) for mass in (0.5, 2.5)]
+    told = f"{runs[1]}:1:1: payload L has other values here, expected one payload of a name"
+    with pytest.raises(InputError, match=f"^{re.escape(told)}$"):
+        identify(links.model.robot, runs, options=Options(PLAIN), regressors=links)
 
 
 def test_of_two_payloads_one_is_told_from_the_other(links: Regressors, tmp_path: Path) -> None:

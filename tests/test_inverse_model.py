@@ -13,7 +13,7 @@ from identification.dataset import load
 from identification.factors import added, factors
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.sidecar import Payload
 from tests.recorded import TRUTH, Recorded, fourier, recorded, two_links

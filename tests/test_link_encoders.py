@@ -16,19 +16,18 @@ from generator.robot.readers import read
 from identification.dataset import load
 from identification.inverse_model import identify
 from identification.link_encoders import astray, link_encoders, of_runs
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.report.stiffness import report as stiffness_report
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
-from identification.stiffness_results import of_link_encoders
+from identification.stiffness_results import document
+from tests.at_hand import RECORDINGS
 from tests.commands import command
 from tests.elastic_links import MOTORS, N, robot_text
 from tests.recorded import SLIDE, Recorded
-from tests.test_real_runs import DATA as RECORDINGS
 
-DATA = RECORDINGS / "kr300_r2500"
 LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
 
@@ -181,7 +180,7 @@ def test_a_joint_that_creeps_tells_nothing(machine: Machine, tmp_path: Path) -> 
     assert refused == found.stiffness["k2"].refused == "no row is above the joint's standstill speed"
     both = link_encoders(machine.robot, [str(run), recorded(machine, RUN, tmp_path / "moving.csv")])
     for one in (found, both):
-        page = stiffness_report.report(one, of_link_encoders(one)).decode()
+        page = stiffness_report.report(one).decode()
         assert ("k2 cannot be told" in page) is (one is found)
     still = Recorded({**columns, "q2": slow, "qs2": slow, "q1": slow, "qs1": slow}).save(tmp_path / "still.csv")
     with pytest.raises(InputError, match="no joint with a link-side encoder moves, expected rows above"):
@@ -218,10 +217,10 @@ def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path
         link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
 
 
-@pytest.mark.skipif(not DATA.is_dir(), reason="no recordings in ../shared/data")
+@RECORDINGS.needed
 def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Three axes with the same electronics: 3.0 ms each, and false stiffness of a third of the a-priori model's."""
-    runs = [DATA / "A.csv", DATA / "B.csv"]
+    runs = [RECORDINGS.path / "kr300_r2500" / f"{name}.csv" for name in "AB"]
     robot = read(find_robot("kr300"))
     friction = identify(robot, [str(run) for run in runs], options=None).full.solution.values
     found = link_encoders(robot, [str(run) for run in runs], friction, Recipe())
@@ -249,7 +248,7 @@ def test_a_joint_that_crawls_is_refused_and_the_other_is_not(machine: Machine, t
     found = of_runs(machine.robot, [slow], MOTORS)
     assert found.stiffness["k1"].value is not None
     assert found.stiffness["k2"].value is None
-    assert np.isfinite(of_link_encoders(found)["condition"])
+    assert np.isfinite(document(found)["condition"])
     crawls = replace(slow, others={"qs2": crawling})
     assert of_runs(machine.robot, [crawls], MOTORS).stiffness["k2"].value is None
     with pytest.raises(InputError, match=r"its samples from 0 s to .* s fit in a.csv"):

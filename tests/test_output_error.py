@@ -25,7 +25,7 @@ from identification.output_error.open_loop import OpenLoop
 from identification.output_error.positivity import Positivity, constrained
 from identification.output_error.search import Search, Settings, search_of, starts
 from identification.output_error.variations import variations
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings as Simulation

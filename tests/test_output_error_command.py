@@ -28,7 +28,7 @@ from identification.executors.here import Here
 from identification.executors.processes import Processes
 from identification.output_error.multi_start import output_error
 from identification.output_error.search import Settings
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.study import key_of, study
 from tests.commands import command
 from tests.recorded import SLIDE
@@ -113,7 +113,9 @@ def serial(folder: Path) -> dict[str, Any]:
 
 def starts_of(folder: Path, executor: Any, counted: Callable[[int, int], None] = lambda done, total: None) -> Any:
     settings = Settings(Recipe(), spread=3.0, seed=5)
-    found = output_error(read(folder / "slide.yaml"), [folder / "A.csv"], (), settings, STARTS, executor, None, counted)
+    found = output_error(
+        read(folder / "slide.yaml"), [folder / "A.csv"], (), settings, count=STARTS, executor=executor, counted=counted
+    )
     return {"scores": found.scores, "chosen": found.chosen, "values": found.best.values, "hidden": found.best.hidden}
 
 

@@ -23,9 +23,9 @@ from generator.symbolic.interpret import evaluate
 from generator.symbolic.parameter_sets import parameter_vector, standard_vector
 from generator.symbolic.pseudo_inertia import of_body, pseudo_inertia
 from identification.consistency import grouped
+from tests.at_hand import TRANSCRIBED
 
 REFERENCE = Path(__file__).parent / "reference" / "report_tables.csv"
-PRINTED_ELSEWHERE = Path(__file__).parents[2] / "shared" / "report" / "tables"
 TABLES = {
     "table7_kr270_2f.csv": ("kr270", "report_table_7"),
     "table11_kr500_2mt_idim_ls.csv": ("kr500", "report_table_11"),
@@ -92,10 +92,10 @@ def test_no_report_set_without_a_reference(robot: str) -> None:
     assert sets == {table for name, table in reference() if name == robot}
 
 
-@pytest.mark.skipif(not PRINTED_ELSEWHERE.is_dir(), reason="the transcribed tables are not on this machine")
+@TRANSCRIBED.needed
 @pytest.mark.parametrize("file", sorted(TABLES))
 def test_reference_is_the_transcribed_table(file: str) -> None:
-    with (PRINTED_ELSEWHERE / file).open(newline="") as stream:
+    with (TRANSCRIBED.path / file).open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     printed = {
         {"F0": "F02"}.get(row["parameter"], row["parameter"]): (

@@ -1,13 +1,8 @@
-"""Recordings of real robots, where they are at hand: what is held out is explained.
-
-They are looked for in ../shared/data and in the folder that COUNTERPOISE_RECORDINGS names.
-"""
+"""Recordings of real robots, where they are at hand: what is held out is explained."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -19,16 +14,14 @@ from identification.fixing import fixed
 from identification.inverse_model import Estimate, Identification, Options, identify
 from identification.observation import Regressors
 from identification.sidecar import Payload
-from tests.commands import ROOT
+from tests.at_hand import RECORDINGS
 from tests.recorded import regressors
 
-DATA = Path(os.environ.get("COUNTERPOISE_RECORDINGS", ROOT.parent / "shared" / "data"))
-
-pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no recordings of real robots in ../shared/data")
+pytestmark = RECORDINGS.needed
 
 
 def data(*names: str) -> list[str]:
-    return [f"{DATA}/{name}" for name in names]
+    return [f"{RECORDINGS.path}/{name}" for name in names]
 
 
 def left(estimate: Estimate) -> tuple[float, list[float]]:

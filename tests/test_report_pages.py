@@ -17,6 +17,7 @@ import pytest
 
 import identification.report.identify.sections
 from generator.review.page import sections
+from identification.excitation.request import Request
 from identification.observation import Motion
 from identification.report import series
 from identification.report.excite.sections import summary as designed
@@ -134,7 +135,7 @@ def test_the_lag_of_link_side_encoders_is_shown(written: dict[str, bytes]) -> No
 def test_a_line_far_from_zero_keeps_its_points_apart() -> None:
     """Times of a clock, angles of a drive train that twists by a thousandth of where it stands."""
     t = 1.7e9 + np.arange(1000) / 1000
-    across, _ = series.line(t, np.sin(9 * t), 2000)
+    across, _ = series.thinned(t, np.sin(9 * t), 2000)
     assert np.array(across, dtype=float) == pytest.approx(t, abs=1e-6, rel=0)
     assert series.resolved(-1.5 + np.array([0.0, 1.25e-7])) == [-1.5, -1.499999875]
     assert series.resolved(np.array([2.0, 2.0])) == [2.0, 2.0]
@@ -228,7 +229,7 @@ def test_a_shortened_line_keeps_what_stands_out() -> None:
     t = np.arange(100_000) / 1000
     y = np.sin(t)
     y[70_123], y[30_456] = 5.0, -4.0
-    across, upward = series.line(t, y, 400)
+    across, upward = series.thinned(t, y, 400)
     assert len(across) <= 401
     assert (max(upward), min(upward)) == (5.0, -4.0)
     assert across[upward.index(5.0)] == pytest.approx(70.123)
@@ -236,7 +237,7 @@ def test_a_shortened_line_keeps_what_stands_out() -> None:
 
 def test_a_line_is_interrupted_where_rows_are_missing() -> None:
     t = np.concatenate([np.arange(0, 10, 0.1), np.arange(20, 30, 0.1)])
-    across, upward = series.line(t, t.copy(), 1000)
+    across, upward = series.thinned(t, t.copy(), 1000)
     assert upward.count(None) == 1
     gap = upward.index(None)
     assert (across[gap - 1], across[gap + 1]) == pytest.approx((9.9, 20.0))
@@ -279,7 +280,11 @@ def test_a_designed_motion_is_summed_up_with_the_parameters_that_are_zero() -> N
         scaled_condition=3.0, values=values, hidden=(), relative_std=lambda name: 2.0 if values[name] else math.inf
     )
     found = SimpleNamespace(
-        expected=expected, duration=10.0, periods=1, rate=200.0, limits=SimpleNamespace(loads=np.zeros(0)), units=values
+        expected=expected,
+        duration=10.0,
+        request=Request(periods=1, rate=200.0),
+        limits=SimpleNamespace(loads=np.zeros(0)),
+        units=values,
     )
     text = str(designed.render(cast(Any, found)))
     assert "Of 4 base parameters 2 will be known to 10\u202f% or better." in text

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -59,6 +61,16 @@ def test_parquet(good: Recorded, robot: Robot, tmp_path: Path) -> None:
 
     parquet.write_table(pyarrow.table(dict(good.columns)), tmp_path / "a.parquet")
     assert same(load(str(tmp_path / "a.parquet"), robot), good)
+
+
+def test_a_missing_package_is_told_with_what_brings_it(
+    robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.parquet").touch()
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    wanted = "pyarrow is not installed, expected make setup or pip install '.[identification]' in the checkout"
+    with pytest.raises(InputError, match=re.escape(wanted)):
+        load(str(tmp_path / "a.parquet"), robot)
 
 
 def test_motor_side_and_currents(good: Recorded, robot: Robot, tmp_path: Path) -> None:

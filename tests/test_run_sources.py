@@ -12,7 +12,7 @@ from pyarrow import parquet
 
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification import recipe, sidecar
+from identification import recipes, sidecar
 from identification.dataset import load
 from identification.run_source import RunSource, part_of
 from tests.commands import PENDULUM, command
@@ -44,7 +44,7 @@ def test_a_part_beyond_the_file_is_told(part: str, told: bool, good: Recorded, r
 def test_each_formula_of_a_recipe_is_used_where_it_can_be(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     (tmp_path / "recipe.yaml").write_text("columns: {q1: a1 * pi / 180, q2: 2 * q1, temp1: warmth + 273}\n")
     named = good.without("q1").with_columns(a1=np.degrees(good.columns["q1"]))
-    run = load(str(named.save(tmp_path / "a.csv")), robot, recipe.read(tmp_path / "recipe.yaml").columns)
+    run = load(str(named.save(tmp_path / "a.csv")), robot, recipes.read(tmp_path / "recipe.yaml").columns)
     assert run.q[0] == pytest.approx(good.columns["q1"], abs=1e-12)
     assert run.q[1].tolist() == good.columns["q2"].tolist()
     assert "temp1" not in run.others
@@ -53,7 +53,7 @@ def test_each_formula_of_a_recipe_is_used_where_it_can_be(good: Recorded, robot:
 def test_formulas_of_one_signal_are_used_together(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     """Of the torques one cannot be made: the currents are there."""
     (tmp_path / "recipe.yaml").write_text("columns: {tau1: 100 * i1, tau2: 90 * i2 - 5 * brake2}\n")
-    columns = recipe.read(tmp_path / "recipe.yaml").columns
+    columns = recipes.read(tmp_path / "recipe.yaml").columns
     motors = {"t": good.columns["t"], "qm1": good.columns["q1"], "qm2": good.columns["q2"]}
     path = str(Recorded(motors | {f"i{j}": good.columns[f"tau{j}"] / 100 for j in (1, 2)}).save(tmp_path / "a.csv"))
     np.testing.assert_array_equal(load(path, robot, columns).tau, load(path, robot).tau)

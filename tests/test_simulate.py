@@ -15,7 +15,7 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.simulation.checks import check
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save

@@ -13,7 +13,7 @@ from identification.corrections import TooWarm
 from identification.dataset import load
 from identification.inverse_model import Options, identify
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sidecar import Payload
 from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save

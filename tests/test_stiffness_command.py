@@ -15,7 +15,7 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.force_steps import ForceSteps, force_steps
 from identification.locked_output import LockedOutput, locked_output
-from identification.stiffness_results import of_locked
+from identification.stiffness_results import document
 from tests.commands import command
 from tests.newton_euler import Arm
 from tests.recorded import Recorded
@@ -295,12 +295,30 @@ def test_a_run_in_which_the_blocked_motor_rests_is_told(tmp_path: Path) -> None:
 def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) -> None:
     """The viscous friction of a motor that turns slowly, in noise that is larger than its torque."""
     found = locked_output(ROBOT, 2, [blocked(tmp_path / "a.csv", noise=2000.0)])
-    document = of_locked(found)
+    results = document(found)
     lost = [name for name, one in found.values.items() if one.refused]
     assert lost == ["Fvm2"]
     for name in lost:
-        assert document["parameters"][name]["refused"].startswith("relative std")
-        assert any(note.startswith(f"{name} cannot be told: relative std") for note in document["notes"])
+        assert results["parameters"][name]["refused"].startswith("relative std")
+        assert any(note.startswith(f"{name} cannot be told: relative std") for note in results["notes"])
+
+
+def test_a_motor_that_turns_one_way_does_not_tell_friction_from_offset(tmp_path: Path) -> None:
+    """Refused by name with the reason, while the stiffness is told."""
+    path = Path(blocked(tmp_path / "a.csv", noise=0.0))
+    lines = path.read_text().splitlines()
+    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    x, w = columns["q2"] + 1.5, 2 * np.pi * 0.15
+    ramp = 2.5e-3 * w * columns["t"]
+    columns["q2"] += ramp
+    a = -w * w * x
+    columns["tau2"] = 900 * a + 8e3 * np.gradient(columns["q2"], columns["t"]) + 60 + 1.9e6 * (x + ramp)
+    found = locked_output(ROBOT, 2, [f"{Recorded(columns).save(path)}@0:15"])
+    assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
+    results = document(found)
+    for name in ("Fcm2", "Offk2"):
+        assert found.values[name].value is None
+        assert f"{name} cannot be told: no motion in the data shows it alone" in results["notes"]
 
 
 def test_of_one_wave_alone_inertia_is_not_told_from_stiffness(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.search.loop import Search, search
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.plant.robot_file import PRIOR
 
 Name = tuple[str, int]

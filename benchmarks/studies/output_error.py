@@ -16,7 +16,7 @@ from identification.dataset import load
 from identification.inverse_model import Options, identify
 from identification.output_error.estimate import Estimate, estimate
 from identification.output_error.search import Settings
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.simulation.machine import compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings as Simulation

@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     with needing(command_line("counterpoise gains")):
-        from identification import recipe as recipes
+        from identification import recipes
         from identification.destination import destination
         from identification.drive_gains import drive_gains
         from identification.gains_results import save

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from identification.consistent_fit import ConsistentFit
     from identification.inverse_model import Identification, Options
     from identification.observation import Regressors
-    from identification.recipe import Recipe
+    from identification.recipes import Recipe
     from identification.sensitivity import Variation
 
 #: Largest weight of a prior: beyond, nothing of the runs is left beside it.
@@ -205,7 +205,7 @@ def _bodies(name: str, model: Model) -> tuple[dict[str, float] | None, list[str]
 
 
 def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
-    from identification import recipe as recipes
+    from identification import recipes
 
     robot = regressors.model.robot.name
     base = recipes.recipe_of(robot, arguments.recipe)

@@ -95,7 +95,14 @@ def run(arguments: argparse.Namespace) -> None:
         settings = _settings(arguments, robot)
     with executors.opened(arguments) as executor, counter("starts") as counted:
         found = output_error(
-            robot, arguments.data, arguments.test, settings, arguments.starts, executor, folder, counted
+            robot,
+            arguments.data,
+            arguments.test,
+            settings,
+            count=arguments.starts,
+            executor=executor,
+            folder=folder,
+            counted=counted,
         )
     files = save(found, path, folder, {REPORT: report(found)})
     print(f"{robot.name}: {plural(len(found.best.names), 'parameter')} by output error")
@@ -106,7 +113,7 @@ def run(arguments: argparse.Namespace) -> None:
 def _settings(arguments: argparse.Namespace, robot: Robot) -> Settings:
     from generator.derivation import derive
     from generator.robot.fields import nearest
-    from identification import recipe as recipes
+    from identification import recipes
     from identification.fixing import fixed
     from identification.output_error.methods import methods
     from identification.output_error.search import Settings

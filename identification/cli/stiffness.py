@@ -22,7 +22,7 @@ from identification.extras import needing
 
 if TYPE_CHECKING:
     from generator.robot.description import Robot
-    from identification.report.stiffness.subject import Found
+    from identification.stiffness_results import Found
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -47,39 +47,43 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     with needing(command_line("counterpoise stiffness")):
-        from identification import force_steps, link_encoders, locked_output, outcome, stiffness_results
-        from identification import recipe as recipes
         from identification.destination import destination
         from identification.report.page import REPORT
         from identification.report.stiffness.report import report
+        from identification.stiffness_results import save
 
     path = find_robot(arguments.robot)
     robot = read(path)
     folder = destination(arguments.out, f"{robot.name}_stiffness", robot, (path, arguments.recipe), arguments.data)
-    prior = {} if arguments.prior is None else _prior(arguments.prior, robot)
-    method = force_steps if arguments.pressed else link_encoders if arguments.link_encoders else locked_output
-    own = method.RECIPE
-    recipe = own if arguments.recipe is None else recipes.read(arguments.recipe)
-    with stage(f"identifying stiffness from {plural(len(arguments.data), 'run')}"):
-        if arguments.pressed:
-            steps = force_steps.force_steps(robot, arguments.data, prior, recipe)
-            values, document = {**steps.stiffness, **steps.constants}, stiffness_results.of_steps(steps)
-            found: Found = steps
-        elif arguments.link_encoders:
-            links = link_encoders.link_encoders(robot, arguments.data, prior, recipe)
-            values, document = {**links.stiffness, **links.latency}, stiffness_results.of_link_encoders(links)
-            found = links
-        else:
-            locked = locked_output.locked_output(robot, arguments.locked, arguments.data, prior, recipe)
-            values, document = dict(locked.values), stiffness_results.of_locked(locked)
-            found = locked
-    files = stiffness_results.save(document, values, robot, path, folder, {REPORT: report(found, document)})
-    total = document["residual"]["train"]["total"]
-    lines = [f"{robot.name}: {document['method']['name']}", *(f"note: {note}" for note in document["notes"])]
-    lines += outcome.table(values)
-    lines.append(f"||e||/||Y|| {total['relative_percent']:.4f} %")
-    print("\n".join(lines))
+    found = _identified(arguments, robot)
+    files = save(found, path, folder, {REPORT: report(found)})
+    print(_summary(found))
     print(f"files            {', '.join(files)} in {folder}/")
+
+
+def _identified(arguments: argparse.Namespace, robot: Robot) -> Found:
+    from identification import force_steps, link_encoders, locked_output, recipes
+
+    data, prior = arguments.data, {} if arguments.prior is None else _prior(arguments.prior, robot)
+    recipe = None if arguments.recipe is None else recipes.read(arguments.recipe)
+    with stage(f"identifying stiffness from {plural(len(data), 'run')}"):
+        if arguments.pressed:
+            return force_steps.force_steps(robot, data, prior, recipe or force_steps.RECIPE)
+        if arguments.link_encoders:
+            return link_encoders.link_encoders(robot, data, prior, recipe or link_encoders.RECIPE)
+        return locked_output.locked_output(robot, arguments.locked, data, prior, recipe or locked_output.RECIPE)
+
+
+def _summary(found: Found) -> str:
+    from identification.outcome import table
+    from identification.stiffness_results import document
+
+    results = document(found)
+    total = results["residual"]["train"]["total"]
+    lines = [f"{found.robot.name}: {results['method']['name']}", *(f"note: {note}" for note in results["notes"])]
+    lines += table(found.values)
+    lines.append(f"||e||/||Y|| {total['relative_percent']:.4f} %")
+    return "\n".join(lines)
 
 
 def _prior(name: str, robot: Robot) -> dict[str, float]:

@@ -12,7 +12,7 @@ from generator.progress import stage, stages
 from generator.review.words import plural
 from generator.robot.description import Robot
 from generator.writing import replace, replacing
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import Run, load
 from identification.destination import spare_inputs
 from identification.diagnosis.columns.priors import notes_of, preferring, prior_of

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from generator.robot.description import Robot
 from identification.arrays import Array
@@ -42,8 +43,6 @@ class Diagnosis:
     ``contradicted`` are known parameters of which the runs say that they have other values. ``reason`` is that of
     ``Unexplained``, or PATCHED. ``runs`` are all runs in the order of ``roles`` (train, validate); ``search`` holds the
     columns of those that are fitted or validate; ``steps`` is how near to the noise each finding comes.
-    ``residuals_before`` and ``residuals_after`` are torques [N m, N] (n x N rows) of the fitted and validating runs
-    by the model of the search, all rows, as recorded.
     """
 
     robot: Robot
@@ -59,9 +58,19 @@ class Diagnosis:
     steps: Steps
     contradicted: tuple[Contradicted, ...]
     reason: str
-    residuals_before: tuple[Array, ...]
-    residuals_after: tuple[Array, ...]
     notes: tuple[str, ...]
+
+    @cached_property
+    def residuals_before(self) -> tuple[Array, ...]:
+        """What the model as it stood leaves of the torques of each run that is fitted or validates, as recorded, all
+        rows (n x N) [N m, N].
+        """
+        return _residuals(self.search, self.search.start)
+
+    @cached_property
+    def residuals_after(self) -> tuple[Array, ...]:
+        """The same of the model with the findings."""
+        return _residuals(self.search, self.search.weights)
 
 
 def diagnose(
@@ -86,8 +95,7 @@ def diagnose(
     found, gone = confirmed(found, trial)
     small = [] if dry else few_rows.left_out(found)
     progress("looking where the residual is")
-    start, weights = found.start, found.weights
-    first, last = seen(found, start), seen(found, weights)
+    first, last = seen(found, found.start), seen(found, found.weights)
     before = located(first, [lack for lack in first.lack if lack.p < CHANCE or lack.burst is not None])
     disagreeing = disagreements(found)
     other = () if dry else contradicted(found, prior)
@@ -125,10 +133,13 @@ def diagnose(
         steps=steps(found, trial),
         contradicted=other,
         reason=reason,
-        residuals_before=tuple(found.bank.residuals(r, start) for r in range(len(runs))),
-        residuals_after=tuple(found.bank.residuals(r, weights) for r in range(len(runs))),
         notes=tuple(notes),
     )
+
+
+def _residuals(found: Search, values: Mapping[int, float]) -> tuple[Array, ...]:
+    """What columns with ``values`` by number leave of each run's torques (n x N) [N m, N]."""
+    return tuple(found.bank.residuals(r, values) for r in range(len(found.bank.runs)))
 
 
 def _where(before: Where, named: Sequence[Finding], rest: Where, last: Where) -> Where:

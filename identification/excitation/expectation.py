@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from generator.errors import Place
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import Run
 from identification.excitation.noise import Noise
 from identification.factors import factors
 from identification.least_squares import Problem, Solution
 from identification.observation import Motion, Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 
 

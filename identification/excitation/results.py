@@ -16,9 +16,10 @@ from identification.corrections import recorded_positions
 from identification.excitation.design import Design
 from identification.excitation.limits import Limits
 from identification.excitation.noise import Noise
+from identification.excitation.request import Request
 from identification.least_squares import Solution
 from identification.observation import Motion
-from identification.recipe import Filters
+from identification.recipes import Filters
 from identification.results import written
 
 #: Names of the files.
@@ -29,30 +30,25 @@ _DIGITS = 12
 
 @dataclass(frozen=True)
 class Excitation:
-    """A designed motion of ``periods`` logged at ``rate`` [Hz], and the deviations that are ``expected`` from it.
+    """A designed ``motion`` as the ``request`` asks for it, and the deviations that are ``expected`` from it.
 
-    ``parameters`` names the set that they are related to; ``units`` are by name.
+    ``units`` are those of the base parameters by name.
     """
 
     robot: Robot
+    request: Request
     design: Design
     limits: Limits
     noise: Noise
     motion: Motion
-    rate: float
-    periods: int
     filters: Filters
     expected: Solution
-    units: dict[str, str]
-    parameters: str
-    criterion: str
-    evaluations: int
-    seed: int
+    units: Mapping[str, str]
 
     @property
     def duration(self) -> float:
         """Of the run [s]."""
-        return self.periods / self.design.series.frequency
+        return self.request.periods / self.design.series.frequency
 
 
 def save(found: Excitation, folder: Path, beside: Mapping[str, bytes] | None = None) -> list[str]:
@@ -72,13 +68,13 @@ def save(found: Excitation, folder: Path, beside: Mapping[str, bytes] | None = N
 
 def document(found: Excitation) -> dict[str, Any]:
     """The content of excitation.json, see docs/excite.md."""
-    series, solution = found.design.series, found.expected
+    series, solution, request = found.design.series, found.expected, found.request
     return {
         "robot": found.robot.name,
         "robot_sha256": found.robot.digest,
         "version": VERSION,
         "duration": found.duration,
-        "rate": found.rate,
+        "rate": request.rate,
         "series": {
             "frequency": series.frequency,
             "centre": series.centre.tolist(),
@@ -86,9 +82,9 @@ def document(found: Excitation) -> dict[str, Any]:
             "cosine": series.b.tolist(),
         },
         "search": {
-            "criterion": found.criterion,
-            "evaluations": found.evaluations,
-            "seed": found.seed,
+            "criterion": request.criterion,
+            "evaluations": request.evaluations,
+            "seed": request.seed,
             "cost": found.design.cost,
             "cost_of_best_random_motion": found.design.first_cost,
         },
@@ -110,7 +106,7 @@ def document(found: Excitation) -> dict[str, Any]:
             }
             for name, unit in found.units.items()
         },
-        "parameters": found.parameters,
+        "parameters": request.parameters,
         "condition": solution.condition,
         "condition_scaled": solution.scaled_condition,
     }
@@ -136,7 +132,7 @@ def _joints(found: Excitation) -> list[dict[str, Any]]:
 def _run(found: Excitation) -> str:
     numbers = found.robot.numbers
     names = ["t", *(f"{stem}{number}" for stem in ("qr", "qd") for number in numbers)]
-    times = np.arange(found.motion.samples) / found.rate
+    times = np.arange(found.motion.samples) / found.request.rate
     row = ",".join([f"%.{_DIGITS}g"] * len(names))
     counted = recorded_positions(found.motion.q, found.robot)
     values = np.column_stack([times, counted.T, found.motion.qd.T])

@@ -42,7 +42,7 @@ class Shapes:
         return 2 * self.harmonics + 2
 
     def instants(self, count: int) -> Array:
-        """Times [s] of a period, ``count`` in a period of the highest harmonic."""
+        """Times [s] of a period (``count`` L), ``count`` in a period of the highest harmonic, number L."""
         total = count * self.harmonics
         return np.asarray((np.arange(total) + 0.5) / (total * self.frequency), dtype=float)
 
@@ -62,7 +62,7 @@ class Shapes:
         return Motion(*(np.moveaxis(one, 1, 0).reshape(self.joints, -1) for one in parts))
 
     def series(self, x: Array) -> FourierSeries:
-        """Of one vector; within the limits of motion at all times."""
+        """Of one vector (numbers); within the limits of motion at all times."""
         return self._series(x[None], CHECKED).resized(1 - BETWEEN)
 
     def _series(self, x: Array, count: int) -> FourierSeries:

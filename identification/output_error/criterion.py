@@ -56,7 +56,7 @@ class Reduced:
     by_chi: tuple[Array, ...]
 
     def follow(self, step: Array) -> tuple[Array, ...]:
-        """Steps of the first states that go with a step of the parameters."""
+        """Steps of the first states (S x 2n each) that go with a step (b) of the parameters."""
         return tuple(own - by @ step for own, by in zip(self.own, self.by_chi, strict=True))
 
 
@@ -110,19 +110,19 @@ class Criterion:
 
     @cached_property
     def columns(self) -> NDArray[np.int64]:
-        """Places of the sought parameters among the base parameters."""
+        """Places (b) of the sought parameters among the base parameters."""
         return np.array([self.module.BASE_PARAMETERS.index(name) for name in self.sought], dtype=int)
 
     def values(self, chi: Array) -> dict[str, float]:
-        """All parameters by name."""
+        """All parameters [SI] by name, the sought ones ``chi`` (b)."""
         return {**self.fixed, **dict(zip(self.sought, chi.tolist(), strict=True))}
 
     def loop(self, chi: Array) -> OpenLoop:
-        """The open loop with these parameters."""
+        """The open loop with the sought parameters ``chi`` (b)."""
         return OpenLoop(self.module, self.values(chi))
 
     def begin(self, chi: Array) -> Point:
-        """A point with first states as measured."""
+        """The point with parameters ``chi`` (b) and first states as measured."""
         return Point(chi, tuple(one.start for one in self.experiments))
 
     def errors(self, point: Point) -> tuple[Array, ...]:
@@ -135,7 +135,7 @@ class Criterion:
         return self.sum(self.errors(point))
 
     def sum(self, errors: Sequence[Array]) -> float:
-        """The criterion of errors."""
+        """The criterion of errors (S x K x n) [rad, m] of each experiment."""
         with np.errstate(over="ignore"):
             total = sum(float(((one / self.scale) ** 2).sum()) for one in errors)
         return total if np.isfinite(total) else np.inf
@@ -166,7 +166,7 @@ class Criterion:
         return Normal(tuple(parts), len(self.sought))
 
     def weighted(self, errors: Sequence[Array]) -> Criterion:
-        """The same with each joint's rms of these errors as its scale."""
+        """The same with each joint's rms of these errors (S x K x n) [rad, m] as its scale."""
         square = sum((one**2).sum(axis=(0, 1)) for one in errors)
         count = sum(one.shape[0] * one.shape[1] for one in errors)
         return replace(self, scale=np.maximum(np.sqrt(square / count), _FLOOR))

@@ -14,7 +14,7 @@ from identification.arrays import Array
 from identification.dataset import Run
 from identification.filtering import derivative, smoothed
 from identification.observation import Motion
-from identification.recipe import Filters, Recipe
+from identification.recipes import Filters, Recipe
 
 #: Fewest positions by which a segment is judged, and the time between two of them [s].
 _FEWEST, _STEP = 20, 4e-3

@@ -15,7 +15,7 @@ import numpy as np
 from generator.errors import InputError, Place
 from generator.robot.description import Robot
 from generator.version import VERSION
-from identification import recipe as recipes
+from identification import recipes
 from identification.arrays import Array
 from identification.dataset import load
 from identification.executors import Executor
@@ -73,6 +73,7 @@ def output_error(
     data: Sequence[str | Path],
     test: Sequence[str | Path] = (),
     settings: Settings | None = None,
+    *,
     count: int = 1,
     executor: Executor | None = None,
     folder: Path | None = None,
@@ -80,8 +81,9 @@ def output_error(
 ) -> OutputError:
     """Parameters of ``robot`` from the runs ``data`` by output error, the best of ``count`` starts.
 
-    The first start is what the inverse model identifies from the same runs, the others are drawn about it. ``folder``
-    keeps the result of each start as it comes; a start whose result is there already is not run again.
+    The first start is what the inverse model identifies from the same runs, the others are drawn about it. They run on
+    the ``executor``, one after the other where there is none; ``counted`` is told how many are done. ``folder`` keeps
+    the result of each start as it comes; a start whose result is there already is not run again.
 
     Raises InputError for runs that cannot be used.
     """

@@ -19,7 +19,7 @@ _PIECE, _LOST = 25, 10.0
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class SimulatedMotion:
     """Simulated positions and speeds (S x K x n) [rad, m, s] at the samples that are compared, with the torques."""
 
     q: Array
@@ -35,7 +35,7 @@ class OpenLoop:
         base = dict.fromkeys(module.BASE_PARAMETERS, 0.0)
         self.model = module.Robot({**base, **{k: v for k, v in values.items() if k in module.PARAMETERS}})
 
-    def run(self, experiment: Experiment, start: Array) -> Trajectory:
+    def run(self, experiment: Experiment, start: Array) -> SimulatedMotion:
         """The segments of an experiment from their first states ``start`` (S x 2n) on.
 
         A segment is NaN from where it is lost: more than 10 rad or m from what was measured, or no longer finite. What
@@ -53,4 +53,4 @@ class OpenLoop:
                 if not np.abs(q[k, piece] - measured[piece]).max() < _LOST:
                     q[k, piece] = np.nan
                     break
-        return Trajectory(q, qd, experiment.tau[:, :: experiment.stride])
+        return SimulatedMotion(q, qd, experiment.tau[:, :: experiment.stride])

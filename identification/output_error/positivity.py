@@ -40,7 +40,7 @@ class Positivity:
     margin: float
 
     def eigenvalues(self, chi: Array) -> Array:
-        """Of M(q) at all poses (N x n), rising."""
+        """Of M(q) with parameters ``chi`` (b) [SI] at all poses (N x n), rising."""
         return np.asarray(np.linalg.eigvalsh(self._inertia(chi)), dtype=float)
 
     def holds(self, chi: Array) -> bool:
@@ -48,7 +48,7 @@ class Positivity:
         return bool(self.eigenvalues(chi)[:, 0].min() >= (1 - _SHORT) * self.margin)
 
     def cut(self, chi: Array) -> tuple[Array, float] | None:
-        """(a, r): parameters with M >= margin at the worst pose have a^T chi >= r. None where all eigenvalues hold."""
+        """a (b) and r: parameters with M >= margin at the worst pose have a^T chi >= r; None where all of them hold."""
         values, vectors = np.linalg.eigh(self._inertia(chi))
         worst = int(values[:, 0].argmin())
         if values[worst, 0] >= (1 - _SHORT) * self.margin:
@@ -64,7 +64,7 @@ class Positivity:
         return normal[at], self.margin - others
 
     def nearest(self, chi: Array, std: Array) -> Array | None:
-        """Parameters that fulfil the constraint, nearest to ``chi`` in units of ``std``; None where none are found."""
+        """Parameters within the constraint, nearest to ``chi`` in units of ``std`` (b each); None if none are."""
         step = np.zeros_like(chi)
         rows: list[Array] = []
         bounds: list[float] = []
@@ -102,10 +102,10 @@ class Positivity:
 
 
 def constrained(H: Array, g: Array, size: Array, positivity: Positivity, chi: Array) -> Array:
-    """The step d of the parameters that minimises d^T H d / 2 - g^T d in d size, with M positive at chi + d.
+    """The step d (b) of the parameters that minimises d^T H d / 2 - g^T d in d size, with M positive at chi + d.
 
-    ``H`` and ``g`` are in units of 1/``size``. Half-spaces are added until all eigenvalues hold; ``chi`` must fulfil
-    the constraint.
+    ``H`` (b x b) and ``g`` (b) are in units of 1/``size`` (b). Half-spaces are added until all eigenvalues hold;
+    ``chi`` must fulfil the constraint.
     """
     # What the runs hardly show may be a little less than nothing by rounding, which has no Cholesky factor.
     powers, directions = np.linalg.eigh(H)

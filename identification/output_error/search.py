@@ -13,7 +13,7 @@ from identification.arrays import Array
 from identification.output_error.criterion import Criterion, Point
 from identification.output_error.experiment import Experiment
 from identification.output_error.positivity import Positivity
-from identification.recipe import JOINT, Recipe
+from identification.recipes import JOINT, Recipe
 
 #: Poses at which M(q) is looked at, of each run; least eigenvalue allowed in parts of the start's, and of the mean one.
 _POSES, _MARGIN, _LEAST = 200, 0.1, 1e-4

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from identification.arrays import Array
-from identification.output_error.open_loop import Trajectory
+from identification.output_error.open_loop import SimulatedMotion
 
 #: Steps of the finite differences of positions and speeds [rad, m; rad/s, m/s].
 _OF_Q, _OF_QD = 1e-5, 1e-5
@@ -74,8 +74,8 @@ class Variations:
         return result
 
 
-def variations(model: Any, motion: Trajectory, step: float, columns: NDArray[np.int64]) -> Variations:
-    """Of a simulated ``motion``; ``columns`` are the base parameters that vary, ``model`` has all their values."""
+def variations(model: Any, motion: SimulatedMotion, step: float, columns: NDArray[np.int64]) -> Variations:
+    """Of a simulated ``motion``; ``columns`` (b) are the base parameters that vary, ``model`` has all their values."""
     segments, samples, n = motion.q.shape
     q, qd, tau = (np.ascontiguousarray(x.reshape(-1, n)) for x in (motion.q, motion.qd, motion.tau))
     inertia = mass_matrix(model, q)

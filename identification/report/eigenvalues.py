@@ -10,7 +10,7 @@ from generator.review.markup import Markup
 from identification.arrays import Array
 from identification.report.chart import COLOURS, Trace, axis, chart, line, log_axis
 from identification.report.numbers import plain
-from identification.report.series import line as thinned
+from identification.report.series import thinned
 
 
 def eigenvalue_chart(

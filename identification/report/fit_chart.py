@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from generator.review.markup import Markup
 from identification.arrays import Array
 from identification.report.chart import COLOURS, ESTIMATED, MEASURED, RESIDUAL, Trace, axis, chart, line
-from identification.report.series import line as thinned
+from identification.report.series import thinned
 
 #: Colours of the models after the first.
 _OTHERS = (COLOURS[3], COLOURS[2], COLOURS[4])

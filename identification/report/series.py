@@ -38,7 +38,7 @@ def extremes(y: Array, count: int) -> NDArray[np.int64]:
     return np.unique(found)
 
 
-def line(x: Array, y: Array, count: int) -> tuple[Numbers, Numbers]:
+def thinned(x: Array, y: Array, count: int) -> tuple[Numbers, Numbers]:
     """About ``count`` points of y over increasing x (N each), interrupted (None) where samples are missing."""
     kept = extremes(y, count)
     steps = np.diff(x)

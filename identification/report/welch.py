@@ -23,7 +23,7 @@ class Spectrum:
 
 
 def spectrum(runs: Sequence[tuple[Array, Array, float]]) -> Spectrum | None:
-    """Of runs (times, values, time step) whose rows may be missing; None where all are too short.
+    """Of runs (times [s] and values, N each, time step [s]) whose rows may be missing; None where all are too short.
 
     Welch's method, stretches that overlap by half under Hann's window; missing rows are zero and the density is divided
     by the part of the rows that is there (Parzen 1963). Runs count by their rows; those of another time step than the

@@ -62,7 +62,9 @@ def controller(
 
 
 def steps(module: Any, model: Any, robot: Robot, links: Array, motors: Array, period: float) -> int:
-    """Steps of the integration in a period, by the frequencies sqrt(k (1/Iam + 1/M)) of the elastic drive trains.
+    """Steps of the integration in a ``period`` [s], by frequencies sqrt(k (1/Iam + 1/M)) of the elastic drive trains.
+
+    ``links`` and ``motors`` (n each) [kg m2, kg] are M and Iam.
 
     Raises InputError where an elastic joint has no stiffness.
     """

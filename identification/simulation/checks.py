@@ -139,7 +139,7 @@ def trajectory_of(name: str) -> Trajectory:
 
 
 def pose(settings: Settings, robot: Robot) -> Array:
-    """The pose of the settings, inside of the limits, or the middle of them."""
+    """The pose (n) [rad, m] of the settings, inside of the limits, or the middle of them."""
     moving = robot.moving
     ends = [ends_of(robot, k) for k in range(len(moving))]
     if settings.pose is None:

@@ -169,7 +169,7 @@ class Encoders:
         self.q: Array = first[0]
 
     def measured(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Positions and speeds of the motors as the controller learns them."""
+        """Positions and speeds of the motors (n each) [rad, m, s], in joint units, as the controller learns them."""
         stepped = self._stepped(q)
         speed = qd.copy() if self._ideal else (stepped - self._newest) * self._rate
         self._newest = stepped

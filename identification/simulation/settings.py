@@ -79,7 +79,7 @@ class Settings:
         return self.parameters or ("twin_flexible" if self.flexible else "twin")
 
     def warmth(self, t: Array) -> Array:
-        """How warm the drives are at times [s]: 1 - exp(-t/T) with T the time ``warm_up`` [s].
+        """How warm the drives are at times (N) [s]: 1 - exp(-t/T) with T the time ``warm_up`` [s].
 
         Without that time it grows evenly to 1 at the end.
         """

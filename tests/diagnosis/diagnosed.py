@@ -19,7 +19,7 @@ from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.filtering import decimated, flat_derivative, kept_indices
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import sampled
 from tests.plant.effect import Effect
 from tests.plant.measurement import Sensors

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
@@ -108,5 +108,14 @@ def torque(hidden: str) -> Hidden:
         if "asymmetry" in hidden:
             result += 8.0 * np.maximum(qd, 0.0)
         return np.asarray(result)
+
+    return of
+
+
+def bumps(size: float, width: float) -> Hidden:
+    """Torques of a ``size`` [N m] at two places, up and down, each of a ``width`` [rad], which no law makes."""
+
+    def of(q: Array, qd: Array) -> Array:
+        return np.asarray(size * (np.exp(-(((q - 0.5) / width) ** 2)) - np.exp(-(((q + 0.3) / width) ** 2))))
 
     return of

@@ -19,7 +19,7 @@ from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.repair import repaired
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sampling import sampled
 from tests.diagnosis.diagnosed import CLEAN, Found, Known, fitted, offered, played, rows, with_robot
 from tests.plant.effect import Effect

@@ -13,7 +13,7 @@ from identification.diagnosis.columns.bank import Bank, Lasting
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.diagnosis.diagnosed import CLEAN, Found, Known, known
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.candidates import hypotheses
 from identification.diagnosis.columns.hypothesis import SHAPE

@@ -19,7 +19,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling, motor_torques
 from identification.filtering import flat_derivative
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.residuals import rms
 from identification.sampling import sampled
 from tests.diagnosis.diagnosed import Found, known, played, with_robot

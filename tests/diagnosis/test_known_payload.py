@@ -14,7 +14,7 @@ from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.runs.link_side import link_side
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.sidecar import Payload
 from tests.diagnosis.diagnosed import CLEAN, Known, known
 from tests.plant.effect import Effect

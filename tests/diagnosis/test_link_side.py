@@ -26,7 +26,7 @@ from identification.diagnosis.search.settling import settled, swinging
 from identification.diagnosis.search.tried import at_end
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.diagnosis.diagnosed import CLEAN, Found, Known, known, with_robot
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
-from tests.diagnosis.diagnosed_arm import ARM, Hidden, diagnosis_of, recorded
+from tests.diagnosis.diagnosed_arm import ARM, Hidden, bumps, diagnosis_of, recorded
 from tests.recorded import Array
 
 #: Of an arm whose Coulomb friction is not in its file.
@@ -35,10 +35,7 @@ def test_friction_is_named_beside_far_more_friction(tmp_path: Path) -> None:
 
 
 def test_what_has_no_name_is_told(tmp_path: Path) -> None:
-    def bumps(q: Array, qd: Array) -> Array:
-        return 5.0 * (np.exp(-(((q - 0.5) / 0.05) ** 2)) - np.exp(-(((q + 0.3) / 0.05) ** 2)))
-
-    found = diagnosed(tmp_path, bumps)
+    found = diagnosed(tmp_path, bumps(5.0, 0.05))
     assert found.verdict == NAMED
     assert [one.hypothesis.effect for one in found.findings] == ["coulomb_friction"]
     (note,) = found.notes
@@ -50,8 +47,7 @@ def test_what_does_not_repeat_is_large_all_the_same(tmp_path: Path) -> None:
 
     def warming(q: Array, qd: Array) -> Array:
         warmth = 1 - np.exp(-0.01 * np.arange(len(q)) / 25.0)
-        bump = 1.7 * (np.exp(-(((q - 0.5) / 0.1) ** 2)) - np.exp(-(((q + 0.3) / 0.1) ** 2)))
-        return np.asarray(-warmth * (12.0 * qd + 6.0 * np.sign(qd)) + bump)
+        return np.asarray(-warmth * (12.0 * qd + 6.0 * np.sign(qd)) + bumps(1.7, 0.1)(q, qd))
 
     regressors, sources = recorded(tmp_path, [warming] * 3)
     found = diagnosis_of(sources, regressors)

@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy import signal
 
 from identification.diagnosis.columns.whitening import Colour, colour
 from identification.diagnosis.noise.measured import colours
-from tests.matrices import bank, hypothesis, run, whitened
+from tests.matrices import bank, hypothesis, process, run, whitened
 
 Array = NDArray[np.float64]
 
@@ -22,8 +21,7 @@ PERIOD, COUNT = 500, 3000
 
 
 def noise(seed: int, count: int = COUNT) -> Array:
-    drawn = np.random.default_rng(seed).normal(size=count + 200)
-    return np.asarray(signal.lfilter([DEVIATION], LAW, drawn)[200:])
+    return process(LAW, DEVIATION, count, seed)
 
 
 def base(count: int = COUNT) -> Array:

@@ -14,18 +14,13 @@ import pytest
 from identification.diagnosis.diagnosis import UNEXPLAINED
 from identification.diagnosis.verdict import odd_run
 from identification.observation import Motion
-from tests.diagnosis.diagnosed_arm import NOISE, TRUTH, Hidden, diagnosis_of, recorded, torque
+from tests.diagnosis.diagnosed_arm import NOISE, TRUTH, Hidden, bumps, diagnosis_of, recorded, torque
 from tests.recorded import Array, Recorded, fourier
 
 
 def loaded(q: Array, qd: Array) -> Array:
     """A weight of 8 N on an arm of a metre."""
     return 8.0 * np.cos(q)
-
-
-def bumps(q: Array, qd: Array) -> Array:
-    """What no run can be fitted with."""
-    return np.asarray(5.0 * (np.exp(-(((q - 0.5) / 0.05) ** 2)) - np.exp(-(((q + 0.3) / 0.05) ** 2))))
 
 
 def damaged(q: Array, qd: Array) -> Array:
@@ -39,8 +34,8 @@ def damaged(q: Array, qd: Array) -> Array:
         ([torque(""), loaded, torque("")], "without 2.csv the other runs agree: look for another load"),
         ([damaged] * 3, "without 1.csv the other runs agree; most of what it keeps is where they do not go, at q 0.3"),
         ([torque(""), loaded], "1.csv and 2.csv do not agree, each alone is explained: look for another load"),
-        ([bumps] * 3, None),
-        ([bumps] * 2, None),
+        ([bumps(5.0, 0.05)] * 3, None),
+        ([bumps(5.0, 0.05)] * 2, None),
     ],
 )
 def test_the_run_that_differs_from_the_others_is_told(hidden: list[Hidden], told: str | None, tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.hypothesis import LENGTH
 from identification.diagnosis.columns.lengths import hypotheses

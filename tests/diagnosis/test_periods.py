@@ -22,7 +22,7 @@ from identification.diagnosis.runs.roles import roles
 from identification.diagnosis.runs.told_files import told_files
 from identification.diagnosis.verdict.remarks import of_motion
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from identification.dataset import load
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.runs.prepared import prepared
 from identification.inverse_model import identify
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.suspicion import misread
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, recorded, torque
 from tests.recorded import TRUTH as LINKS

@@ -13,10 +13,11 @@ from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.diagnosis.mending.mended import Mended
 from identification.diagnosis.runs.played import together
+from tests.at_hand import RECORDINGS
 from tests.commands import ROOT
-from tests.test_real_runs import DATA, TEST, TRAIN, A, B, data
+from tests.test_real_runs import TEST, TRAIN, A, B, data
 
-pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no recordings of real robots in ../shared/data")
+pytestmark = RECORDINGS.needed
 
 
 def without(robot: str, folder: Path, *effects: str) -> Path:
@@ -113,7 +114,7 @@ def late(source: Path, folder: Path, seconds: float) -> Path:
 @pytest.mark.long
 def test_late_torques_of_short_runs_are_late_and_nothing_else(tmp_path: Path) -> None:
     """Rows are too few to fit each motor at every delay, and noise is told from few of them."""
-    run = late(DATA / "tx40" / "run.csv", tmp_path, 0.02)
+    run = late(RECORDINGS.path / "tx40" / "run.csv", tmp_path, 0.02)
     path = tmp_path / "tx40.yaml"
     path.write_bytes(find_robot("tx40").read_bytes())
     train, test = (run.with_name(Path(name).name) for name in (TRAIN, TEST))

@@ -14,7 +14,7 @@ from generator.backends.review import groupings
 from generator.resources import find_robot
 from generator.robot.description import PRISMATIC, Robot
 from generator.symbolic.parameter_sets import resolved_sets
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import Run, load
 from identification.diagnosis.columns.hypothesis import EFFECT, SIGNAL
 from identification.diagnosis.columns.normal_equations import Prior
@@ -26,7 +26,7 @@ from identification.diagnosis.runs.played import Player, compiled, play
 from identification.diagnosis.runs.prepared import prepared
 from identification.observation import Motion, Regressors
 from identification.outcome import Value
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled

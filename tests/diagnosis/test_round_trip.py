@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
 from identification.diagnosis.command import Request, diagnosed

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from generator.errors import Place
 from generator.resources import find_robot
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import Run, load
 from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.noise.rounding import deviations, rounding

@@ -9,21 +9,14 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient
 from identification.diagnosis.search.sliding import replaces
+from tests.matrices import variant
 
 
 def sliding(variable: str) -> Variant:
     """On joint 2."""
-    hypothesis = Hypothesis(
-        "lugre_friction",
-        "LuGre friction",
-        2,
-        (Coefficient("Fz2", "N m", 0.0),),
-        lambda scene, shape: np.zeros((1, 1, 1)),
-        variable=variable,
-    )
-    return Variant(hypothesis, {}, (3,), (1,), (0,))
+    return variant("lugre_friction", Coefficient("Fz2", "N m", 0.0), 3, joint=2, variable=variable)
 
 
 @pytest.mark.parametrize(

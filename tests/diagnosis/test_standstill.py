@@ -15,7 +15,7 @@ from identification.diagnosis.columns.hypothesis import EFFECT
 from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.diagnosis.diagnosed_arm import ARM, ready
 from tests.recorded import Recorded, as_recorded, fourier, two_links
 

@@ -12,7 +12,7 @@ import sympy
 from generator.robot.description import EffectUse, ParameterSet, ParameterValue, Quantity
 from generator.robot.description import Robot as Described
 from generator.robot.readers import read
-from identification import recipe as recipes
+from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis, diagnose
 from identification.diagnosis.runs.prepared import prepared

@@ -10,22 +10,15 @@ import pytest
 from scipy.signal import butter, sosfilt
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, Coefficient
 from identification.diagnosis.search.swings_heard import heard
+from tests.matrices import variant
 
 ROWS = 1500
 
 
 def swing(kind: str) -> Variant:
-    hypothesis = Hypothesis(
-        "joint_elasticity",
-        "elasticity",
-        1,
-        (Coefficient("compliance1", "rad/(N m)"),),
-        lambda scene, shape: np.zeros((1, 1, 1)),
-        kind=kind,
-    )
-    return Variant(hypothesis, {}, (1,), (0,), (0,))
+    return variant("joint_elasticity", Coefficient("compliance1", "rad/(N m)"), 1, kind=kind)
 
 
 def bank(swings: bool, repeats: bool, rows: int, size: float) -> Any:

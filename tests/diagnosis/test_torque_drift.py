@@ -33,7 +33,7 @@ from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.trial import along
 from identification.drive_train import coupling
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, recorded, two_links
 
 Array = NDArray[np.float64]

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy import linalg, signal
 
 from identification.diagnosis.columns.whitening import Colour, alike, at_rate, colour, mixed, recoloured, stretches
+from tests.matrices import process
 
 Array = NDArray[np.float64]
 
@@ -15,10 +16,8 @@ Array = NDArray[np.float64]
 LAW, DEVIATION = np.array([1.0, -1.2, 0.5]), 3.0
 
 
-def process(count: int, seed: int) -> Array:
-    """In its steady state."""
-    drawn = np.random.default_rng(seed).normal(size=count + 500)
-    return np.asarray(signal.lfilter([DEVIATION], LAW, drawn)[500:])
+def drawn(count: int, seed: int) -> Array:
+    return process(LAW, DEVIATION, count, seed)
 
 
 def covariances(count: int) -> Array:
@@ -35,7 +34,7 @@ def with_gaps(count: int) -> NDArray[np.bool_]:
 
 
 def test_a_known_process_is_found_across_gaps() -> None:
-    e, kept = process(40_000, 1), with_gaps(40_000)
+    e, kept = drawn(40_000, 1), with_gaps(40_000)
     found = colour(stretches(e, kept), order=2)
     # The standard deviation of a coefficient is below 1/sqrt(rows) = 0.006.
     assert found.filters[-1] == pytest.approx(LAW, abs=0.03)
@@ -44,13 +43,13 @@ def test_a_known_process_is_found_across_gaps() -> None:
 
 
 def test_a_higher_order_than_needed_changes_little() -> None:
-    found = colour([process(40_000, 2)], order=10)
+    found = colour([drawn(40_000, 2)], order=10)
     assert found.filters[-1][:3] == pytest.approx(LAW, abs=0.03)
     assert np.abs(found.filters[-1][3:]).max() < 0.03
 
 
 def test_the_rows_are_white_and_of_deviation_one() -> None:
-    e, kept = process(40_000, 3), with_gaps(40_000)
+    e, kept = drawn(40_000, 3), with_gaps(40_000)
     white = colour(stretches(e, kept)).white(e[None], kept)[0]
     assert len(white) == kept.sum()
     assert white.std() == pytest.approx(1.0, rel=0.02)
@@ -81,8 +80,8 @@ def test_a_short_stretch_is_whitened_as_its_covariance_says() -> None:
 
 def test_stretches_are_apart() -> None:
     """What is left out is not read, and each stretch starts as a run does."""
-    e, kept = process(600, 5), with_gaps(600)
-    known = colour([process(5000, 6)])
+    e, kept = drawn(600, 5), with_gaps(600)
+    known = colour([drawn(5000, 6)])
     spoiled = np.where(kept, e, np.nan)
     white = known.white(spoiled[None], kept)[0]
     parts = [known.white(part[None], np.ones(len(part), dtype=bool))[0] for part in stretches(e, kept)]
@@ -90,13 +89,13 @@ def test_stretches_are_apart() -> None:
 
 
 def test_the_spectrum_holds_the_power() -> None:
-    known = colour([process(20_000, 7)], order=2)
+    known = colour([drawn(20_000, 7)], order=2)
     rate = 50.0
     frequency = np.linspace(0, rate / 2, 4001)
     power = np.trapezoid(known.spectrum(frequency, rate), frequency)
     assert power == pytest.approx(known.deviations[0] ** 2, rel=1e-3)
     # And lies where the process has it: against Welch's estimate.
-    at, measured = signal.welch(process(400_000, 8), rate, nperseg=256)
+    at, measured = signal.welch(drawn(400_000, 8), rate, nperseg=256)
     inside = slice(4, -4)
     ratio = known.spectrum(at[inside], rate) / measured[inside]
     assert np.median(ratio) == pytest.approx(1.0, abs=0.05)
@@ -105,7 +104,7 @@ def test_the_spectrum_holds_the_power() -> None:
 
 
 def test_what_was_taken_away_at_a_frequency_is_given_back_there() -> None:
-    whole = colour([process(100_000, 9)])
+    whole = colour([drawn(100_000, 9)])
     half = recoloured(whole, np.full(65, 0.5))
     assert half.deviations == pytest.approx(np.array(whole.deviations) * np.sqrt(2), rel=1e-3)
     for one, other in zip(half.filters, whole.filters, strict=True):
@@ -119,7 +118,7 @@ def test_what_was_taken_away_at_a_frequency_is_given_back_there() -> None:
 
 
 def test_rows_at_another_rate_have_the_same_power_at_the_same_frequency() -> None:
-    known = colour([process(40_000, 5)], order=2)
+    known = colour([drawn(40_000, 5)], order=2)
     slower = at_rate(known, 50.0, 40.0)
     f = np.linspace(0.5, 18.0, 30)
     assert slower.spectrum(f, 40.0) == pytest.approx(known.spectrum(f, 50.0), rel=0.25)
@@ -130,7 +129,7 @@ def test_rows_at_another_rate_have_the_same_power_at_the_same_frequency() -> Non
 
 
 def test_a_mixed_colour_is_between_both() -> None:
-    one, other = colour([process(40_000, 5)]), colour([np.random.default_rng(6).normal(size=40_000)])
+    one, other = colour([drawn(40_000, 5)]), colour([np.random.default_rng(6).normal(size=40_000)])
     frequency = np.linspace(0.01, 0.49, 20)
     a, b, both = (x.spectrum(frequency, 1.0) for x in (one, other, mixed([(one, 300.0), (other, 100.0)])))
     assert both == pytest.approx(a**0.75 * b**0.25, rel=0.05)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
 import struct
 import subprocess
 import zlib
@@ -12,8 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
+
+from tests.extra.tools import tool
 
 #: Screenshots are taken at this scale: enough to see that something is drawn, and four times quicker to decode.
 _SCALE = 0.5
@@ -49,17 +48,6 @@ class Visit:
         return self.pixels[rows, columns].reshape(-1, 3)
 
 
-def browser() -> str:
-    """The browser's command; where there is none the test is skipped, on a machine of CI it fails."""
-    found = next((path for command in _COMMANDS if (path := shutil.which(command))), None)
-    if found is not None:
-        return found
-    missing = f"no browser ({', '.join(_COMMANDS)})"
-    if os.environ.get("CI") == "true":
-        pytest.fail(missing)
-    pytest.skip(missing)
-
-
 def visit(page: Path, folder: Path, width: int, height: int) -> Visit:
     """Opens a file in a window of the given size [px]; ``folder`` takes the browser's profile and logs."""
     picture, log = folder / "picture.png", folder / "net.json"
@@ -74,7 +62,13 @@ def document(page: Path, folder: Path, width: int, height: int) -> str:
 
 
 def _run(page: Path, folder: Path, width: int, height: int, *flags: str) -> subprocess.CompletedProcess[str]:
-    command = [browser(), *_FLAGS, f"--user-data-dir={folder / 'profile'}", f"--window-size={width},{height}", *flags]
+    command = [
+        tool(*_COMMANDS),
+        *_FLAGS,
+        f"--user-data-dir={folder / 'profile'}",
+        f"--window-size={width},{height}",
+        *flags,
+    ]
     return subprocess.run([*command, page.as_uri()], capture_output=True, text=True, check=True, timeout=120)
 
 

@@ -11,7 +11,7 @@ from generator.robot.readers import read
 from identification import inverse_model
 from identification.inverse_model import Options, identify
 from identification.observation import Regressors
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.simulation.machine import compiled
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import noisy, simulate

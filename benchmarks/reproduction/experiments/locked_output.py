@@ -10,7 +10,7 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from identification import locked_output as method
 from identification.drive_train import with_constants
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.simulation.machine import compiled
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import Simulated, noisy, simulate

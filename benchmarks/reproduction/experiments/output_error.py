@@ -13,7 +13,7 @@ from generator.robot.readers import read
 from identification.output_error.multi_start import output_error
 from identification.output_error.results import parameters
 from identification.output_error.search import Settings
-from identification.recipe import Recipe
+from identification.recipes import Recipe
 from identification.simulation.machine import compiled
 from identification.simulation.simulate import noisy, simulate
 

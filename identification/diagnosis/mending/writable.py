@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from generator.effects.library import library
 from generator.errors import InputError
 from generator.robot.description import Robot
-from identification import recipe as recipes
+from identification import recipes
 from identification.corrections import TooWarm, Untold
 from identification.dataset import Run, load
 from identification.diagnosis.columns.hypothesis import EFFECT, SIGNAL, on_joints

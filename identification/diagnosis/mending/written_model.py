@@ -8,7 +8,7 @@ from math import isfinite
 
 from generator.robot.description import ParameterSet, Robot
 from generator.symbolic.model import Model
-from identification import recipe as recipes
+from identification import recipes
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, VALUE
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.payload_body import corrected

@@ -47,8 +47,8 @@ class Redrawn:
                 self.torque[k] += weights[by] * (new - was)
 
     def base(self, bank: Bank, r: int, k: int) -> tuple[list[int], Array]:
-        """Numbers of the base columns that act on joint k in the bank's run r, and what their rows change by, without
-        those of which a small error makes no small change.
+        """Numbers (m) of the base columns that act on joint k in the bank's run r, and what their rows change by
+        (m x rows), without those of which a small error makes no small change.
         """
         out = stated_elasticity.bouncing(self._scene.robot)
         every = [number for number in bank.raw(r, k)[0] if number < len(bank.base)]
@@ -58,8 +58,8 @@ class Redrawn:
         return numbers, np.reshape(new, old.shape) - old
 
     def of(self, variant: Variant, bank: Bank, r: int, k: int) -> Array:
-        """What the rows of a variant's columns on joint k in the bank's run r change by; nothing where its shape
-        becomes impossible.
+        """What the rows of a variant's m columns on joint k in the bank's run r change by (m x rows); nothing where its
+        shape becomes impossible.
         """
         old = bank.columns(r, k, variant.columns)
         rows = self._rows(variant)

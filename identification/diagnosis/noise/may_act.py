@@ -59,8 +59,8 @@ def with_noise(parts: Sequence[Rows], bank: Bank, joint: int, redrawn: Mapping[i
 
 
 def with_maps(parts: Sequence[Rows], bank: Bank, joint: int, maps: Sequence[Array]) -> list[Rows]:
-    """Rows of a joint in each run with ``maps`` and with the model's columns once more for each run by itself, which
-    may be another one there, where there are rows enough.
+    """Rows of a joint in each run with ``maps`` (m x N each) and with the model's columns once more for each run by
+    itself, which may be another one there, where there are rows enough.
     """
     if not maps or not have_room(bank, maps, joint):
         return list(parts)
@@ -85,7 +85,7 @@ def maps_taken(bank: Bank, maps: Sequence[Sequence[Array]], joint: int) -> bool:
 
 
 def have_room(bank: Bank, maps: Sequence[Array], joint: int) -> bool:
-    """The same of the maps of that joint, by run."""
+    """The same of the maps of that joint, by run (m x N each)."""
     rows, model = bank.counts(joint)
     return enough(rows, model + len(maps[0]))
 

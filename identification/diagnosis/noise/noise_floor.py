@@ -21,7 +21,7 @@ _LOUD, _LOUDER, _TIMES = 0.1, 0.03, 3.0
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:
-    """One-sided power density [unit^2/Hz] of the noise of coordinate k at frequencies [Hz], mean of all runs."""
+    """One-sided power density (F) [unit^2/Hz] of coordinate k's noise at frequencies (F) [Hz], mean of all runs."""
     every = []
     for run, colours in zip(bank.runs, bank.colours, strict=True):
         every.append(colours[k].spectrum(frequency, run.rate))

@@ -21,7 +21,7 @@ from identification.diagnosis.runs.scene import STILL
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.filtering import flat_derivative
 from identification.observation import Jump, Regressors, followed
-from identification.recipe import Recipe, possible_factor
+from identification.recipes import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
 

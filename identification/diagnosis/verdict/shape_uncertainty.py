@@ -27,11 +27,11 @@ _SEEN = 0.99
 def deviations(
     found: Search, columns: Sequence[int], solution: Array
 ) -> tuple[Array, Mapping[int, Mapping[str, float]]]:
-    """Standard deviations of the base parameters and of the chosen ``columns``' coefficients, and of shapes by name, by
-    the id of their choice.
+    """Standard deviations [SI] of p base parameters and of the coefficients of k chosen ``columns`` (p + k), and of
+    shapes by name, by the id of their choice.
 
-    ``solution`` holds both. What the runs do not show is infinite. A searched shape counts as one more parameter,
-    linear about its value.
+    ``solution`` (p + k) holds the values of both. What the runs do not show is infinite. A searched shape counts as one
+    more parameter, linear about its value.
     """
     base = len(found.bank.base)
     value = dict(zip(columns, solution[base:].tolist(), strict=True))
@@ -89,7 +89,8 @@ def _shape_columns(found: Search, value: Mapping[int, float]) -> list[_ShapeColu
 
 
 def variances(A: Array, preset: Mapping[int, float]) -> Array:
-    """Of coefficients with products ``A`` of their columns, over the noise's power; infinite where no row shows one.
+    """Of k coefficients (k) with products ``A`` (k x k) of their columns, over the noise's power; infinite where no row
+    shows one.
 
     Those that are ``preset`` have these variances of their own, by another fit: their errors are in the others', beside
     the noise.

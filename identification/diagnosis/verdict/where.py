@@ -82,7 +82,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
 
 
 def late(found: Search, r: int, k: int) -> Array:
-    """What the torque of a joint changes by in the time that samples do not tell, in white kept rows of a run."""
+    """What a joint's torque changes by in the time that samples do not tell, in the m white kept rows of a run (m)."""
     bank = found.bank
     run, scene = bank.runs[r], bank.scenes[r]
     change = run.decimated(_HALF_SAMPLE * scene.period * scene.derivative(scene.torque[k]))

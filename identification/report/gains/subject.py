@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from identification.drive_gains import DriveGains
+from identification.gains_results import gains, parameters
 
 
 @dataclass(frozen=True)
@@ -15,3 +16,13 @@ class Subject:
 
     found: DriveGains
     results: Mapping[str, Any]
+
+    @property
+    def gains(self) -> dict[str, Any]:
+        """Those of the parameters in ``results`` that are g_tau or kt, by name."""
+        return {name: self.results["parameters"][name] for name in gains(self.found)}
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The others, by name."""
+        return {name: self.results["parameters"][name] for name in parameters(self.found)}

@@ -6,11 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from identification.force_steps import ForceSteps
-from identification.link_encoders import LinkEncoders
-from identification.locked_output import LockedOutput
-
-Found = LockedOutput | ForceSteps | LinkEncoders
+from identification.stiffness_results import Found
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,7 @@ from identification.excitation.results import Excitation
 from identification.report.chart import COLOURS, ESTIMATED, Trace, axis, chart, line
 from identification.report.choice import choice
 from identification.report.numbers import number
-from identification.report.series import line as thinned
-from identification.report.series import points_each
+from identification.report.series import points_each, thinned
 
 TITLE = "Motion"
 ORDER = 20
@@ -25,7 +24,7 @@ def render(found: Excitation) -> Markup:
 def _panel(found: Excitation, k: int) -> Markup:
     joint, motion, limits = found.robot.moving[k], found.motion, found.limits
     unit = joint.position_unit
-    t = np.arange(motion.samples) / found.rate
+    t = np.arange(motion.samples) / found.request.rate
     signals = (
         (f"q{joint.number}", unit, motion.q[k], (limits.lower[k], limits.upper[k])),
         (f"qd{joint.number}", f"{unit}/s", motion.qd[k], (-limits.speed[k], limits.speed[k])),

@@ -17,7 +17,7 @@ def render(found: Excitation) -> Markup:
         for name, one in expected.items()
     }
     text = (
-        f"Those of identify on this motion, for independent noise; values are those of the set {found.parameters},"
-        " to which deviations are related."
+        "Those of identify on this motion, for independent noise; values are those of the set"
+        f" {found.request.parameters}, to which deviations are related."
     )
     return join(element("p", text), parameter_table(expected, states))

@@ -16,7 +16,7 @@ ORDER = 10
 def render(found: Excitation) -> Markup:
     solution = found.expected
     cards = [
-        card(f"{found.duration:g}\u202fs", "motion", f"{found.periods} periods, {found.rate:g} Hz"),
+        card(f"{found.duration:g}\u202fs", "motion", f"{found.request.periods} periods, {found.request.rate:g} Hz"),
         card(number(solution.scaled_condition, 3), "condition number", "of W, columns of unit length"),
     ]
     if found.limits.loads.size:

@@ -13,8 +13,7 @@ ORDER = 20
 
 def render(subject: Subject) -> Markup:
     results = subject.results
-    gains = {name: one for name, one in results["parameters"].items() if name in results["gains"]}
-    others = {name: one for name, one in results["parameters"].items() if name not in results["gains"]}
+    gains, others = subject.gains, subject.parameters
     states: dict[str, Content] = {
         name: element("span", one["refused"], class_="state") for name, one in gains.items() if one.get("refused")
     }

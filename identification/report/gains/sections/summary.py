@@ -14,8 +14,9 @@ ORDER = 10
 
 def render(subject: Subject) -> Markup:
     found, results = subject.found, subject.results
-    known = {name: one for name, one in results["gains"].items() if name.startswith("kt") and one["value"] is not None}
-    refused = [name for name, one in results["gains"].items() if name.startswith("kt") and one["value"] is None]
+    constants = {name: one for name, one in subject.gains.items() if name.startswith("kt")}
+    known = {name: one for name, one in constants.items() if one["value"] is not None}
+    refused = [name for name in constants if name not in known]
     total = results["residual"]["train"]["total"]
     worst = max(known, key=lambda name: known[name]["relative_std_percent"])
     text = [

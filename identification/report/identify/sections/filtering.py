@@ -10,8 +10,7 @@ from identification.filtering import derivative
 from identification.report.chart import ESTIMATED, MEASURED, Trace, axis, chart, line
 from identification.report.choice import choice
 from identification.report.identify.subject import ShownRun, Subject
-from identification.report.series import Numbers, points_each, resolved
-from identification.report.series import line as thinned
+from identification.report.series import Numbers, points_each, resolved, thinned
 
 TITLE = "Before and after filtering"
 ORDER = 100
