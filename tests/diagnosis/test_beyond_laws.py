@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.search.beyond_laws import BeyondLaws
-from tests.diagnosis.drawn_data import Data, fixed, names
+from tests.diagnosis.drawn_data import Data, fixed
 from tests.diagnosis.drawn_data import search as searched
-from tests.diagnosis.stub_variant import variant
+from tests.diagnosis.test_imperfect_laws import variant
+from tests.diagnosis.test_selection import names
 
 
 @pytest.mark.parametrize(("beside", "found"), [(0.0, {"large", "small"}), (2.0, {"large"})])
