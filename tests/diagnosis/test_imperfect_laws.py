@@ -30,6 +30,7 @@ def variant(
         variable=variable,
         preset=preset or {},
         beyond=(),
+        shapes=(),
     )
     return SimpleNamespace(hypothesis=hypothesis, coordinates=joints, coefficients=(), used=(), key=(effect, joint))
 

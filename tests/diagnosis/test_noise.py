@@ -73,17 +73,20 @@ def test_many_columns_do_not_make_the_noise_small() -> None:
 
 
 def test_slow_columns_do_not_make_slow_noise_small() -> None:
-    """In a short run they take most of what noise has there, and little of what it has elsewhere."""
+    """In a short run they take seven eighths of what noise has there, and little of what it has elsewhere.
+
+    What is given back is too little by a sixth on average; that of single runs is skew.
+    """
     count, found = 700, []
     t = np.arange(count)
-    for seed in range(30):
+    for seed in range(40):
         one = bank([run(np.ones((1, count)), noise(seed, count))])
         for k in range(1, 60):
             column = np.sin(np.pi * (k + 0.3) * t / count + 0.7 * k)
             one.add(hypothesis(f"slow{k}", lambda r, shape, column=column: column), {})  # type: ignore[misc]
         found.append(colours(one)[0][0].spectrum(np.array([0.005, 0.3]), 1.0) / 2)
     expected = [DEVIATION**2 / np.abs(1 - 0.8 * np.exp(-2j * np.pi * f)) ** 2 for f in (0.005, 0.3)]
-    assert np.median(found, axis=0) == pytest.approx(expected, rel=0.25)
+    assert np.mean(found, axis=0) == pytest.approx(expected, rel=0.35)
 
 
 def test_a_column_that_holds_the_record_s_noise_does_not_make_it_small() -> None:

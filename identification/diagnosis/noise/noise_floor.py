@@ -17,7 +17,7 @@ from identification.diagnosis.runs.prepared import joined
 _POINTS = 400
 #: Part of the torque's spread from which noise is more than a sensor's; on a joint where it is several times the part
 #: that it is on most joints.
-_LOUD, _LOUDER, _TIMES = 0.1, 0.03, 3.0
+_LOUD, _LOUDER, _TIMES = 0.1, 0.02, 3.0
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:

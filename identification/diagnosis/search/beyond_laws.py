@@ -1,7 +1,8 @@
 """What is of no law of another effect, though that explains so much that it may lack more.
 
 A law is wrong on the joints on which it acts: elsewhere only base parameters carry what it lacks. And what it lacks has
-a form of its own: another effect that leaves nothing of it, unlike its own kind, is no part of it.
+a form of its own: another effect that leaves nothing of it, and shows over another variable or at a whole order, is no
+part of it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
-from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, lacks
+from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, ELSE, lacks
 
 #: Part of what a variant explains that is elsewhere; parts of what is left of its joints, beyond noise, between which
 #: it is all of that: by more than is left much of what falls is noise.
@@ -36,7 +37,8 @@ class BeyondLaws:
             return False
         before, after = self._values(others), self._values([*others, variant])
         left = sum(self._beyond_noise(before, k) for k in variant.coordinates)
-        if _ALL * left < drop < _ONCE * left:
+        own = _of_whole_orders(variant) or all(lack <= ELSE * theirs for _, theirs, lack in hiding)
+        if own and _ALL * left < drop < _ONCE * left:
             return True
         aside = set(variant.coordinates).difference(*(one.coordinates for one, *_ in hiding))
         fallen = sum(self._beyond_noise(before, k) - self._beyond_noise(after, k) for k in sorted(aside))
@@ -51,3 +53,7 @@ class BeyondLaws:
         """The sum of squares beyond the noise's that they leave of coordinate k."""
         square, rows = self.bank.left_over(k, values, self.runs)
         return square - rows
+
+
+def _of_whole_orders(variant: Variant) -> bool:
+    return any(shape.whole for shape in variant.hypothesis.shapes)

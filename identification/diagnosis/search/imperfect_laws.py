@@ -16,7 +16,7 @@ _ONE_OF = ("joint_elasticity", "backlash")
 #: Laws are never exact: least part of what others that are not common (beside another value than the known one, of all)
 #: explain on the same joint, where they show over nearly the same, and where they are alike: friction of the speed, or
 #: behind the motor.
-_ELSE, BESIDE, _ALIKE = 0.01, 0.03, 0.15
+ELSE, BESIDE, _ALIKE = 0.01, 0.03, 0.15
 #: The same part of a delay of the whole robot, which shifts torques and does no more, but for what a reversal tells.
 _SHIFTED = 0.002
 #: The same part of what they explain anywhere: base parameters bring it to every joint; and for a delay that the rows
@@ -78,7 +78,7 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
         return 0.0
     # Gains have no law but themselves.
     if one.effect == other.effect == "torque_gain":
-        return _ELSE
+        return ELSE
     # The rows of several motors tell it alike: no law of one joint lacks that.
     if one.preset and len(one.joints) > 1 and other.joint != 0:
         return ANYWHERE
@@ -88,4 +88,4 @@ def _part(one: Hypothesis, other: Hypothesis) -> float:
         return _ALIKE
     if (other.effect, other.joint) == ("torque_delay", 0) and one.variable not in ("frequency", SINCE_REVERSAL):
         return _SHIFTED
-    return BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else _ELSE
+    return BESIDE if any({one.variable, other.variable} <= set(group) for group in _SHOWN_ALIKE) else ELSE
