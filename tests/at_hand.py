@@ -13,8 +13,9 @@ from tests.commands import ROOT
 
 @dataclass(frozen=True)
 class Folder:
-    """What is ``there`` [in words], in the folder that an environment ``variable`` names, else in one ``beside`` the
-    checkout.
+    """A folder that an environment ``variable`` names, else one ``beside`` the checkout.
+
+    ``there`` says what it holds.
     """
 
     there: str
@@ -24,7 +25,7 @@ class Folder:
     @property
     def path(self) -> Path:
         """Where it is looked for."""
-        return Path(os.environ.get(self.variable, ROOT.parent / self.beside))
+        return Path(os.environ.get(self.variable) or ROOT.parent / self.beside)
 
     @property
     def needed(self) -> pytest.MarkDecorator:

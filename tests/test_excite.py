@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from argparse import ArgumentParser
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
 from generator.robot.readers import read
+from identification.cli.excite import configure
 from identification.dataset import Run
 from identification.excitation.design import improved
 from identification.excitation.excite import excite
@@ -56,6 +58,15 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("excite") / "two_links.yaml"
     path.write_text(with_truth(LIMITED))
     return path
+
+
+def test_the_command_asks_for_what_a_request_does() -> None:
+    """Unless something else is said; noise and recipe have no words of their own."""
+    parser = ArgumentParser()
+    configure(parser)
+    asked = vars(parser.parse_args(["kr500"]))
+    own = asdict(Request())
+    assert {name: asked[name] or own[name] for name in own} == own
 
 
 @pytest.fixture(scope="module")

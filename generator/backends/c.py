@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from generator.backends.printing.c_functions import BLOCK, MATHEMATICS, CFunction, c_function, c_language
-from generator.backends.printing.c_names import taken
+from generator.backends.printing.c_names import size_constant, taken
 from generator.backends.printing.identifiers import Identifiers
 from generator.backends.printing.language import LINE
 from generator.backends.printing.prepared import Prepared, index, is_parameter, prepare
@@ -89,10 +89,10 @@ def library(model: Model, reference: Iterable[Case]) -> dict[str, str | bytes]:
         "prepared": prepared,
         "operations": _table(functions, prepared),
         "functions": functions,
-        "packed": [_packed(function, macro) for function in functions if function.source.sparsity],
+        "packed": [_packed(function, prefix) for function in functions if function.source.sparsity],
         "sets": _values(model, constants),
         "uses_angles": angles,
-        "quotients": paragraph(_quotients(model), LINE - 3),
+        "solving": paragraph(_solving(model), LINE - 3),
     }
     used = moving | _operations([prepared.nodes]) | ({"sin", "cos"} if angles else set())
     source = {
@@ -155,23 +155,23 @@ def _values(model: Model, constants: Sequence[Constant]) -> list[Values]:
     return result
 
 
-def _packed(function: CFunction, macro: str) -> Packed:
+def _packed(function: CFunction, prefix: str) -> Packed:
     sparsity = function.source.sparsity
     assert sparsity is not None
     rows, columns = (tuple(listed(map(str, places), LINE - 8)) for places in (sparsity.rows, sparsity.columns))
-    constant = f"{macro}_{function.name.upper()}_SIZE"
-    return Packed(function.name, constant, len(sparsity.rows), sparsity.shape, rows, columns)
+    return Packed(
+        function.name, size_constant(prefix, function.name), len(sparsity.rows), sparsity.shape, rows, columns
+    )
 
 
-def _quotients(model: Model) -> str:
-    """Which functions have no result where parameters make a divisor 0; nothing where none divides by them alone."""
-    divided = [function.name for function in model.functions.values() if function.quotients]
-    if not divided:
+def _solving(model: Model) -> str:
+    """Which functions solve with the inertias, so that a set without any is none for them; nothing where none does."""
+    solving = [f"{model.robot.name}_{function.name}()" for function in model.functions.values() if function.solves]
+    if not solving:
         return ""
-    names = ", ".join(f"{model.robot.name}_{name}()" for name in divided)
     return (
-        "Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no inertias: "
-        f"with that one {names} {'have' if len(divided) > 1 else 'has'} no result; the others do not read them."
+        f"{', '.join(solving)} {'solve' if len(solving) > 1 else 'solves'} with the inertias: a set that gives none "
+        "leaves no result there, and infinite what is prepared as a quotient."
     )
 
 

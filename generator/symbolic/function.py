@@ -111,8 +111,3 @@ class Function:
     def prepare_count(self) -> Count:
         """Operations of the parameter-only work, done once."""
         return self.program.count(node for node in self.nodes if node.parameter_only)
-
-    @property
-    def quotients(self) -> list[Node]:
-        """Those of the ``prepared`` nodes that divide by parameters: infinite where these make a divisor 0."""
-        return [node for node in self.prepared if node.operation == "div"]

@@ -107,7 +107,6 @@ def run(arguments: argparse.Namespace) -> None:
 
     path = find_robot(arguments.robot)
     robot = read(path)
-    recipe = recipes.recipe_of(robot.name, arguments.recipe)
     request = Request(
         parameters=arguments.parameters,
         frequency=arguments.frequency,
@@ -118,12 +117,12 @@ def run(arguments: argparse.Namespace) -> None:
         acceleration=arguments.acceleration,
         noise=arguments.noise or (),
         noise_part=arguments.noise_part,
-        recipe=recipe,
+        recipe=recipes.recipe_of(robot.name, arguments.recipe),
         criterion=arguments.criterion,
         evaluations=arguments.evaluations,
         seed=arguments.seed,
     )
-    check(request, robot, recipe)
+    check(request, robot)
     folder = arguments.out or Path("excitation") / robot.name
     writable(folder)
     for source in (path, arguments.recipe):

@@ -9,7 +9,6 @@ from generator.robot.description import Robot
 from identification.excitation.criterion import CONDITION, DETERMINANT
 from identification.excitation.design import DRAWN
 from identification.excitation.request import Request
-from identification.recipes import Recipe
 
 #: Rows that a motion may have.
 _MOST = 1e7
@@ -17,14 +16,11 @@ _MOST = 1e7
 _LEAST, _LARGEST = 1e-12, 1e12
 
 
-def check(request: Request, robot: Robot, recipe: Recipe) -> None:
-    """Raises InputError for what no motion can have, and for noise that is none or not that of the robot's motors.
-
-    ``recipe`` is that with which the run is to be filtered.
-    """
+def check(request: Request, robot: Robot) -> None:
+    """Raises InputError for what no motion can have, and for noise that is none or not that of the robot's motors."""
     _check_motion(request)
     _check_noise(request, len(robot.moving))
-    fewest = recipe.at(request.rate).fewest
+    fewest = request.filters_of(robot).at(request.rate).fewest
     if request.samples < fewest:
         problem = f"{request.samples} samples at {request.rate:g} Hz"
         raise InputError(command_line("--periods"), problem, f"at least {fewest} for the filters")

@@ -6,7 +6,6 @@ import numpy as np
 
 from generator.command_line import command_line
 from generator.robot.description import Robot
-from identification import recipes
 from identification.excitation.checks import check
 from identification.excitation.criterion import Criterion
 from identification.excitation.design import Progress, designed, usual_torques
@@ -34,8 +33,8 @@ def excite(
     Raises InputError for a request that is wrong, or wrong for the robot, and where its limits leave no motion.
     """
     request = request or Request()
-    recipe = request.recipe or recipes.recipe_of(robot.name)
-    check(request, robot, recipe)
+    check(request, robot)
+    recipe = request.filters_of(robot)
     given = regressors or Regressors(robot)
     values = resolved_set(given.model, request.parameters, command_line("--parameters"))
     loaded, filters = given.loaded_by(values), recipe.at(request.rate)

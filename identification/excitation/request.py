@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from generator.robot.description import Robot
+from identification import recipes
 from identification.excitation.criterion import DETERMINANT
 from identification.excitation.noise import PART
 from identification.recipes import Recipe
@@ -37,6 +39,10 @@ class Request:
     criterion: str = DETERMINANT
     evaluations: int = 20000
     seed: int = 0
+
+    def filters_of(self, robot: Robot) -> Recipe:
+        """How the run of a ``robot`` is to be filtered. Raises InputError for a recipe of its own that is wrong."""
+        return self.recipe or recipes.recipe_of(robot.name)
 
     @property
     def rows(self) -> int:

@@ -24,27 +24,49 @@ def test_what_leaves_nothing_is_no_part_of_what_a_law_lacks(beside: float, found
     assert names(searched(data.bank(effect, [fixed("large", large), fixed("small", small)]))) == found
 
 
-@pytest.mark.parametrize(
-    ("falls", "explains"),
-    [((0.0, 400.0), True), ((300.0, 100.0), False)],
-)
-def test_what_is_explained_where_a_law_does_not_act_is_no_part_of_it(falls: tuple[float, ...], explains: bool) -> None:
-    """Of a sum of squares that falls by 400 on two joints, beside a balancer on the first one."""
-    offset, balancer = variant("position_offset", (0, 1), "q"), variant("gas_balancer", (0,), "q")
-    offset.columns, balancer.columns = (1,), (0,)
-    rows, left = 1000, 2000.0
+def explains(one: Any, beside: Any, falls: tuple[float, ...], left: float = 2000.0) -> bool:
+    """Of a sum of squares that ``falls`` so on two joints, each of which keeps ``left`` beyond the noise."""
+    one.columns, beside.columns = (1,), (0,)
+    rows = 1000
 
     def left_over(k: int, values: dict[int, float], runs: Any) -> tuple[float, int]:
         return rows + left - (falls[k] if 1 in values else 0.0), rows
 
     normal = SimpleNamespace(base=0, solution=lambda columns: (np.zeros(len(columns)), None))
-    beyond = BeyondLaws(SimpleNamespace(left_over=left_over), normal, (0,))  # type: ignore[arg-type]
-    assert beyond.explains(offset, sum(falls), [balancer], [1e6]) is explains
-    assert not beyond.explains(offset, sum(falls), [variant_at_last(balancer)], [1e6])
+    laws = BeyondLaws(SimpleNamespace(left_over=left_over), normal, (0,))  # type: ignore[arg-type]
+    return laws.explains(one, sum(falls), [beside], [1e6])
 
 
-def variant_at_last(one: Any) -> Any:
-    """The same on the last joint as well: nothing is elsewhere."""
-    other = variant(one.hypothesis.effect, (0, 1), "q")
-    other.columns = one.columns
-    return other
+@pytest.mark.parametrize(("falls", "right"), [((0.0, 400.0), True), ((300.0, 100.0), False)])
+def test_what_is_explained_where_a_law_does_not_act_is_no_part_of_it(falls: tuple[float, ...], right: bool) -> None:
+    balancer, everywhere = (variant("gas_balancer", joints, "q") for joints in ((0,), (0, 1)))
+    assert explains(variant("position_offset", (0, 1), "q"), balancer, falls) is right
+    assert not explains(variant("position_offset", (0, 1), "q"), everywhere, falls)
+
+
+@pytest.mark.parametrize(
+    ("effect", "variable", "whole", "left", "right"),
+    [
+        ("load_friction", "frequency", False, 410.0, True),
+        ("load_friction", "frequency", False, 500.0, False),
+        ("load_friction", "frequency", False, 190.0, False),
+        ("load_friction", "load", False, 410.0, False),
+        ("motor_ripple", "motor phase", True, 410.0, True),
+        ("spring_balancer", "q", True, 410.0, False),
+    ],
+)
+def test_what_leaves_nothing_shows_elsewhere_or_at_a_whole_order(
+    effect: str, variable: str, whole: bool, left: float, right: bool
+) -> None:
+    """Of what is left beside a balancer, it explains 400; a second balancer may be what the first one's law lacks."""
+    one = variant(effect, (0,), variable)
+    one.hypothesis.shapes = (SimpleNamespace(whole=whole),)
+    assert explains(one, variant("gas_balancer", (0,), "q", joint=2), (400.0, 0.0), left) is right
+
+
+def test_what_asks_for_another_effect_is_not_beside_others_alone() -> None:
+    """A delay of one joint is told beyond that of all."""
+    delay = variant("torque_delay", (0,), "frequency")
+    assert explains(delay, variant("gas_balancer", (0,), "q", joint=2), (400.0, 0.0), 410.0)
+    delay.hypothesis.beyond = ("torque_delay",)
+    assert not explains(delay, variant("gas_balancer", (0,), "q", joint=2), (400.0, 0.0), 410.0)

@@ -8,8 +8,8 @@
  * body, f and n those that its joint transmits, S = tr(J)/2 - J and MS its pseudo-inertia and first moment; u marks
  * axes that do not spin with the joint, a trailing n the negative.
  *
- * Equations of the bodies, as they were chosen for this chain; a unit of length other than the metre is that of VP, F
- * and MS as well, and leaves S and torques as they are:
+ * Equations of the bodies, as they were chosen for this chain. With a unit of length of their own, VP is divided by it,
+ * F and MS are multiplied by it; S and torques stay as they are:
  *   torques: segments of parallel axes, pseudo-inertias, bodies 2, 6 in axes that do not spin,
  *       frames 6 slid along their axes, a mass kept at O4 against a first moment, lengths in units
  *       of 1.1 m

@@ -537,11 +537,11 @@ KR270_STATIC_ASSERT(
 /**
  * Computes *prepared from *params; again after a parameter has changed.
  *
- * Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no
- * inertias: with that one kr270_direct_dynamics(), kr270_direct_dynamics_sliding(),
+ * kr270_direct_dynamics(), kr270_direct_dynamics_loaded(), kr270_direct_dynamics_sliding(),
  * kr270_direct_dynamics_smooth(), kr270_flexible_direct_dynamics(),
- * kr270_flexible_direct_dynamics_sliding(), kr270_flexible_direct_dynamics_smooth() have no result;
- * the others do not read them.
+ * kr270_flexible_direct_dynamics_sliding(), kr270_flexible_direct_dynamics_smooth() solve with the
+ * inertias: a set that gives none leaves no result there, and infinite what is prepared as a
+ * quotient.
  */
 void kr270_prepare(const kr270_params *params, kr270_prepared *prepared);
 

@@ -530,11 +530,11 @@ KR500_STATIC_ASSERT(
 /**
  * Computes *prepared from *params; again after a parameter has changed.
  *
- * Quotients of parameters are infinite where their divisor is 0, as it is with a set that has no
- * inertias: with that one kr500_direct_dynamics(), kr500_direct_dynamics_sliding(),
+ * kr500_direct_dynamics(), kr500_direct_dynamics_loaded(), kr500_direct_dynamics_sliding(),
  * kr500_direct_dynamics_smooth(), kr500_flexible_direct_dynamics(),
- * kr500_flexible_direct_dynamics_sliding(), kr500_flexible_direct_dynamics_smooth() have no result;
- * the others do not read them.
+ * kr500_flexible_direct_dynamics_sliding(), kr500_flexible_direct_dynamics_smooth() solve with the
+ * inertias: a set that gives none leaves no result there, and infinite what is prepared as a
+ * quotient.
  */
 void kr500_prepare(const kr500_params *params, kr500_prepared *prepared);
 

@@ -36,8 +36,13 @@ def taken(model: Model) -> Iterator[str]:
     yield from (f"{prefix.upper()}_{word}" for word in _MACROS.split())
     yield from (f"{prefix}_{word}" for word in (*_WRITTEN.split(), *MATHEMATICS, *functions))
     yield from (f"{prefix}_{name}_sparsity" for name in functions)
-    yield from (f"{prefix.upper()}_{name.upper()}_SIZE" for name in functions)
+    yield from (size_constant(prefix, name) for name in functions)
     yield from (f"{prefix}_casadi_{name}{end}" for name in functions for end in _OF_EXTERNAL)
     yield from (f"{prefix}_params_{name}" for name in model.robot.parameter_sets)
     yield from (f"{prefix}_{plant}_{word}" for plant in _SIMULATED for word in _OF_SIMULATION.split())
     yield f"{prefix}_has_{len(model.parameters)}_parameters"
+
+
+def size_constant(prefix: str, function: str) -> str:
+    """The macro that tells how many entries a packed ``function`` computes."""
+    return f"{prefix.upper()}_{function.upper()}_SIZE"

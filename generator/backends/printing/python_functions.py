@@ -80,8 +80,8 @@ def python_function(function: Function, model: Model, language: Language) -> Pyt
     leaves = {node: names.claim(_entry(node, model)) for node in sorted(read, key=lambda n: (signal_of(n), index(n)))}
     block = straight_line(nodes, function.roots, leaves, language, names)
     inputs = tuple(_input(signal, arguments[signal.name], leaves) for signal in signals)
-    told = [(one.name, one) for one in signals], [(output.signal.name, output.signal) for output in function.outputs]
-    documentation = documented(function, *told, LINE - 8)
+    given, made = ([(one.name, one) for one in each] for each in (signals, [one.signal for one in function.outputs]))
+    documentation = documented(function, given, made, LINE - 8)
     return PythonFunction(function, documentation, inputs, block.statements, tuple(_results(function, results, block)))
 
 

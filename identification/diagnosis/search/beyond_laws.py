@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
-from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, ELSE, lacks
+from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, ELSE, lacking, lacks
 
-#: Part of what a variant explains that is elsewhere; parts of what is left of its joints, beyond noise, between which
-#: it is all of that: by more than is left much of what falls is noise.
-_MOST, _ALL, _ONCE = 0.5, 0.9, 2.0
+#: Part of what a variant explains that is elsewhere.
+_MOST = 0.5
+#: Parts of what is left of its joints, beyond noise, between which what it explains is all of that: beyond, it explains
+#: noise.
+_ALL, _TWICE = 0.9, 2.0
 
 
 @dataclass(frozen=True)
@@ -31,15 +34,18 @@ class BeyondLaws:
         """Whether a variant that lowers the sum of squares by ``drop``, beside ``others`` of ``drops`` whose laws may
         lack as much, explains what is no part of them.
         """
+        if not isfinite(lacking(variant, others, drops)):
+            return False
         each = zip(others, drops, lacks(variant, others, drops), strict=True)
         hiding = [(one, theirs, lack) for one, theirs, lack in each if lack > drop]
         if not hiding or any(lack > BESIDE * theirs for _, theirs, lack in hiding):
             return False
-        before, after = self._values(others), self._values([*others, variant])
+        before = self._values(others)
         left = sum(self._beyond_noise(before, k) for k in variant.coordinates)
         own = _of_whole_orders(variant) or all(lack <= ELSE * theirs for _, theirs, lack in hiding)
-        if own and _ALL * left < drop < _ONCE * left:
+        if own and _ALL * left < drop < _TWICE * left:
             return True
+        after = self._values([*others, variant])
         aside = set(variant.coordinates).difference(*(one.coordinates for one, *_ in hiding))
         fallen = sum(self._beyond_noise(before, k) - self._beyond_noise(after, k) for k in sorted(aside))
         return fallen > max(_MOST * drop, *(ANYWHERE * theirs for _, theirs, _ in hiding))

@@ -238,8 +238,8 @@ class Weighing:
         if drop < share * unexplained:
             return replace(one, why_not="too small beside what is left")
         drops = self._drops(others)
-        beyond = BeyondLaws(self.bank, self.normal, self.train)
-        if drop < lacking(variant, others, drops) and not beyond.explains(variant, drop, others, drops):
+        laws = BeyondLaws(self.bank, self.normal, self.train)
+        if drop < lacking(variant, others, drops) and not laws.explains(variant, drop, others, drops):
             return replace(one, why_not="may be what another effect's law lacks")
         more = more_friction.adds(variant, others)
         if more and drop < more_friction.left(self.bank, self.normal, self.train, variant, others):

@@ -15,7 +15,9 @@ def render(subject: Subject) -> Markup:
     results = subject.results
     gains, others = subject.gains, subject.parameters
     states: dict[str, Content] = {
-        name: element("span", one["refused"], class_="state") for name, one in gains.items() if one.get("refused")
+        name: element("span", one["refused"], class_="state")
+        for name, one in {**gains, **others}.items()
+        if one.get("refused")
     }
     states |= {
         name: element("span", f"{plain(share, 2)}\u202f% come from the payload's", class_="faint")
@@ -27,5 +29,5 @@ def render(subject: Subject) -> Markup:
         element("p", text),
         parameter_table(gains, states),
         element("h3", "Parameters"),
-        parameter_table(others, dict.fromkeys(others, "")),
+        parameter_table(others, states),
     )

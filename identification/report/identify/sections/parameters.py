@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join
+from identification.outcome import HIDDEN
 from identification.report.identify.subject import Subject
 from identification.report.parameter_table import parameter_table
 
@@ -31,7 +32,7 @@ def _states(subject: Subject) -> dict[str, Content]:
     for name, one in subject.results["parameters"].items():
         lower, value = bounds[name], one["value"]
         usual = "given" if one["fixed"] else "" if one["essential"] or value is None else "not essential"
-        doubts = [] if one["identifiable"] else ["not excited: no motion shows it alone"]
+        doubts = [] if one["identifiable"] else [f"not excited: {HIDDEN}"]
         if lower is not None and value is not None and value < lower:
             doubts.append("below its bound")
         if lower is not None and subject.consistent is not None:
