@@ -206,22 +206,25 @@ def record(cell: str, named: list[dict[str, Any]], hidden: list[Hidden], verdict
 def test_the_page_says_what_the_results_say() -> None:
     stribeck = [Hidden("stribeck", 2, 3.0)]
     right, wrong = [told("stribeck_friction", [2])], [told("dahl_friction", [2])]
+    unseen = record("power_1x", [], stribeck, NOTHING)
+    unseen["truth"]["hidden"][0]["invisible"] = True
     results = [
         *(record("one_3x", right, stribeck) for _ in range(3)),
         record("one_3x", wrong, stribeck),
         record("null", [], [], NOTHING),
         record("power_1x", right, stribeck),
+        unseen,
         {"case": Case("null", "three_axis", FREE, 2).record(), "skipped": "no size"},
         {"case": Case("null", "three_axis", FREE, 3).record(), "failed": "exit status 1"},
     ]
     before = [{**record("null", right, []), "code": "abc"}, *({**one, "code": "def"} for one in results)]
     found = tables(results, before)
-    assert found["counts"] == {"scored": 6, "out of reach": 1, "failed": 1, "scored apart": 0}
+    assert found["counts"] == {"scored": 7, "out of reach": 1, "failed": 1, "scored apart": 0}
     text = page(found)
     assert f"| one effect, 3 x noise | free fit | right effect and joint first | {Share(3, 4)} |" in text
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
     assert f"| nothing hidden | free fit | nothing named | {Share(1, 2)} |" in text
-    assert found["every"] == {"scored": 7, "codes": 2}
+    assert found["every"] == {"scored": 8, "codes": 2}
     assert "| dahl_friction |" in text
     assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}
     assert "| stribeck | 1 | 12 |" in text

@@ -105,11 +105,16 @@ def power(results: Sequence[Result]) -> dict[str, list[tuple[float, Share]]]:
     curves: dict[str, list[tuple[float, Share]]] = {}
     for law in STUDY.power:
         for size in SIZES:
-            cases = [one for mode in MODES for one in of(results, f"power_{size:g}x", mode)]
-            flags = [one["score"]["found"] > 0 for one in cases if one["truth"]["hidden"][0]["law"] == law]
-            if flags:
-                curves.setdefault(law, []).append((size, share(flags)))
+            if cases := _visible(results, law, size):
+                curves.setdefault(law, []).append((size, share([one["score"]["found"] > 0 for one in cases])))
     return curves
+
+
+def _visible(results: Sequence[Result], law: str, size: float) -> list[Result]:
+    """Cases of the power curve in which a law of a size shows at all."""
+    cases = [one for mode in MODES for one in of(results, f"power_{size:g}x", mode)]
+    hidden = [one["truth"]["hidden"][0] for one in cases]
+    return [one for one, what in zip(cases, hidden, strict=True) if what["law"] == law and not what["invisible"]]
 
 
 def detection_limits(results: Sequence[Result]) -> list[Row]:
@@ -120,8 +125,7 @@ def detection_limits(results: Sequence[Result]) -> list[Row]:
         strong = [size for size, _ in curve if size > max(weak, default=0.0)]
         limit = f"{strong[0]:g}" if strong else f"above {curve[-1][0]:g}"
         at = strong[0] if strong else curve[-1][0]
-        hidden = [one["truth"]["hidden"][0] for mode in MODES for one in of(results, f"power_{at:g}x", mode)]
-        torque = median(one["torque"] for one in hidden if one["law"] == law)
+        torque = median(one["truth"]["hidden"][0]["torque"] for one in _visible(results, law, at))
         rows.append({"law": law, "size over the noise": limit, "rms torque there, median, N m or N": f"{torque:.3g}"})
     return rows
 
