@@ -74,8 +74,8 @@ def page(found: Mapping[str, Any]) -> str:
         parts += [
             "## Power",
             "![Share of cases in which an effect is named, over its size](images/diagnosis_power.svg)",
-            "Detection limit: the smallest size of the curve from which on at least nine of ten cases that show the effect "
-            "are named.",
+            "Detection limit: the smallest size of the curve from which on at least nine of ten cases that show the "
+            "effect are named.",
             table(found["limits"]),
         ]
     return "\n\n".join(_filled(part) for part in parts if part) + "\n"
