@@ -18,6 +18,7 @@ from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.parameters import Parameter
 from generator.symbolic.function import PARAMETERS, Function, Output, Signal, Sparsity
 from generator.symbolic.statements import Node, Program
+from generator.symbolic.strategy import TEXTBOOK, Strategies
 
 PARAMETER_NAMES = ("ZZ1R", "MX1", "Fc1", "class", "NQ")
 STANDARD_NAMES = ("ZZ1", "MX1", "Fc1")
@@ -44,6 +45,11 @@ class Toy:
             base=sympy.eye(4),
             parameter_sets={"first": ParameterSet("first", "made up", "a table", given)},
         )
+
+    @property
+    def strategies(self) -> Strategies:
+        """No bodies."""
+        return TEXTBOOK
 
     @property
     def constants(self) -> Mapping[str, float]:
