@@ -75,8 +75,8 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     names += [name for one in payloads for name in one.names().values()]
     s = {name: cp.Variable(name=name) for name in names}
     base = grouped(model, s)
-    R = _rows(found)
     start = np.array([found.full.solution.values[name] for name in found.problem.names])
+    R, rest = _rows(found, start)
     values = base | {name: s[name] for one in payloads for name in one.names().values()}
     scale = np.linalg.norm(R, axis=0) + 1e-300
     # About the least squares' solution, so that the solver need not see what no parameters explain.
@@ -85,7 +85,7 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
         relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in _bodies(found, prior).items()
     ]
     relative += [relative_to(_ball(found), [s[name] for name in one.names().values()]) for one in payloads]
-    cost = cp.sum_squares((R / scale) @ away) + weight * divergence(relative)
+    cost = cp.sum_squares((R / scale) @ away - rest) + weight * divergence(relative)
     constraints = possible(model, s, relative)
     constraints += [values[name] == value for name, value in found.problem.fixed.items() if name in values]
     _solve(cp.Problem(cp.Minimize(_SCALE * cost), constraints), cp)
@@ -135,11 +135,15 @@ def _payloads(found: Identification) -> list[Payload]:
     return [one for one in by_name.values() if set(one.names().values()) & set(found.problem.names)]
 
 
-def _rows(found: Identification) -> Array:
-    """R (p x p) of the free parameters, in standard deviations of the residuals."""
+def _rows(found: Identification, start: Array) -> tuple[Array, Array]:
+    """R (p x p) of the free parameters beyond ``start`` (p), and what is left there that they may explain (p), in
+    standard deviations of the residuals. Nothing is, where ``start`` minimises their squares.
+    """
     problem, sigma = found.problem, found.full.solution.sigma
-    stacked = [one.on(problem.names)[:, :-1] / sigma[one.joint] for one in problem.factors]
-    return triangular(np.concatenate(stacked))
+    stacked = np.concatenate([one.on(problem.names) / sigma[one.joint] for one in problem.factors])
+    stacked[:, -1] -= stacked[:, :-1] @ start
+    T = triangular(stacked)[: len(start)]
+    return T[:, :-1], T[:, -1]
 
 
 def _ball(found: Identification) -> Array:

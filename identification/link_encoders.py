@@ -141,8 +141,8 @@ def of_runs(
         seen = late.refused or np.isfinite(late.std)
         latency[f"latency{joint.number}"] = _STANDS if _stands(mine, k) else late if seen else _UNSEEN
         mistaken[name] = _inverse(*_last(at_once.twist, at_once.constants, at_once.torque), stiffness[name].unit)
-        if stiffness[name].value is not None and viscous is None:
-            notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: no viscous friction was given")
+        if late.value is not None and (unknown := _lacking(stiffness[name], viscous)):
+            notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: {unknown}")
     found = tuple(zip(runs, filters, strict=True))
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))
 
@@ -250,15 +250,21 @@ def _told(rows: TwistRows, joint: Joint, viscous: float | None) -> tuple[Value, 
     stiffness = _stiffness(*compliance, joint)
     others, columns = np.column_stack([rows.own[:, 1:], rows.constants]), rows.own[:, 0]
     if stiffness.value is not None:
-        others = np.column_stack([others, rows.torque])
+        # What viscous friction takes of the torque twists no drive train.
+        others = np.column_stack([others, rows.torque - (viscous or 0.0) * columns])
     late, std = _last(rows.twist, others, columns)
-    if stiffness.value is not None and viscous is not None:
-        late += viscous * compliance[0]
     every = np.column_stack([others, columns])
     e = _left(rows.twist, every)
     size = float(np.linalg.norm(rows.twist))
     spread = float(np.linalg.norm(rows.twist - rows.twist.mean())) if rows.twist.size else 0.0
     return stiffness, Value(late, std, "s"), Residual(len(e), float(np.linalg.norm(e)), size, spread)
+
+
+def _lacking(stiffness: Value, viscous: float | None) -> str:
+    """Why a latency lacks what viscous friction makes of it; empty where it has that, or where neither is known."""
+    if stiffness.value is None:
+        return "" if viscous is None else "the stiffness is not known"
+    return "no viscous friction was given" if viscous is None else ""
 
 
 def _last(y: Array, others: Array, x: Array) -> tuple[float, float]:

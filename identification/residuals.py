@@ -19,6 +19,12 @@ def rms(x: Array) -> float:
     return float(np.sqrt(np.mean(np.square(x)))) if np.size(x) else 0.0
 
 
+def _percent(part: float, whole: float) -> float:
+    if not whole:
+        return float("inf") if part else 0.0
+    return 100 * part / whole
+
+
 @dataclass(frozen=True)
 class Residual:
     """Of ``rows`` rows: ``norm`` ||e||, that of the torques ||Y||, and their ``spread`` ||Y - mean(Y)|| [N m, N].
@@ -53,15 +59,13 @@ class Residual:
 
     @property
     def relative(self) -> float:
-        """||e|| / ||Y|| in %."""
-        return 100 * self.norm / self.torque if self.torque else 0.0
+        """||e|| / ||Y|| in %; infinite where there is no torque."""
+        return _percent(self.norm, self.torque)
 
     @property
     def relative_to_mean(self) -> float:
         """||e|| / ||Y - mean(Y)|| in %; infinite where the torque is constant."""
-        if not self.spread:
-            return float("inf") if self.norm else 0.0
-        return 100 * self.norm / self.spread
+        return _percent(self.norm, self.spread)
 
 
 @dataclass(frozen=True)

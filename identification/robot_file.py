@@ -41,7 +41,7 @@ class _Layout:
 
 def rounded(value: float) -> float:
     """The number that is read back where ``value`` is written."""
-    return float(_number(value))
+    return float(written(value))
 
 
 def with_parameter_set(text: str, one: ParameterSet, file: str = "robot file") -> str:
@@ -174,7 +174,7 @@ def _folded(key: str, text: str, layout: _Layout) -> str:
 
 
 def _value(value: ParameterValue) -> str:
-    parts = [f"value: {_number(value.value)}", f"unit: {value.unit}"]
+    parts = [f"value: {written(value.value)}", f"unit: {value.unit}"]
     if value.relative_std is not None:
         parts.append(f"relative_std: {value.relative_std:.3g}")
     if value.note:
@@ -182,7 +182,7 @@ def _value(value: ParameterValue) -> str:
     return ", ".join(parts)
 
 
-def _number(value: float) -> str:
+def written(value: float) -> str:
     """Six significant digits, an exponent without sign or padding where it is positive."""
     if abs(value) < _NOTHING:
         return "0"

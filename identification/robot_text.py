@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -67,6 +67,19 @@ def with_value(text: str, path: Path, value: str) -> str:
     if table is None or not isinstance(table.value, list):
         raise KeyError(f"{'/'.join(map(str, path))} has nothing above it")
     return _appended(text, table, f"{last}: {value}", "")
+
+
+def with_entries(text: str, path: Path, entries: Mapping[int, str], otherwise: Sequence[str]) -> str:
+    """``text`` with ``entries`` by number in the list at ``path``; the others stay as they are written. One value for
+    all becomes a list; one that is missing has ``otherwise`` for the others.
+    """
+    node = _find(text, path)
+    if node is not None and isinstance(node.value, list):
+        for k, entry in entries.items():
+            text = with_value(text, (*path, k), entry)
+        return text
+    every = otherwise if node is None else [value_of(text, path)] * len(otherwise)
+    return with_value(text, path, f"[{', '.join(entries.get(k, old) for k, old in enumerate(every))}]")
 
 
 def with_item(text: str, section: str, item: str, comment: str = "") -> str:

@@ -43,9 +43,10 @@ class Fit:
     """Gains ``k`` (n), parameters ``chi`` (p), covariance of [k, chi], which of chi are ``hidden`` (p).
 
     ``scale`` is the part of the known column that no parameter can stand for; 0 where the scale of all is open.
-    ``unsettled`` tells that the steps to the gains come to no end. ``sigma`` is the noise of each current,
-    ``separation`` the second smallest singular value over the smallest, ``condition`` that of the rows' derivatives by
-    gains and parameters, columns of unit length.
+    ``unsettled`` tells that the steps to the gains come to no end. ``sigma`` is the noise of each current as its own
+    rows tell it, ``misfit`` the most that errors are in parts of it, of all motors. ``separation`` is the second
+    smallest singular value over the smallest, ``condition`` that of the rows' derivatives by gains and parameters,
+    columns of unit length.
     """
 
     k: Array
@@ -57,6 +58,7 @@ class Fit:
     separation: float
     condition: float = np.inf
     unsettled: bool = False
+    misfit: float = 1.0
 
     def errors(self, part: Part) -> Array:
         """k i - B chi - w of a part (rows)."""
@@ -67,8 +69,8 @@ class Fit:
 def solve(parts: Sequence[Part], gains: int) -> Fit:
     """Gains and parameters of all ``parts``; gains without rows are zero, with an infinite variance.
 
-    Standard deviations are those of a first-order perturbation; residuals may be coloured, by motor (``inflation``).
-    They are infinite where the scale is open or the steps run away.
+    Standard deviations are those of a first-order perturbation by the residuals of each part, as large as they are and
+    as coloured (``inflation``). They are infinite where the scale is open or the steps run away.
     """
     p = parts[0].B.shape[1]
     rows = np.array([sum(len(one.i) for one in parts if one.gain == m) for m in range(gains)])
@@ -92,7 +94,7 @@ def solve(parts: Sequence[Part], gains: int) -> Fit:
     if not scale:
         return replace(fit, covariance=np.full((gains + p, gains + p), np.inf))
     covariance, condition = _covariance(fit, parts, live)
-    return replace(fit, covariance=covariance, condition=condition)
+    return replace(fit, covariance=covariance, condition=condition, misfit=_misfit(fit, parts, live))
 
 
 @dataclass(frozen=True)
@@ -167,19 +169,20 @@ def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tup
     n, p = len(fit.k), len(fit.chi)
     gram, coloured = np.zeros((n + p, n + p)), np.zeros((n + p, n + p))
     for m in live:
-        mine = [one for one in parts if one.gain == m]
-        J = np.concatenate([_derivative(fit, one, n) for one in mine])
-        errors = [fit.errors(one) for one in mine]
-        own = J.T @ J
         weight = 1 / (abs(fit.k[m]) * fit.sigma[m] + _TINY) ** 2
-        gram += weight * own
-        total = sum(len(e) for e in errors)
-        coloured += weight * own * (sum(len(e) * inflation(e) for e in errors) / total)
+        for one in (each for each in parts if each.gain == m and len(each.i)):
+            J, e = _derivative(fit, one, n), fit.errors(one)
+            own = weight * J.T @ J
+            gram += own
+            # What the motors' common parameters leave is more than noise where the model lacks something.
+            coloured += weight * own * (float(e @ e) / len(e) * inflation(e))
     size = np.sqrt(np.diag(gram))
     silent = size <= RANK * size.max(initial=0.0)
     size[silent] = 1.0
     values, vectors = np.linalg.eigh(gram / np.outer(size, size))
     seen = nonzero(values, _SEEN)
+    rows = sum(len(one.i) for one in parts)
+    coloured *= rows / max(rows - int((seen & (values > 0)).sum()), 1)
     inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T / np.outer(size, size)
     result: Array = inverse @ coloured @ inverse
     unseen = silent | not_identifiable(vectors[:, ~seen].T)
@@ -187,6 +190,14 @@ def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tup
     powers = np.linalg.eigvalsh((gram / np.outer(size, size))[np.ix_(~silent, ~silent)])
     condition = float(np.sqrt(powers[-1] / powers[0])) if powers[0] > _SEEN * powers[-1] else np.inf
     return result, condition
+
+
+def _misfit(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> float:
+    most = 1.0
+    for m in live:
+        errors = np.concatenate([fit.errors(one) for one in parts if one.gain == m])
+        most = max(most, float(np.sqrt(np.mean(errors**2))) / (abs(fit.k[m]) * fit.sigma[m] + _TINY))
+    return most
 
 
 def _derivative(fit: Fit, part: Part, gains: int) -> Array:

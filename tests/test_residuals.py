@@ -13,6 +13,11 @@ def test_a_joint_without_rows_has_no_residual() -> None:
     assert Residuals(each).by_joint(".2g") == "- 0 10"
 
 
+def test_what_is_left_of_no_torque_is_no_praise() -> None:
+    assert Residual(10, 1.0, 0.0, 0.0).relative == Residual(10, 1.0, 0.0, 0.0).relative_to_mean == float("inf")
+    assert Residual(10, 0.0, 0.0, 0.0).relative == Residual(10, 0.0, 0.0, 0.0).relative_to_mean == 0.0
+
+
 def test_joints_that_are_tested_far_worse_are_told() -> None:
     def leaving(parts: list[float]) -> Residuals:
         return Residuals({k: Residual(10, part, 20.0, 100.0) for k, part in enumerate(parts)})

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable, Container, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import asdict, dataclass
-from hashlib import sha256
 from itertools import islice
 from math import inf
 from multiprocessing import get_context
@@ -24,14 +23,11 @@ from benchmarks.diagnosis_study.drawing import cases
 from benchmarks.diagnosis_study.making import made
 from benchmarks.diagnosis_study.scoring import scored
 from benchmarks.diagnosis_study.sizing import OutOfReach
+from benchmarks.diagnosis_study.state import ROOT, state
 from tests.plant.simulate import RanAway
 
-ROOT = Path(__file__).parents[2]
 #: Where results of cases are kept, by the code that they came from.
 RESULTS = ROOT / "build" / "diagnosis_study"
-#: What a result depends on, and what it does not.
-_SOURCES = ("generator", "identification", "templates", "tests/plant", "benchmarks/diagnosis_study")
-_WITHOUT = {"__pycache__", "pages"}
 #: Largest mismatch of a null case, in multiples of the noise: cases above are scored apart.
 MISMATCH = 0.05
 #: Processes share the cores by cases.
@@ -77,12 +73,7 @@ def folder_of_results(reserved: bool = True) -> Path:
 
     Cases of the development, without ``reserved`` laws, have one of their own: they are other draws.
     """
-    digest = sha256()
-    for source in _SOURCES:
-        for file in sorted((ROOT / source).rglob("*")):
-            if file.is_file() and _WITHOUT.isdisjoint(file.parts):
-                digest.update(file.read_bytes())
-    return RESULTS / (digest.hexdigest()[:16] + ("" if reserved else "_development"))
+    return RESULTS / (state() + ("" if reserved else "_development"))
 
 
 @dataclass(frozen=True)

@@ -86,7 +86,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
 
 
 def _told(one: Mapping[str, Any], verdict: str) -> bool:
-    """Whether a finding is a name: firm, or tentative for its equal alternatives alone."""
+    """Whether a finding is a name: firm, or beside nothing unexplained tentative with what else it may be."""
     return one["status"] == "firm" or (verdict == NAMED and bool(one.get("alternatives")))
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from generator.version import VERSION
 from identification import outcome
-from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
+from identification.diagnosis.diagnosis import LOCATED, UNEXPLAINED, Diagnosis
 from identification.diagnosis.mending.mended import GENERATED, Mended
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.runs.played import together
@@ -32,7 +32,9 @@ def document(found: Diagnosis, new: Mended | None = None) -> dict[str, Any]:
         "where": _where(found.before),
         "findings": [_finding(one, new) for one in found.findings],
         "unexplained": _where(found.after) if found.verdict == UNEXPLAINED else None,
-        "contradicted": [
+        "contradicted": None
+        if found.verdict == LOCATED
+        else [
             {"parameter": one.name, "value": one.found, "known": one.known, "known_std": one.std}
             for one in found.contradicted
         ],

@@ -147,6 +147,7 @@ def test_a_dry_run_only_locates(hidden: Case) -> None:
     assert sorted(path.name for path in (folder / "dry").iterdir()) == ["diagnosis.json", "report.html"]
     dry = result(folder / "dry")
     assert (dry["verdict"], dry["findings"], dry["robot_file"]) == ("located", [], None)
+    assert dry["contradicted"] is None
     assert dry["unexplained"] is None
     assert "located (free_fit)" in done.out
 

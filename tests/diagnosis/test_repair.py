@@ -165,6 +165,25 @@ flexible:
 """
 
 
+@pytest.mark.parametrize(
+    ("stated", "written"),
+    [
+        ("[180 deg, pi/3 rad, 0 m, 0 rad, 0 rad, 1/3 rad]", "[180 deg, pi/3 rad, 0.001 m, 0 rad, 0 rad, 1/3 rad]"),
+        ("[180 deg, 0 rad, 1 mm, 0 rad, 0 rad, 0 rad]", "[180 deg, 0 rad, 0.002 m, 0 rad, 0 rad, 0 rad]"),
+    ],
+)
+def test_values_that_do_not_change_stay_as_they_are_written(stated: str, written: str) -> None:
+    text = f"{text_of('stanford').rstrip()}\nsignals:\n  position_offset: {stated}\n"
+    found = repaired(text, "x", [Addition(SIGNAL, "position_offset", (3,), values={"position_offset": 1e-3})])
+    assert f"\n  position_offset: {written}\n" in found.text
+
+
+def test_one_value_for_all_stays_that_of_the_others() -> None:
+    text = f"{text_of('stanford').rstrip()}\nsignals:\n  torque_gain: 10/9\n"
+    found = repaired(text, "x", [Addition(SIGNAL, "torque_gain", (2,), values={"torque_gain": 0.9})])
+    assert "\n  torque_gain: [10/9, 1, 10/9, 10/9, 10/9, 10/9]\n" in found.text
+
+
 def test_a_list_whose_dashes_stand_below_their_key_is_written_anew() -> None:
     text = text_of("stanford").rstrip() + "\n" + DASHES
     found = repaired(

@@ -46,6 +46,17 @@ def test_the_largest_of_those_that_count_is_told() -> None:
     assert found.lack == (BY_CHANCE, SIGNIFICANT, EVENT)
 
 
+def test_stretches_of_the_motion_are_told_apart() -> None:
+    bins = np.linspace(-1.0, 1.0, 9)
+    excess = np.array([5.0, 4.0, 0.0, 0.0, 0.0, 0.0, 3.0, 3.0, -4.0])
+    one = View(2, "qd", "rad/s", 0, bins, excess, np.ones(9), np.full(9, 50), 0.3)
+    found = located(Where(0, "", "", {}, (SIGNIFICANT,), {2: (one,)}), [SIGNIFICANT])
+    assert found.region == "qd -1 to -0.75 and about 1 rad/s"
+    many = replace(one, mean=np.array([9.0, 0.0, 8.0, 0.0, 7.0, 0.0, 6.0, 0.0, 10.0]))
+    found = located(Where(0, "", "", {}, (SIGNIFICANT,), {2: (many,)}), [SIGNIFICANT])
+    assert found.region == "qd about -1, about -0.5 and about 1 rad/s"
+
+
 def test_where_none_counts_it_is_nowhere() -> None:
     found = located(seen(BY_CHANCE, SIGNIFICANT), [])
     assert (found.joint, found.variable, found.region, found.shares) == (0, "", "", {})

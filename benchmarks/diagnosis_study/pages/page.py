@@ -50,7 +50,8 @@ def page(found: Mapping[str, Any]) -> str:
         f"One study of one state of the code: {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
         f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
         "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
-        "once, with the same code, it does not make again. Where the cases are few the intervals are wide.",
+        "once, with the same code but for comments and docstrings, it does not make again. Where the cases are few the "
+        "intervals are wide.",
         table(found["cells"]),
         "## Every case that was ever drawn",
         f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
@@ -112,4 +113,5 @@ part is at least a tenth of the largest. Rows near standstill are left out. Of w
 {100 * INVISIBLE:g} % of its norm the right answer is that these data cannot show it.
 
 In cases that count here, the robot file's laws differ from the robot's own by at most {MISMATCH:g} of the noise;
-others are scored apart. Shares have Wilson intervals of 95 %."""
+others are scored apart. A finding counts as named if it is firm, or if it is tentative and tells what else it may be,
+while nothing is left unexplained. Shares have Wilson intervals of 95 %."""

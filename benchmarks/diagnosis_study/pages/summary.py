@@ -101,7 +101,7 @@ def rows_of_numbers(results: Sequence[Result]) -> list[Row]:
 
 
 def power(results: Sequence[Result]) -> dict[str, list[tuple[float, Share]]]:
-    """For each law of the power curve the share of cases in which it is firmly named, over the size."""
+    """For each law of the power curve the share of cases in which it is named, over the size."""
     curves: dict[str, list[tuple[float, Share]]] = {}
     for law in STUDY.power:
         for size in SIZES:

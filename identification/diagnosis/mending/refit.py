@@ -210,11 +210,23 @@ def _near(
         spread = float(away @ whole.precision @ away) + float(np.sum(whole.precision * covariance))
         width = 1.0 if held else max(spread / max(int(whole.known.sum()), 1), 1.0)
         values = {**given, **dict(zip(start.names, chi.tolist(), strict=True))}
-        sigma = sigma | {one.joint: max(one.residual(values) / np.sqrt(one.rows), _TINY) for one in shown}
+        sigma = sigma | {
+            one.joint: _deviation(one, start.names, values, covariance, sigma[one.joint] * inflated[one.joint])
+            for one in shown
+        }
         unknown = tuple(name for name, one in zip(start.names, whole.known, strict=True) if not one)
         hidden = tuple(name for name in start.hidden if name in unknown)
         result = replace(start, values=values, covariance=covariance, hidden=hidden, sigma=sigma)
     return replace(result, sigma={joint: size * inflated.get(joint, 1.0) for joint, size in result.sigma.items()})
+
+
+def _deviation(one: Factor, names: Sequence[str], values: Mapping[str, float], covariance: Array, was: float) -> float:
+    """Standard deviation of a joint's rows about what ``values`` of all parameters give, less the freedom that those of
+    ``names`` took of them, which were fitted to rows of the deviation that it ``was``.
+    """
+    R = one.on(names)[:, :-1] / was
+    taken = float(np.sum((R @ covariance) * R))
+    return max(one.residual(values) / float(np.sqrt(max(one.rows - taken, 1.0))), _TINY)
 
 
 def _coloured(solution: Solution, factors: Sequence[Factor], observed: Sequence[Observed]) -> Solution:

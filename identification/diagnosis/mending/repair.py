@@ -34,7 +34,8 @@ from identification.diagnosis.columns.hypothesis import (
     on_joints,
 )
 from identification.diagnosis.mending.addition import Addition
-from identification.robot_text import keys_of, robot_of, value_of, with_item, with_value
+from identification.robot_file import written
+from identification.robot_text import keys_of, robot_of, value_of, with_entries, with_item, with_value
 
 #: What a correction is where the file says nothing.
 _NEUTRAL = {
@@ -87,7 +88,7 @@ def _grouped(additions: Sequence[Addition], robot: Robot) -> list[Addition]:
             return one.kind, one.effect, one.joints
         joint = robot.joints[one.joints[0] - 1]
         units = {shape.name: shape.unit_on(joint) for shape in library()[one.effect].shapes}
-        values = sorted((name, _number(value), units.get(name, "")) for name, value in one.values.items())
+        values = sorted((name, written(value), units.get(name, "")) for name, value in one.values.items())
         return one.kind, one.effect, one.evidence, *values
 
     first = {key(one): k for k, one in reversed([*enumerate(additions)])}
@@ -120,7 +121,7 @@ def as_written(one: Addition, robot: Robot, k: int) -> bool:
         return True
     for key in _WARMTH:
         told: Sequence[sympy.Expr] = getattr(robot.signals, key)
-        if _number(one.values.get(key, NEVER)) != _number(float(told[k]) if told else NEVER):
+        if written(one.values.get(key, NEVER)) != written(float(told[k]) if told else NEVER):
             return False
     return True
 
@@ -163,13 +164,13 @@ def _add_signal(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]
 def _with_signal(text: str, robot: Robot, key: str, value: float, joints: Sequence[int]) -> str:
     """The value of a key of ``signals`` changed for some joints."""
     old: Sequence[sympy.Expr] = getattr(robot.signals, key)
-    now = [float(x) for x in old] or [_NEUTRAL[key]] * len(robot.moving)
-    for k, joint in enumerate(robot.moving):
-        if joint.number in joints:
-            now[k] = value if key in _REPLACING else now[k] * value if key == "torque_gain" else now[k] + value
     units = [signal_unit(key, joint, robot.drives is not None) for joint in robot.moving]
-    written = ", ".join(map(_with_unit, now, units))
-    return with_value(text, ("signals", key), f"[{written}]")
+    changed = {}
+    for k in (robot.numbers.index(number) for number in joints):
+        was = float(old[k]) if old else _NEUTRAL[key]
+        now = value if key in _REPLACING else was * value if key == "torque_gain" else was + value
+        changed[k] = _with_unit(now, units[k])
+    return with_entries(text, ("signals", key), changed, [_with_unit(_NEUTRAL[key], unit) for unit in units])
 
 
 def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
@@ -181,10 +182,11 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
         for number in one.joints:
             text = _with_ratio(text, robot, number, one.values["gear_ratio"])
         return text, [f"gear_ratio is in section drives of the robot file, changed on {on_joints(one.joints)}"]
-    drift = [float(part) for part in drives.torque_drift] or [0.0] * len(robot.moving)
-    for k, joint in enumerate(robot.moving):
-        drift[k] += one.values["torque_drift"] if joint.number in one.joints else 0.0
-    text = with_value(text, ("drives", "torque_drift"), f"[{', '.join(map(_number, drift))}]")
+    drift = {
+        k: written(one.values["torque_drift"] + (float(drives.torque_drift[k]) if drives.torque_drift else 0.0))
+        for k in (robot.numbers.index(number) for number in one.joints)
+    }
+    text = with_entries(text, ("drives", "torque_drift"), drift, ["0"] * len(robot.moving))
     for key, value in one.values.items():
         if key != "torque_drift":
             text = _with_signal(text, robot, key, value, one.joints)
@@ -326,14 +328,8 @@ _ADDING: Mapping[str, Callable[[str, Robot, Addition], tuple[str, list[str]]]] =
 }
 
 
-def _number(value: float) -> str:
-    """Six significant digits."""
-    mantissa, _, exponent = f"{value:.6g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
-
-
 def _with_unit(value: float, unit: str) -> str:
-    return _number(value) if unit == "1" else f"{_number(value)} {unit}"
+    return written(value) if unit == "1" else f"{written(value)} {unit}"
 
 
 def _plain(text: str) -> str:

@@ -217,8 +217,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     inner = np.arange(run.samples)[one.filters.inner(run.samples)]
     left_out[:, (inner < stretch.start) | (inner >= stretch.stop)] = True
     if swinging := stated(regressors.model.robot):
-        fading = min(_SWINGING, _FADING * run.duration) * run.rate
-        left_out[[one.k for one in swinging], : round(fading)] = True
+        fading = run.start + min(_SWINGING, _FADING * run.duration)
+        left_out[[each.k for each in swinging]] |= one.times < fading
     if run.unusable is not None:
         left_out |= run.unusable[:, one.filters.inner(run.samples)]
     left_out = _unsettled(left_out, run.rate)

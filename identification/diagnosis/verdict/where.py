@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from generator.review.words import listed
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import columns_of
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, on_joints
@@ -25,6 +27,8 @@ _LEADS = 0.25
 _HALF_SAMPLE = 0.5
 #: Size of an event, in parts of the largest lack, from which it is told first.
 _EVENT = 0.5
+#: Part of the largest excess above which a bin is told, and how many stretches of such bins are.
+_OUTSTANDING, _STRETCHES = 0.5, 3
 #: Variables over which means show an effect: over time and since a reversal its sign changes with the motion, over the
 #: motor's phase other orders cancel.
 _SHOWN = ("q", "q by direction", "qd", "qdd", "load")
@@ -136,8 +140,19 @@ def _region(found: Sequence[View], variable: str) -> str:
         out = np.abs(one.mean) - one.band
         if not len(out) or out.max() <= 0:
             continue
-        at = one.centre[out > 0.5 * out.max()]
         way = {-1: " moving backward", 0: "", 1: " moving forward"}[one.direction]
-        span = f"{at.min():.3g} to {at.max():.3g}" if len(at) > 1 else f"about {at[0]:.3g}"
-        parts.append(f"{variable} {span} {one.unit}{way}")
+        spans = [_span(one.centre[at]) for at in _outstanding(out)]
+        parts.append(f"{variable} {listed(spans)} {one.unit}{way}")
     return "; ".join(parts)
+
+
+def _outstanding(out: Array) -> list[NDArray[np.int64]]:
+    """Stretches of neighbouring bins in which ``out`` is above half of its largest, by number; the three with most."""
+    at = np.flatnonzero(out > _OUTSTANDING * out.max())
+    stretches = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
+    most = sorted(stretches, key=lambda one: -out[one].max())[:_STRETCHES]
+    return sorted(most, key=lambda one: int(one[0]))
+
+
+def _span(centres: Array) -> str:
+    return f"{centres[0]:.3g} to {centres[-1]:.3g}" if len(centres) > 1 else f"about {centres[0]:.3g}"
