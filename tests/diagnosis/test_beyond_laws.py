@@ -5,7 +5,6 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from identification.diagnosis.search.beyond_laws import BeyondLaws
@@ -32,7 +31,7 @@ def explains(one: Any, beside: Any, falls: tuple[float, ...], left: float = 2000
     def left_over(k: int, values: dict[int, float], runs: Any) -> tuple[float, int]:
         return rows + left - (falls[k] if 1 in values else 0.0), rows
 
-    normal = SimpleNamespace(base=0, solution=lambda columns: (np.zeros(len(columns)), None))
+    normal = SimpleNamespace(by_number=lambda columns: dict.fromkeys(columns, 0.0))
     laws = BeyondLaws(SimpleNamespace(left_over=left_over), normal, (0,))  # type: ignore[arg-type]
     return laws.explains(one, sum(falls), [beside], [1e6])
 

@@ -191,9 +191,18 @@ class Normal:
         S = without(square(self.schur, at), np.arange(len(known)), values)[len(known) :, len(known) :]
         return after(S, len(fitted))
 
+    def numbers(self, chosen: Sequence[int]) -> list[int]:
+        """Those of the base columns, then of the chosen ones."""
+        return [*range(self.base), *chosen]
+
+    def by_number(self, chosen: Sequence[int], solution: Array | None = None) -> dict[int, float]:
+        """Values of the base columns and the chosen ones: of the ``solution`` (p + k), or else of that of the rows."""
+        values = self.solution(chosen)[0] if solution is None else solution
+        return dict(zip(self.numbers(chosen), values.tolist(), strict=True))
+
     def solution(self, chosen: Sequence[int]) -> tuple[Array, Array]:
         """Base parameters and the chosen columns' coefficients (p + k); and their covariance."""
-        at = [*range(self.base), *chosen]
+        at = self.numbers(chosen)
         G = self.products(at, [*at, len(self.gram) - 1])
         free = np.array([number not in self.preset for number in at])
         values = told_apart(at, self.preset)[2]
@@ -207,7 +216,7 @@ class Normal:
 
     def misfit(self, chosen: Sequence[int], solution: Array) -> float:
         """Sum of the squared white residuals, without the prior's rows."""
-        at = np.array([*range(self.base), *chosen, len(self.gram) - 1])
+        at = np.array([*self.numbers(chosen), len(self.gram) - 1])
         v = np.append(-solution, 1.0)
         return float(v @ square(self.gram, at) @ v)
 

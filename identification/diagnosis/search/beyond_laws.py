@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
 
 from identification.diagnosis.columns.bank import Bank, Variant, columns_of
 from identification.diagnosis.columns.normal_equations import Normal
-from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, ELSE, lacking, lacks
+from identification.diagnosis.search.imperfect_laws import ANYWHERE, BESIDE, ELSE, lacks, stands
 
 #: Part of what a variant explains that is elsewhere.
 _MOST = 0.5
@@ -34,26 +33,21 @@ class BeyondLaws:
         """Whether a variant that lowers the sum of squares by ``drop``, beside ``others`` of ``drops`` whose laws may
         lack as much, explains what is no part of them.
         """
-        if not isfinite(lacking(variant, others, drops)):
+        if not stands(variant, others):
             return False
         each = zip(others, drops, lacks(variant, others, drops), strict=True)
         hiding = [(one, theirs, lack) for one, theirs, lack in each if lack > drop]
         if not hiding or any(lack > BESIDE * theirs for _, theirs, lack in hiding):
             return False
-        before = self._values(others)
+        before = self.normal.by_number(columns_of(others))
         left = sum(self._beyond_noise(before, k) for k in variant.coordinates)
         own = _of_whole_orders(variant) or all(lack <= ELSE * theirs for _, theirs, lack in hiding)
         if own and _ALL * left < drop < _TWICE * left:
             return True
-        after = self._values([*others, variant])
+        after = self.normal.by_number(columns_of([*others, variant]))
         aside = set(variant.coordinates).difference(*(one.coordinates for one, *_ in hiding))
         fallen = sum(self._beyond_noise(before, k) - self._beyond_noise(after, k) for k in sorted(aside))
         return fallen > max(_MOST * drop, *(ANYWHERE * theirs for _, theirs, _ in hiding))
-
-    def _values(self, chosen: Sequence[Variant]) -> dict[int, float]:
-        """Values of the base columns and of those of what is ``chosen``, by number."""
-        columns = columns_of(chosen)
-        return dict(zip([*range(self.normal.base), *columns], self.normal.solution(columns)[0].tolist(), strict=True))
 
     def _beyond_noise(self, values: dict[int, float], k: int) -> float:
         """The sum of squares beyond the noise's that they leave of coordinate k."""

@@ -34,10 +34,13 @@ def lacking(variant: Variant, others: Sequence[Variant], drops: Sequence[float])
     """What the laws of ``others``, which explain ``drops`` of the sum of squares, may lack and a variant would explain;
     infinite where it cannot be beside one of them.
     """
+    return max(lacks(variant, others, drops), default=0.0) if stands(variant, others) else inf
+
+
+def stands(variant: Variant, others: Sequence[Variant]) -> bool:
+    """Whether what a variant goes beyond is among ``others``; of what is likely enough it need not be."""
     there = {each.name for one in others for each in one.coefficients}
-    if not (_likely_enough(variant) or there.issuperset(variant.hypothesis.beyond)):
-        return inf
-    return max(lacks(variant, others, drops), default=0.0)
+    return _likely_enough(variant) or there.issuperset(variant.hypothesis.beyond)
 
 
 def lacks(variant: Variant, others: Sequence[Variant], drops: Sequence[float]) -> list[float]:

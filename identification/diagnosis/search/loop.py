@@ -90,7 +90,7 @@ class Search:
 
     def _fitted(self, variants: Sequence[Variant]) -> dict[int, float]:
         solution, _ = self.weighing.fitted(variants, True)
-        return dict(zip([*range(len(self.bank.base)), *columns_of(variants)], solution.tolist(), strict=True))
+        return self.weighing.normal.by_number(columns_of(variants), solution)
 
 
 def search(

@@ -26,8 +26,7 @@ def left(bank: Bank, normal: Normal, runs: Sequence[int], variant: Variant, othe
     """The sum of squares beyond the noise's that a variant and ``others``, fitted by ``normal`` equations of some runs,
     leave of its joints, without what may be noise.
     """
-    chosen = columns_of([*others, variant])
-    weights = dict(zip([*range(normal.base), *chosen], normal.solution(chosen)[0].tolist(), strict=True))
+    weights = normal.by_number(columns_of([*others, variant]))
     result = 0.0
     for k in variant.coordinates:
         square, rows = bank.left_over(k, weights, runs)

@@ -42,7 +42,7 @@ def _products(weighing: Weighing, chosen: Sequence[Variant]) -> Array:
 
 def _numbers(weighing: Weighing, chosen: Sequence[Variant]) -> list[int]:
     """Of the base columns and of those that are ``chosen``."""
-    return [*range(weighing.normal.base), *columns_of(chosen)]
+    return weighing.normal.numbers(columns_of(chosen))
 
 
 def _tied_cost(weighing: Weighing, chosen: Sequence[Variant], G: Array) -> float:

@@ -140,9 +140,7 @@ class Weighing:
 
     def fitted_to(self, runs: Sequence[int], variants: Sequence[Variant]) -> dict[int, float]:
         """Values of the base columns and of those of ``variants``, by number, fitted to some runs."""
-        columns = columns_of(variants)
-        solution, _ = self._normal(runs).solution(columns)
-        return dict(zip([*range(self.normal.base), *columns], solution.tolist(), strict=True))
+        return self._normal(runs).by_number(columns_of(variants))
 
     def _normal(self, runs: Sequence[int]) -> Normal:
         rows = sum(int(self.bank.rows(r).sum()) for r in runs)
@@ -318,7 +316,7 @@ class Weighing:
 
     def _fitted_beside(self, others: Sequence[Variant]) -> Places:
         """The columns that are fitted beside a variant, by number."""
-        return told_apart([*range(self.normal.base), *columns_of(others)], self.normal.preset)[0]
+        return told_apart(self.normal.numbers(columns_of(others)), self.normal.preset)[0]
 
     def _asked_for(self, found: _Found, others: Sequence[Variant]) -> _Found:
         """Without coefficients that only refine, where they explain chance, or more than what they refine.
@@ -370,7 +368,7 @@ class Weighing:
         """
         if self._pretence.nothing:
             return np.zeros(len(variant.columns))
-        every, G = [*range(self.normal.base), *columns_of(others)], self.normal.whole
+        every, G = self.normal.numbers(columns_of(others)), self.normal.whole
         beside = self._fitted_beside(others)
         explained = inverse(square(G, beside)) @ self._pretence.beside(others)[np.isin(every, beside)]
         return np.asarray(self._pretence.of(variant) - G[np.ix_(np.array(variant.columns), beside)] @ explained)
