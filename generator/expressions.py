@@ -86,12 +86,15 @@ def parse_quantity(text: str, unit: str | None, place: Place) -> Quantity:
 
 
 def has_unit(text: str) -> bool:
-    """Whether ``text`` is a number with a unit behind it, which an expression over names never looks like."""
+    """Whether ``text`` is a number with a unit behind it, which an expression over names never looks like.
+
+    The unit of a pure number is 1: ``0.1 1``.
+    """
     try:
         number, unit, _ = _split(text, Place(""))
     except InputError:
         return False
-    return bool(unit) and bool(re.search(r"(?:[\d.)]|pi)\s*\Z", number))
+    return bool(re.search(r"(?:[\d.)]|pi)\s*\Z", number) if unit else _ONE.search(number))
 
 
 def _split(text: str, place: Place) -> tuple[str, str, Place]:
