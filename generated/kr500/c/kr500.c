@@ -34,13 +34,18 @@
 
 /*
  * Sine and cosine are those of <math.h> on request, if one is given from outside, and where the compiler may reorder
- * sums or computes in another precision than the type's: FLT_EVAL_METHOD.
+ * sums or may compute in another precision than the type's: FLT_EVAL_METHOD.
  */
 #if !defined(KR500_USE_LIBM)
-#if defined(kr500_sin) || defined(kr500_cos) || defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
+#if defined(kr500_sin) || defined(kr500_cos)
+#define KR500_USE_LIBM
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
+#define KR500_USE_LIBM
+#elif defined(__INTEL_COMPILER) || defined(__INTEL_LLVM_COMPILER)
 #define KR500_USE_LIBM
 #elif defined(FLT_EVAL_METHOD)
-#if (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
+/* 16 widens half precision alone. */
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16)
 #define KR500_USE_LIBM
 #endif
 #endif
@@ -75,6 +80,7 @@
 #define kr500_log log
 #endif
 #endif
+
 
 /* Sine and cosine of the first count of 4 angles by the functions above. */
 #if defined(__GNUC__) && !defined(KR500_USE_LIBM)
@@ -163,7 +169,7 @@ static void kr500_sines_cosines(
         (void)memcpy(&number, &sum, sizeof number);
         (void)memcpy(&s, &sine, sizeof s);
         (void)memcpy(&c, &cosine, sizeof c);
-        odd = (s ^ c) & -(number & UINT32_C(1));
+        odd = (s ^ c) & (UINT32_C(0) - (number & UINT32_C(1)));
         s ^= odd ^ ((sign ^ (number << 30)) & top);
         c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
         (void)memcpy(&sine, &s, sizeof sine);
@@ -204,7 +210,7 @@ static void kr500_sines_cosines(
         (void)memcpy(&number, &sum, sizeof number);
         (void)memcpy(&s, &sine, sizeof s);
         (void)memcpy(&c, &cosine, sizeof c);
-        odd = (s ^ c) & -(number & UINT64_C(1));
+        odd = (s ^ c) & (UINT64_C(0) - (number & UINT64_C(1)));
         s ^= odd ^ ((sign ^ (number << 62)) & top);
         c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
         (void)memcpy(&sine, &s, sizeof sine);
