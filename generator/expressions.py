@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import sympy
 
-from generator.errors import InputError, Place
+from generator.errors import NOWHERE, InputError, Place
 from generator.units import Quantity, accepted, is_unit, parse_unit
 
 #: Bounds that no honest robot file meets, so that no input can cost more than an instant.
@@ -91,7 +91,7 @@ def has_unit(text: str) -> bool:
     The unit of a pure number is 1: ``0.1 1``.
     """
     try:
-        number, unit, _ = _split(text, Place(""))
+        number, unit, _ = _split(text, NOWHERE)
     except InputError:
         return False
     return bool(re.search(r"(?:[\d.)]|pi)\s*\Z", number) if unit else _ONE.search(number))

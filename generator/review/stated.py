@@ -8,7 +8,7 @@ from generator.constants import exact_constant
 from generator.effects.library import Instance
 from generator.numbering import numbered, ranges
 from generator.review.decimals import MACHINE, decimal, rounded, scientific
-from generator.robot.description import Robot
+from generator.robot.description import Drives, Robot
 from generator.robot.parameters import Parameter
 from generator.robot.signal_units import signal_unit
 from generator.symbolic.model import Model
@@ -62,10 +62,7 @@ def drives(robot: Robot) -> Table:
         return ()
     stated = robot.drives
     heads = ["joint", "gear ratio", "row of N"]
-    heads += [
-        f"torque constant, {name}{', in use' if name == stated.torque_constant else ''} [N m/A]"
-        for name in stated.torque_constants
-    ]
+    heads += torque_constant_heads(stated)
     heads += ["drift at warmth 1"] if stated.torque_drift else []
     rows = []
     for k, joint in enumerate(robot.moving):
@@ -75,6 +72,14 @@ def drives(robot: Robot) -> Table:
         row += [rounded(stated.torque_drift[k])] if stated.torque_drift else []
         rows.append(tuple(row))
     return (tuple(heads), *rows)
+
+
+def torque_constant_heads(drives: Drives) -> list[str]:
+    """What is written above the columns of the torque constants."""
+    return [
+        f"torque constant, {name}{', in use' if name == drives.torque_constant else ''} [N m/A]"
+        for name in drives.torque_constants
+    ]
 
 
 #: What is written above a column of the signals' corrections.

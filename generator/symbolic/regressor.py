@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from generator.numbering import numbered
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic import lean_motion, newton_euler
-from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Origins, slid, slid_origins
 from generator.symbolic.kinematics import Screw
@@ -183,4 +183,4 @@ def _recursive_columns(
 
 def _stems(j: int, names: Collection[str]) -> list[str]:
     """Of the parameters of body j among ``names``."""
-    return [stem for stem in INERTIAL if f"{stem}{j}" in names]
+    return [stem for stem in INERTIAL_STEMS if f"{stem}{j}" in names]

@@ -70,7 +70,6 @@ typedef uint64_t real_bits;
 #endif
 #endif
 
-
 /* Samples of a tile: a line of the cache for each of its entries. */
 #define TILE (64 / REAL_BYTES)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from generator.effects.library import Instance
 from generator.numbering import numbered
 from generator.review.formula import Name
-from generator.review.laws import alike, observables, rates, torque
+from generator.review.laws import alike, indexed, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
@@ -52,7 +52,7 @@ def _effect(instances: list[Instance]) -> Markup:
 
 def _parameter(instances: Sequence[Instance], k: int, index: str) -> list[Content]:
     parameter = instances[0].effect.parameters[k]
-    name = Name(f"{parameter.stem}{index}" if index.isdigit() else f"{parameter.stem}_{index}")
+    name = Name(indexed(parameter.stem, index))
     within = bounds(parameter.lower, parameter.upper)
     joints: dict[str, list[int]] = {}
     for instance in instances:

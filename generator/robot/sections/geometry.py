@@ -11,11 +11,9 @@ from generator.robot import fields
 from generator.robot.description import Length
 from generator.robot.document import Entry, Node, Table, Text
 from generator.robot.names import identifier
-from generator.robot.parameters import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 
-_STEMS = "|".join(
-    [*(stem for stem, _, _ in INERTIAL), "Ia", "Fv", "Fc", "Off", "Iam", "Fvm", "Fcm", "Offm", "kt?", "ks"]
-)
+_STEMS = "|".join([*INERTIAL_STEMS, "Ia", "Fv", "Fc", "Off", "Iam", "Fvm", "Fcm", "Offm", "kt?", "ks"])
 _PARAMETER = re.compile(rf"(?:{_STEMS})\d+R?\Z", re.IGNORECASE)
 _VARIABLE = re.compile(r"(?:q|qd|qdd|qm|qe|qa|tau)\d*\Z")
 _SIGNALS = ("pi", "wrench", "payload", "parameters", "standard_parameters")
