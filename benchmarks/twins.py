@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks.twin_recipes import RECIPES, WEIGHT, Twin, twin_of
 from generator.resources import find_robot
-from generator.symbolic.pseudo_inertia import of_body, radii_of_gyration
+from generator.symbolic.pseudo_inertia import Matrix, of_body
 from identification.robot_file import with_parameter_set
 
 DOCUMENT = Path(__file__).parents[1] / "docs" / "parameter_sets.md"
@@ -59,6 +59,12 @@ def summary(twin: Twin) -> Iterator[str]:
     yield f"Largest radii of gyration [m]: {', '.join(f'{r:.2f}' for r in spread)}."
     least = [np.linalg.eigvalsh(of_body(number, twin.standard)).min() for number in twin.recipe.bodies]
     yield f"Smallest eigenvalues of their pseudo-inertias [SI]: {', '.join(f'{value:.2g}' for value in least)}."
+
+
+def radii_of_gyration(P: Matrix) -> Matrix:
+    """Root mean square distances [m] (3) of the mass from its centre along its principal axes, ascending."""
+    centre = P[:3, 3] / P[3, 3]
+    return np.sqrt(np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre)))
 
 
 def _terminal(table: Rows) -> str:

@@ -19,6 +19,10 @@ class Place:
         return f"{self.file}:{self.line}:{self.column}"
 
 
+#: The place of what no file says.
+NOWHERE = Place("")
+
+
 class InputError(Exception):
     """Bad input: one line that says where, what is wrong and what was expected.
 

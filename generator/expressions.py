@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import sympy
 
-from generator.errors import InputError, Place
+from generator.errors import NOWHERE, InputError, Place
 from generator.units import Quantity, accepted, is_unit, parse_unit
 
 #: Bounds that no honest robot file meets, so that no input can cost more than an instant.
@@ -86,12 +86,15 @@ def parse_quantity(text: str, unit: str | None, place: Place) -> Quantity:
 
 
 def has_unit(text: str) -> bool:
-    """Whether ``text`` is a number with a unit behind it, which an expression over names never looks like."""
+    """Whether ``text`` is a number with a unit behind it, which an expression over names never looks like.
+
+    The unit of a pure number is 1: ``0.1 1``.
+    """
     try:
-        number, unit, _ = _split(text, Place(""))
+        number, unit, _ = _split(text, NOWHERE)
     except InputError:
         return False
-    return bool(unit) and bool(re.search(r"(?:[\d.)]|pi)\s*\Z", number))
+    return bool(re.search(r"(?:[\d.)]|pi)\s*\Z", number) if unit else _ONE.search(number))
 
 
 def _split(text: str, place: Place) -> tuple[str, str, Place]:

@@ -45,8 +45,8 @@ class Case:
 def cases(model: Model) -> tuple[Case, ...]:
     """Cases for every function that the independent implementation knows.
 
-    An effect without a law there has zero parameters in every case, and a robot with one no cases for its regressors,
-    nor for the rates of its states if that effect has some.
+    An effect without a law there has zero parameters in every case, and a robot with one no cases for the regressors
+    of its parameters, nor for the rates of its states if that effect has some.
     """
     known = replace(model.robot, effects=tuple(use for use in model.robot.effects if use.effect in LAWS))
     states = _known_states(model, known)
@@ -60,7 +60,8 @@ def cases(model: Model) -> tuple[Case, ...]:
     positions = [_positions(model, state) for state in range(_STATES)]
     result = []
     for function in model.functions.values():
-        if function.name.removesuffix(_PACKED) not in NAMES or any(word in function.name for word in skipped):
+        name = function.name.removesuffix(_PACKED)
+        if name not in NAMES or name in skipped:
             continue
         for state in range(_STATES):
             inputs = {s.name: _input(s, state, positions[state], standard) for s in function.inputs}
@@ -77,8 +78,10 @@ def _known_states(model: Model, known: Robot) -> list[int]:
 
 
 def _skipped(model: Model, known: Robot, states: Sequence[int]) -> list[str]:
-    """Parts of the names of functions whose outputs would lack those of an effect without a law."""
-    regressors = ["regressor"] if len(known.effects) < len(model.robot.effects) else []
+    """Functions whose outputs would lack those of an effect without a law; packed ones go by the dense ones."""
+    regressors = []
+    if len(known.effects) < len(model.robot.effects):
+        regressors = ["regressor", "regressor_standard", "flexible_regressor"]
     sides = {f"{stem}{j}" for stem in MOTOR_SIDE for j in model.robot.flexible}
     if any(parameter.name not in sides for parameter in model.motor_parameters):
         regressors.append("flexible_regressor")

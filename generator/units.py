@@ -11,9 +11,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from generator.errors import InputError, Place
-
-_NOWHERE = Place("")
+from generator.errors import NOWHERE, InputError, Place
 
 _BASE = ("kg", "m", "s", "A", "K", "rad")
 
@@ -66,7 +64,7 @@ class Quantity:
 
     value: sympy.Expr
     unit: str
-    place: Place = _NOWHERE
+    place: Place = NOWHERE
 
 
 def is_unit(text: str) -> bool:

@@ -13,6 +13,7 @@ from sympy import Integer
 from generator.derivation import derive
 from generator.effects.effect import Effect, LinearParameter, Shape, State
 from generator.effects.library import library
+from generator.review.stated import effects
 from generator.robot.readers import read
 from generator.selftest import Case, cases
 from generator.symbolic.interpret import evaluate
@@ -64,7 +65,8 @@ def test_an_effect_with_a_state_has_self_tests_in_which_it_is_zero(added: Added,
     found = cases(creeping)
     tested = {case.function for case in found}
     assert {"inverse_dynamics", "direct_dynamics"} <= tested
-    assert tested.isdisjoint({"effect_rates", "regressor", "regressor_standard"})
+    assert tested.isdisjoint({"effect_rates", "regressor", "regressor_standard", "regressor_packed"})
+    assert "payload_regressor" in tested
     agree(creeping, found)
 
 
@@ -110,6 +112,9 @@ def test_an_effect_of_drive_trains_with_a_value_of_the_file_is_where_the_file_ha
     elastic = model(tmp_path, more)
     names = [parameter.name for parameter in elastic.motor_parameters]
     assert [name for name in names if name.startswith("Kbm")] == braked
+    assert [row for row in effects(elastic) if row[0] == "eddy_brake"] == (
+        [("eddy_brake", "2", "vc = 2 rad/s")] if braked else []
+    )
     found = cases(elastic)
     assert "flexible_inverse_dynamics" in {case.function for case in found}
     assert ("flexible_regressor" in {case.function for case in found}) != bool(braked)

@@ -364,3 +364,11 @@ def test_cmake_project(library: Path, tmp_path: Path) -> None:
     run(["cmake", "-S", user, "-B", user / "build", f"-DCMAKE_PREFIX_PATH={tmp_path / 'installed'}"])
     run(["cmake", "--build", user / "build"])
     run([user / "build" / "user"])
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
+def test_without_an_operating_system_the_mathematics_library_is_linked_too(library: Path, tmp_path: Path) -> None:
+    bare = ("-DCMAKE_SYSTEM_NAME=Generic", "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY")
+    run(["cmake", "-S", library, "-B", tmp_path / "build", *bare])
+    run(["cmake", "--build", tmp_path / "build"])
+    assert re.search(r"-lm\b", (tmp_path / "build/CMakeFiles/toy_selftest.dir/link.txt").read_text())

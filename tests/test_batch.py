@@ -256,6 +256,7 @@ OPTIONS = {
         ("-O3", "-march=native"),
         ("-O1", "-D{}_BATCH_SCALAR"),
         ("-O1", "-D{}_USE_LIBM"),
+        ("-O1", "-D_OPENMP=200203"),  # with the pragmas unknown, as earlier ones' unsigned loops are
         ("-O2", "-funsafe-math-optimizations"),
         ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
         ("-O2", "-D{}_STREAM_BYTES=0"),
@@ -304,6 +305,13 @@ def test_positions_out_of_the_kernels_reach(arm: Arm, batch: Batch) -> None:
     q[3], q[11, -1] = 3e5, -1e7
     assert agree(batch.inverse_dynamics(q, qd, qdd), arm.torques(q, qd, qdd))
     assert agree(batch.rows(q, qd, qdd), arm.regressor(q, qd, qdd))
+
+
+@pytest.mark.parametrize("arm", ["pendulum"], indirect=True)
+def test_a_sine_of_ones_own_is_that_of_the_batch_too(arm: Arm) -> None:
+    q, *_ = arm.signals(20)
+    W = arm.batch("-O1", "-Dpendulum_sin=-").rows(q, 0 * q, 0 * q)
+    assert agree(W, np.stack([0 * q, 9.81 * np.cos(q), 9.81 * q, 0 * q, 0 * q], axis=-1))
 
 
 def test_a_good_stride_is_no_multiple_of_a_page(batch: Batch) -> None:

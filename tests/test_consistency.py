@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from benchmarks.nearest_consistent import Estimate, Knowledge, nearest
+from benchmarks.twins import radii_of_gyration
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.reference import sample
@@ -18,7 +19,7 @@ from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.parameters import INERTIAL
 from generator.robot.readers import read
 from generator.symbolic.model import Model
-from generator.symbolic.pseudo_inertia import basis, of_body, pseudo_inertia, radii_of_gyration, uniform_bar
+from generator.symbolic.pseudo_inertia import basis, of_body, pseudo_inertia, uniform_bar
 from identification.consistency import grouped
 from identification.robot_file import rounded, with_parameter_set
 from tests.chains import random_robot

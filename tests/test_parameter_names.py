@@ -10,6 +10,7 @@ import pytest
 from generator.backends import batch, c, casadi, simulation
 from generator.backends.printing.c_names import taken
 from generator.derivation import derive
+from generator.errors import InputError
 from generator.generation import generate
 from generator.python_library import build_library, load_library
 from generator.robot.readers import read
@@ -112,3 +113,11 @@ def test_what_an_older_generation_had_and_a_new_one_has_not_is_gone(tmp_path: Pa
     assert not (folder / "batch").exists()
     assert not (folder / "simulation").exists()
     build_library(folder, "names")
+
+
+def test_a_length_called_like_a_parameter_of_an_effect_is_told_where_it_stands(tmp_path: Path) -> None:
+    path = tmp_path / "names.yaml"
+    path.write_text(ARM.replace("FIRST", "Fd1").replace("SECOND", "b"))
+    path.write_text(path.read_text() + "  - {effect: dahl_friction, joint: 1, values: {xs: 1 mrad}}\n")
+    with pytest.raises(InputError, match=r":4:3: length 'Fd1' has the name of a parameter of dahl_friction, expected"):
+        derive(read(path))

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from benchmarks.twin_recipes import RECIPES, WEIGHT, Twin
 from benchmarks.twins import DOCUMENT, LARGE
 from generator.derivation import derive
+from generator.errors import InputError
 from generator.resources import find_robot
+from generator.robot import parameter_file
 from generator.robot.description import ParameterValue
 from generator.robot.parameters import INERTIAL
 from generator.robot.readers import read
@@ -330,3 +332,31 @@ def test_only_impossible_values_move_far(name: str) -> None:
     large = {key for key, shift in shifts.items() if abs(shift) > LARGE}
     impossible = {"XX3R", "ZZ3R", "XX4R", "XY4", "ZZ4R", "XX5R", "XY5", "XZ5", "YZ5"}
     assert large == (impossible if name == "kr500" else set())
+
+
+_FOLLOWS = """\
+name: follows
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: pi/2, d: 0, theta: q1, r: 0}
+effects:
+  - {effect: load_friction, joint: 1}
+parameters:
+  brief: {values: {Fl1: 0.1 1}}
+  full: {values: {Fl1: {value: 0.1, unit: 1}}}
+"""
+
+
+def test_the_unit_of_a_pure_number_may_be_stated(tmp_path: Path) -> None:
+    (tmp_path / "follows.yaml").write_text(_FOLLOWS)
+    (tmp_path / "values.yaml").write_text("Fl1: 0.1 1\nFv1: 0.2\n")
+    sets = read(tmp_path / "follows.yaml").parameter_sets.values()
+    given = [*(one.values for one in sets), parameter_file.read(tmp_path / "values.yaml")]
+    assert [(values["Fl1"].value, values["Fl1"].unit) for values in given] == 3 * [(0.1, "1")]
+
+
+def test_a_value_that_single_precision_cannot_compute_with_is_refused(tmp_path: Path) -> None:
+    for value in ("1e100", "1e100 N m", "{value: 1e100}"):
+        (tmp_path / "values.yaml").write_text(f"Fc1: {value}\n")
+        with pytest.raises(InputError, match=r"value of Fc1 is 1e\+100, expected at most 1e\+12 either way"):
+            parameter_file.read(tmp_path / "values.yaml")

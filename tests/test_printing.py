@@ -168,7 +168,9 @@ def test_taken_names_are_not_given_twice() -> None:
     assert [names.temporary() for _ in range(3)] == ["t1", "t3", "t4"]
 
 
-@pytest.mark.parametrize("word", ["double", "restrict", "class", "template", "y0", "I", "linux", "static_assert"])
+@pytest.mark.parametrize(
+    "word", ["double", "restrict", "class", "template", "y0", "I", "linux", "static_assert", "typeof_unqual"]
+)
 def test_words_of_c_and_cpp_are_reserved(word: str) -> None:
     assert word in C_RESERVED
 

@@ -134,7 +134,7 @@ def test_parameters_by_set_name_value_and_default(made: Made) -> None:
     assert (robot.inverse_dynamics(*(np.ones(made.module.NQ) for _ in range(3))) != before).any()
     with pytest.raises(ValueError, match="no parameter"):
         robot.update({names[0]: 9.0, "no_such_parameter": 1.0})
-    with pytest.raises(ValueError, match="could not convert"):
+    with pytest.raises(ValueError, match=f"^parameters: {names[1]} is 'much', expected a number$"):
         robot.update({names[0]: 9.0, names[1]: "much"})
     assert robot.parameters[0] == 7.0
     for wrong in ("no such set", {"no_such_parameter": 1.0}, np.zeros(len(names) + 1)):
@@ -255,7 +255,9 @@ def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> N
         ("^q has shape", lambda: Plant(robot, "rigid", np.zeros(n + 1))),
         ("^method is 'Euler', expected", lambda: Plant(robot, "rigid", one, method="Euler")),
         ("^steps is 0, expected", lambda: Plant(robot, "rigid", one, steps=0)),
+        ("^steps is nan, expected", lambda: Plant(robot, "rigid", one, steps=np.nan)),
         ("^width is not positive", lambda: Plant(robot, "rigid", one, width=0.0)),
+        ("^width has shape", lambda: Plant(robot, "rigid", one, width=np.ones(n + 1))),
         ("^tau has shape", lambda: Plant(robot, "rigid", one).advance(1e-3, np.zeros(n + 1))),
         ("^tau has shape", lambda: Plant(robot, "rigid", one).run(1e-3, np.zeros((4, n + 1)))),
         ("^time is nan", lambda: Plant(robot, "rigid", one).advance(np.nan, one)),
@@ -267,6 +269,21 @@ def test_mistakes_of_a_simulation_name_the_argument(made: Made, robot: Any) -> N
     ):
         with pytest.raises(ValueError, match=message):
             call()
+
+
+def test_wrong_types_in_a_simulation_name_the_argument(made: Made, robot: Any) -> None:
+    one, Plant = np.zeros(made.module.NQ), made.module.Plant
+    for message, call in (
+        ("^q is no array of numbers", lambda: Plant(robot, "rigid", "text")),
+        ("^qd is no array of numbers", lambda: Plant(robot, "rigid", one, [[0.0], [0.0, 1.0]])),
+        ("^time is None, expected a number", lambda: Plant(robot, "rigid", one).advance(None, one)),
+        ("^kp is no array of numbers", lambda: made.module.Controller(robot, 1e-3, "much", 1, 1)),
+    ):
+        with pytest.raises(TypeError, match=message):
+            call()
+    for plant, size in made.module.PLANTS.items():
+        with pytest.raises(ValueError, match=f"^q has shape .*, expected {'.*or ' * (size > len(one))}.{size},.$"):
+            Plant(robot, plant, np.zeros(3 * size))
 
 
 def test_no_samples(made: Made, robot: Any) -> None:
@@ -307,7 +324,10 @@ def test_mistakes_name_the_argument(made: Made, robot: Any) -> None:
         (ValueError, "^out shares memory with q", lambda: robot.inverse_dynamics(q, qd, qdd, out=q)),
         (ValueError, "^layout is 'diagonal'", lambda: robot.observation_matrix(q, qd, qdd, layout="diagonal")),
         (ValueError, "^taps has shape", lambda: robot.observation_matrix(q, qd, qdd, taps=[0.5, 0.5])),
+        (TypeError, "^taps is no array of numbers", lambda: robot.observation_matrix(q, qd, qdd, taps="low")),
         (ValueError, "^decimation is 0", lambda: robot.observation_matrix(q, qd, qdd, decimation=0)),
+        (ValueError, "^decimation is inf", lambda: robot.observation_matrix(q, qd, qdd, decimation=np.inf)),
+        (TypeError, "^parameters: .* is None, expected", lambda: robot.update({made.module.PARAMETERS[0]: None})),
         (ValueError, "^out has not the shape", lambda: robot.observation_matrix(q, qd, qdd, out=np.zeros((1, 1)))),
         (ValueError, "^out has shape", lambda: robot.observation_qr(q, qd, qdd, q, out=np.zeros((1, 1, 1)))),
     ]

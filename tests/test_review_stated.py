@@ -39,6 +39,17 @@ def table(markdown: str, heading: str) -> list[list[str]]:
     return [line.strip("| ").split(" | ") for line in text.splitlines()[2:]]
 
 
+def test_values_built_in_are_told_with_all_their_digits(tmp_path: Path) -> None:
+    path = tmp_path / "pendulum.yaml"
+    text = PENDULUM.replace("Fv1: 0.25", "Fv1: 0.123456789012345").replace("MX1: 3 ", "MX1: 12345678 ")
+    path.write_text(text.replace("Fc1: 0.125", "Fc1: 0"))
+    told = files(derive(read(path), parameter_set="light"))
+    rows = told["groupings.md"].split("## Parameters built in", 1)[1].split("|---|---|---|\n", 1)[1].split("\n\n", 1)[0]
+    values = {row.split(" | ")[0].strip("| "): row.split(" | ")[1] for row in rows.strip().splitlines()}
+    assert values == {"ZZ1": "2", "MX1": "1.2345678e7", "MY1": "0.5", "Fv1": "0.123456789012345"}
+    assert all(f">{value}</td>" in told["review.html"] for value in values.values())
+
+
 def test_the_gas_balancer_and_the_drives_of_the_report() -> None:
     text = files(model("kr500"))["groupings.md"]
     values = "d21 = 0.9669 m, d22 = 0.2062 m, phi = -1.6293 rad, l0 = 0.5 m, exponent = 1"

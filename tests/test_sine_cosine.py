@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from platform import machine
 
 import numpy as np
 import pytest
@@ -102,11 +103,28 @@ def test_infinities_and_nan_give_nan(build: Path, precision: str) -> None:
     assert np.isnan(cosines).all()
 
 
-@pytest.mark.parametrize("flag", ["-ffast-math", "-Dwheel_sin=sin", "-Dwheel_cos=cos"])
-def test_where_sums_may_be_reordered_or_one_is_given_the_library_is_taken(build: Path, flag: str) -> None:
+@pytest.mark.parametrize(
+    "flag",
+    [
+        *("-ffast-math", "-D_M_FP_FAST", "-D__INTEL_COMPILER=2021", "-Dwheel_sin=sin", "-Dwheel_cos=cos"),
+        pytest.param("-mfpmath=both", marks=pytest.mark.skipif(machine() != "x86_64", reason="a flag of x86-64")),
+    ],
+)
+def test_where_sums_may_be_reordered_or_widened_or_one_is_given_the_library_is_taken(build: Path, flag: str) -> None:
     x = samples(1e3, 4000, single=False)
     taken = compiled(build, "double", "-O2", flag)(x)
     np.testing.assert_array_equal(taken, compiled(build, "double", "-O2", "-DWHEEL_USE_LIBM")(x))
+
+
+def test_arithmetic_that_widens_half_precision_alone_is_good(build: Path) -> None:
+    x = samples(1e3, 4000, single=False)
+    widened = compiled(build, "double", "-O2", "-U__FLT_EVAL_METHOD__", "-D__FLT_EVAL_METHOD__=16")(x)
+    np.testing.assert_array_equal(widened, compiled(build, "double", "-O2")(x))
+
+
+def test_no_unsigned_number_is_negated(build: Path) -> None:
+    """MSVC warns of it (C4146), and refuses it under /sdl."""
+    assert not re.search(r"[&|^(=] -\(?number", (build / "wheel.c").read_text())
 
 
 def test_a_sine_of_ones_own_leaves_the_cosine_alone(build: Path) -> None:

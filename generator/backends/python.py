@@ -11,6 +11,7 @@ from generator.backends.printing.observation import layout
 from generator.backends.printing.plants import plants
 from generator.backends.printing.prepared import prepare
 from generator.backends.printing.python_functions import module_constants
+from generator.backends.printing.runge_kutta import METHODS
 from generator.backends.printing.signals import documented, listed
 from generator.backends.printing.templates import render
 from generator.symbolic.function import Function, Signal
@@ -51,6 +52,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "methods": [_method(function) for function in model.functions.values()],
         "prefix": model.robot.name,
         "plants": plants(model),
+        "integrators": METHODS,
         "many": of_many_samples(model),
         "width": len(model.base_parameters),
         "work": layout(structure).work,

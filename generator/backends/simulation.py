@@ -26,7 +26,6 @@ class Integrator:
 
     name: str
     title: str
-    order: int
     stages: tuple[Stage, ...]
 
     @property
@@ -55,7 +54,7 @@ def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
         "title": paragraph(f"{prefix}: simulation. {model.robot.description}", LINE - 3),
         "nq": model.dof,
         "plants": found,
-        "methods": [Integrator(m.name, m.title, m.order, tuple(stages(m, language))) for m in methods],
+        "methods": [Integrator(m.name, m.title, tuple(stages(m, language))) for m in methods],
         "drives": all(name in model.functions for name in _MAPS),
     }
     return {

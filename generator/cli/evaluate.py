@@ -6,7 +6,7 @@ Every input of the quantity is an option, its numbers separated by spaces or com
 
 --parameters is a set of the robot file, or a JSON or YAML file {name: value} with base or standard parameters.
 Parameters that a set lacks are zero (not essential); lengths and torque constants are those of the robot file unless
-the set has them. A wrench or payload that is not given is zero.
+the set has them. A wrench, payload, states or warmth that is not given is zero.
 """
 
 from __future__ import annotations

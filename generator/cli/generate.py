@@ -1,4 +1,4 @@
-"""Generate everything from a robot file: C, CasADi, NumPy, Python, the review pages and manifest.json.
+"""Generate everything from a robot file: C, batch functions, simulation, CasADi, NumPy, Python, reviews, manifest.json.
 
 The files go to OUT/<robot's name>/. They replace those of an older generation all at once, and leave all other files
 there as they are; on bad input nothing is written.

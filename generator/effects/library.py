@@ -168,7 +168,13 @@ def _not_positive(effect: Effect, site: Site, lower: sympy.Expr, upper: sympy.Ex
 
 def _check_names(robot: Robot, instances: list[Instance]) -> None:
     """Every parameter has a name of its own, among the lengths too."""
-    known = {length.name for length in robot.lengths} | {name for one in motor_side(robot) for name in one.names}
+    motor = motor_side(robot)
+    names = {name: one.effect.id for one in (*instances, *motor) for name in one.names}
+    for length in robot.lengths:
+        if length.name in names:
+            problem = f"length {length.name!r} has the name of a parameter of {names[length.name]}"
+            raise InputError(length.place, problem, "another name")
+    known = {name for one in motor for name in one.names}
     for one in instances:
         for name in one.names:
             if name in known:

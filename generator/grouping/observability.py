@@ -16,10 +16,10 @@ from generator.grouping.linear_algebra import Matrix, Span, Vector, null_space, 
 from generator.grouping.rigid_motion import drift, energy, screw, turn_to_frame, twist_drift, twist_transport
 from generator.grouping.scalars import Numbers, Scalar
 from generator.robot.description import FIXED, PRISMATIC, Joint
-from generator.robot.parameters import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 
 #: Stems of the twelve parameters of a joint, in their order: ten inertial ones, rotor inertia, offset.
-STEMS = (*(stem for stem, _, _ in INERTIAL), "Ia", "Off")
+STEMS = (*INERTIAL_STEMS, "Ia", "Off")
 SIZE = len(STEMS)
 #: Where the body's own parameters end.
 ROTOR_INERTIA = STEMS.index("Ia")

@@ -25,7 +25,9 @@ def elimination_order(joint: Joint) -> list[int]:
 
 def told(rule: str, into: Sequence[str]) -> str:
     """The rule of a parameter that went ``into`` base parameters, if any."""
-    return _CARRIED if rule == _UNSEEN and into else rule
+    if rule == _UNSEEN:
+        return _CARRIED if into else _UNSEEN
+    return rule if into else f"{rule}, where no torque shows it"
 
 
 def rule_of(joint: Joint, pivot: int, vector: Sequence[Scalar]) -> str:

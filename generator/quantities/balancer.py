@@ -48,7 +48,7 @@ def _signals(model: Model) -> tuple[Signal, ...]:
 def _build(model: Model) -> tuple[Array, ...]:
     result = []
     for instance in observed(model):
-        values = model.lengths | {joint.variable: model.q[k] for k, joint in enumerate(model.robot.moving)}
+        values = model.lengths | model.variables(model.q)
         for parameter, name in zip(instance.effect.parameters, instance.names, strict=True):
             values[sympy.Symbol(parameter.stem, real=True)] = model.parameter_nodes[name]
         for expression, _, _ in _observables(instance).values():

@@ -2,7 +2,7 @@
 
 from generator.quantities import signals
 from generator.quantities.quantity import Quantity
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from generator.symbolic.sparse import dense
 from generator.symbolic.vectors import Array
@@ -10,7 +10,7 @@ from generator.symbolic.vectors import Array
 
 def _build(model: Model) -> tuple[Array]:
     number = model.robot.tool.number
-    columns = model.base.regressor_columns([f"{stem}{number}" for stem in INERTIAL])
+    columns = model.base.regressor_columns([f"{stem}{number}" for stem in INERTIAL_STEMS])
     return (dense(model.program, columns, model.dof),)
 
 

@@ -1,13 +1,10 @@
 """Structural nonzeros of the regressor of the base parameters."""
 
-from generator.quantities import signals
 from generator.quantities.regressors import packed_regressor
 
 QUANTITY = packed_regressor(
     name="regressor_packed",
     summary="Structural nonzeros of the base regressor, row by row.",
     details="Report eq. 3 to 5, 31, 37, 41; zeros that the robot's structure makes are not stored.",
-    inputs=signals.together(signals.q, signals.qd, signals.qdd),
     columns=lambda model: model.base_columns,
-    rows=lambda model: model.dof,
 )

@@ -1,13 +1,10 @@
 """Structural nonzeros of the regressor of the standard parameters."""
 
-from generator.quantities import signals
 from generator.quantities.regressors import packed_regressor
 
 QUANTITY = packed_regressor(
     name="regressor_standard_packed",
     summary="Structural nonzeros of the standard regressor, row by row.",
     details="Report eq. 3 to 5, 31, 32, 37, 38; zeros that the robot's structure makes are not stored.",
-    inputs=signals.together(signals.q, signals.qd, signals.qdd),
     columns=lambda model: model.standard_columns,
-    rows=lambda model: model.dof,
 )

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from generator.robot.description import PRISMATIC
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS, INERTIAL_UNITS
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.function import Signal
 from generator.symbolic.model import STANDARD, Model
 
 _SURFACES = "of the motors, then of the elastic joints' links"
-_INERTIAL_UNITS = ("kg m2",) * 6 + ("kg m",) * 3 + ("kg",)
-
-
-def _per_joint(model: Model, revolute: str, prismatic: str) -> tuple[str, ...]:
-    return tuple(prismatic if joint.sigma == PRISMATIC else revolute for joint in model.robot.moving)
 
 
 def _elastic(model: Model, units: tuple[str, ...]) -> tuple[str, ...]:
@@ -25,6 +19,14 @@ def _elastic(model: Model, units: tuple[str, ...]) -> tuple[str, ...]:
 def position_units(model: Model) -> tuple[str, ...]:
     """Units of the joint positions (n): rad, on a prismatic joint m."""
     return tuple(joint.position_unit for joint in model.robot.moving)
+
+
+def _speed_units(model: Model) -> tuple[str, ...]:
+    return tuple(f"{unit}/s" for unit in position_units(model))
+
+
+def _acceleration_units(model: Model) -> tuple[str, ...]:
+    return tuple(f"{unit}/s2" for unit in position_units(model))
 
 
 def torque_units(model: Model) -> tuple[str, ...]:
@@ -39,12 +41,12 @@ def q(model: Model) -> Signal:
 
 def qd(model: Model) -> Signal:
     """Joint speeds (n) [rad/s, m/s]."""
-    return Signal("qd", (model.dof,), _per_joint(model, "rad/s", "m/s"), "joint speeds")
+    return Signal("qd", (model.dof,), _speed_units(model), "joint speeds")
 
 
 def qdd(model: Model) -> Signal:
     """Joint accelerations (n) [rad/s2, m/s2]."""
-    return Signal("qdd", (model.dof,), _per_joint(model, "rad/s2", "m/s2"), "joint accelerations")
+    return Signal("qdd", (model.dof,), _acceleration_units(model), "joint accelerations")
 
 
 def tau(model: Model) -> Signal:
@@ -89,7 +91,7 @@ def wrench(model: Model) -> Signal:
 
 def payload(model: Model) -> Signal:
     """Inertial parameters of the payload (10) [kg m2, kg m, kg], in the tool frame's axes, about its origin."""
-    return Signal("payload", (10,), _INERTIAL_UNITS, f"{' '.join(INERTIAL)} of the payload in the tool frame")
+    return Signal("payload", (10,), INERTIAL_UNITS, f"{' '.join(INERTIAL_STEMS)} of the payload in the tool frame")
 
 
 def standard_parameters(model: Model) -> Signal:
@@ -126,13 +128,13 @@ def flexible_q(model: Model) -> Signal:
 
 def flexible_qd(model: Model) -> Signal:
     """Speeds of [q_m; q_e] (n + e) [rad/s, m/s]."""
-    units = _per_joint(model, "rad/s", "m/s")
+    units = _speed_units(model)
     return Signal("qd", (model.flexible_dof,), units + _elastic(model, units), "speeds of [q_m; q_e]")
 
 
 def flexible_qdd(model: Model) -> Signal:
     """Accelerations of [q_m; q_e] (n + e) [rad/s2, m/s2]."""
-    units = _per_joint(model, "rad/s2", "m/s2")
+    units = _acceleration_units(model)
     return Signal("qdd", (model.flexible_dof,), units + _elastic(model, units), "accelerations of [q_m; q_e]")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from generator.effects.effect import Effect
 from generator.review.words import listed
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 
 
@@ -28,7 +28,7 @@ def ladder(model: Model) -> list[Stage]:
     """
     names = [parameter.name for parameter in model.standard_parameters]
     coefficients = np.array([[terms.get(name, 0.0) for name in names] for terms in model.grouping.numeric().values()])
-    included = {f"{stem}{joint.number}" for joint in model.robot.bodies for stem in INERTIAL}
+    included = {f"{stem}{joint.number}" for joint in model.robot.bodies for stem in INERTIAL_STEMS}
     stages = [Stage("inertial parameters of the bodies", _rank(coefficients, names, included))]
     for effects in _groups(model):
         included |= {name for instance in model.effects if instance.effect in effects for name in instance.names}

@@ -8,6 +8,9 @@ from fractions import Fraction
 #: Digits that keep products of two lengths given to the millimetre exact in print.
 DIGITS = 7
 
+#: Digits, at most, of the shortest text that gives a number of the machine back.
+MACHINE = 17
+
 
 def decimal(value: Fraction, digits: int = DIGITS) -> str:
     """A fraction in decimal notation: all its digits if it ends within twelve, else ``digits`` significant ones."""
@@ -22,9 +25,9 @@ def rounded(value: Fraction, digits: int = DIGITS) -> str:
     return _positional(_round(value, digits))
 
 
-def scientific(value: float, digits: int = 4) -> str:
+def scientific(value: float | Fraction, digits: int = 4) -> str:
     """A measured value: plain notation between 1e-3 and 1e5, powers of ten outside."""
-    if value == 0.0:
+    if value == 0:
         return "0"
     exact = _round(Fraction(value), digits)
     exponent = exact.adjusted()

@@ -13,7 +13,6 @@ from generator.review.geometry import length_value, limits, rows
 from generator.review.groupings import alone, equations, without_effect
 from generator.review.plain import plain
 from generator.robot.description import Robot
-from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
 
 #: Characters of a formula, commands not counted, after which LaTeX goes on in a new line.
@@ -22,7 +21,10 @@ _LINE = 62
 
 @dataclass(frozen=True)
 class Document:
-    """Everything in the groupings' documents; tables have their head first."""
+    """Everything in the groupings' documents; tables have their head first.
+
+    ``built_in`` is None where the functions have a parameter vector.
+    """
 
     robot: Robot
     lengths: tuple[str, ...]
@@ -41,7 +43,7 @@ class Document:
     signals: stated.Table
     parameters: tuple[tuple[str, str, str], ...]
     base_count: int
-    built_in: tuple[tuple[str, str, str], ...]
+    built_in: tuple[tuple[str, str, str], ...] | None
 
 
 def markdown(model: Model) -> Document:
@@ -68,12 +70,8 @@ def markdown(model: Model) -> Document:
         stated.signals(model.robot),
         tuple((parameter.name, parameter.unit, parameter.meaning) for parameter in model.parameters),
         len(model.base_parameters),
-        tuple((p.name, f"{float(model.constants[p.name]):g}", p.unit) for p in _built_in(model)),
+        tuple((p.name, value, p.unit) for p, value in stated.built_in(model)) if model.constants else None,
     )
-
-
-def _built_in(model: Model) -> list[Parameter]:
-    return [parameter for parameter in model.all_parameters if parameter.name in model.constants]
 
 
 def tex(model: Model, texts: Document) -> Document:

@@ -24,20 +24,20 @@ def torque(instance: Instance, index: str) -> list[Equation]:
     site = replace(site, ratios={other: _ratio(site, other, index) for other in site.ratios})
     totals: dict[int, sympy.Expr] = {}
     for parameter, column in zip(instance.effect.parameters, instance.effect.columns(site), strict=True):
-        symbol = sympy.Symbol(_indexed(f"{parameter.stem}{instance.suffix}", index), real=True)
+        symbol = sympy.Symbol(indexed(f"{parameter.stem}{instance.suffix}", index), real=True)
         for number, per_unit in column.items():
             totals[number] = totals.get(number, sympy.Integer(0)) + symbol * per_unit
     side, symbols = _side(instance, index), _symbols(instance, site, index)
     here = instance.joint.number
     return [
-        Equation(Name(_indexed("tau", side) if number == here else f"tau{number}"), formula(total.subs(symbols)))
+        Equation(Name(indexed("tau", side) if number == here else f"tau{number}"), formula(total.subs(symbols)))
         for number, total in totals.items()
     ]
 
 
 def _ratio(site: Site, other: int, index: str) -> sympy.Symbol:
     """The element of N by which the motor of the site's joint turns with joint ``other``."""
-    name = _indexed("N", index) if len(site.ratios) == 1 else element_name(site.joint.number, other)
+    name = indexed("N", index) if len(site.ratios) == 1 else element_name(site.joint.number, other)
     return sympy.Symbol(name, real=True)
 
 
@@ -48,7 +48,7 @@ def rates(instance: Instance, index: str) -> list[Equation]:
     site = _by_name(instance)
     symbols = _symbols(instance, site, index)
     pairs = zip(instance.effect.states, instance.effect.rates(site), strict=True)
-    return [Equation(Name(f"{_indexed(state.stem, index)}'"), formula(rate.subs(symbols))) for state, rate in pairs]
+    return [Equation(Name(f"{indexed(state.stem, index)}'"), formula(rate.subs(symbols))) for state, rate in pairs]
 
 
 def observables(instance: Instance) -> list[Equation]:
@@ -58,7 +58,7 @@ def observables(instance: Instance) -> list[Equation]:
     site = _by_name(instance)
     number = str(instance.joint.number)
     known: dict[sympy.Expr, sympy.Expr] = {
-        sympy.Symbol(p.stem, real=True): sympy.Symbol(_indexed(p.stem, number), real=True)
+        sympy.Symbol(p.stem, real=True): sympy.Symbol(indexed(p.stem, number), real=True)
         for p in instance.effect.parameters
     }
     equations = []
@@ -80,13 +80,13 @@ def _symbols(instance: Instance, site: Site, index: str) -> dict[sympy.Symbol, s
     """The symbols that the effect's expressions hold, and how they are written."""
     side = _side(instance, index)
     renamed = {
-        site.q: _indexed("q", side),
-        site.qd: _indexed("qd", side),
-        site.qdd: _indexed("qdd", side),
+        site.q: indexed("q", side),
+        site.qd: indexed("qd", side),
+        site.qdd: indexed("qdd", side),
         site.elongation: f"q_e,{index}",
-        site.load: _indexed("load", index),
-        site.warmth: _indexed("warmth", index),
-        **{site.state(state.stem): _indexed(state.stem, index) for state in instance.effect.states},
+        site.load: indexed("load", index),
+        site.warmth: indexed("warmth", index),
+        **{site.state(state.stem): indexed(state.stem, index) for state in instance.effect.states},
     }
     return {old: sympy.Symbol(new, real=True) for old, new in renamed.items()}
 
@@ -112,6 +112,6 @@ def _by_name(instance: Instance) -> Site:
     return replace(instance.site, values=values | numbers(instance))
 
 
-def _indexed(stem: str, index: str) -> str:
+def indexed(stem: str, index: str) -> str:
     """A name with a subscript, also where the stem ends in a digit or the subscript is a letter."""
     return f"{stem}{index}" if index.isdigit() else f"{stem}_{index}"

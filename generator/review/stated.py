@@ -6,9 +6,10 @@ import sympy
 
 from generator.constants import exact_constant
 from generator.effects.library import Instance
-from generator.review.decimals import decimal, rounded
-from generator.review.words import on_joints, ranges
-from generator.robot.description import Robot
+from generator.numbering import numbered, ranges
+from generator.review.decimals import MACHINE, decimal, rounded, scientific
+from generator.robot.description import Drives, Robot
+from generator.robot.parameters import Parameter
 from generator.robot.signal_units import signal_unit
 from generator.symbolic.model import Model
 
@@ -34,13 +35,13 @@ def effects(model: Model) -> Table:
     shaped = [one for one in model.motor_effects if one.site.values != {s.name: s.default for s in one.effect.shapes}]
     for instance in (*model.effects, *shaped):
         joints.setdefault((instance.effect.id, values(instance)), []).append(instance.joint.number)
-    rows = tuple((effect, ranges(sorted(numbers)), told) for (effect, told), numbers in joints.items())
+    rows = tuple((effect, ranges(sorted(set(numbers))), told) for (effect, told), numbers in joints.items())
     return (("effect", "joints", "values"), *rows) if rows else ()
 
 
 def elastic(model: Model) -> str:
     """The joints whose drive train is elastic; empty where none is."""
-    return on_joints(model.robot.moving[k].number for k in model.elastic) if model.elastic else ""
+    return numbered("joint", [model.robot.moving[k].number for k in model.elastic]) if model.elastic else ""
 
 
 def values(instance: Instance) -> str:
@@ -61,10 +62,7 @@ def drives(robot: Robot) -> Table:
         return ()
     stated = robot.drives
     heads = ["joint", "gear ratio", "row of N"]
-    heads += [
-        f"torque constant, {name}{', in use' if name == stated.torque_constant else ''} [N m/A]"
-        for name in stated.torque_constants
-    ]
+    heads += torque_constant_heads(stated)
     heads += ["drift at warmth 1"] if stated.torque_drift else []
     rows = []
     for k, joint in enumerate(robot.moving):
@@ -74,6 +72,14 @@ def drives(robot: Robot) -> Table:
         row += [rounded(stated.torque_drift[k])] if stated.torque_drift else []
         rows.append(tuple(row))
     return (tuple(heads), *rows)
+
+
+def torque_constant_heads(drives: Drives) -> list[str]:
+    """What is written above the columns of the torque constants."""
+    return [
+        f"torque constant, {name}{', in use' if name == drives.torque_constant else ''} [N m/A]"
+        for name in drives.torque_constants
+    ]
 
 
 #: What is written above a column of the signals' corrections.
@@ -103,6 +109,12 @@ def signals(robot: Robot) -> Table:
         for k, joint in enumerate(robot.moving)
     )
     return (("joint", *(_CORRECTIONS[name] for name in given)), *rows)
+
+
+def built_in(model: Model) -> list[tuple[Parameter, str]]:
+    """The parameters whose values [SI] are numbers in the code, but for zeros, with the digits that stand there."""
+    given = ((parameter, model.constants.get(parameter.name, 0)) for parameter in model.all_parameters)
+    return [(parameter, scientific(value, MACHINE)) for parameter, value in given if value]
 
 
 def quantity(value: sympy.Expr, symbol: str) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from generator.numbering import ranges as ranges
+
 
 def listed(words: Iterable[str]) -> str:
     """``a, b and c``."""
@@ -29,26 +31,6 @@ def bounds(lower: float | None, upper: float | None, positive: bool = False) -> 
     return ", ".join(ends)
 
 
-def on_joints(numbers: Iterable[int]) -> str:
-    """``joint 1``, ``joints 1 to 4, 6``."""
-    given = list(numbers)
-    return f"joint{'s' if len(given) > 1 else ''} {ranges(given)}"
-
-
 def minus(text: str) -> str:
     """Text with typographic minus signs."""
     return text.replace("-", "−")
-
-
-def ranges(numbers: Iterable[int]) -> str:
-    """Ascending numbers with runs shortened: ``1 to 4, 6``."""
-    runs: list[list[int]] = []
-    for number in numbers:
-        if runs and number == runs[-1][-1] + 1:
-            runs[-1].append(number)
-        else:
-            runs.append([number])
-    pieces = []
-    for run in runs:
-        pieces += [f"{run[0]} to {run[-1]}"] if len(run) > 2 else [str(number) for number in run]
-    return ", ".join(pieces)

@@ -13,12 +13,10 @@ from fractions import Fraction
 
 import sympy
 
-from generator.errors import Place
+from generator.errors import NOWHERE, Place
 from generator.units import Quantity
 
 REVOLUTE, PRISMATIC, FIXED = 0, 1, 2
-
-_NOWHERE = Place("")
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class Length:
     value: sympy.Expr
     unit: str = "m"
     symbolic: bool = False
-    place: Place = field(default=_NOWHERE, compare=False)
+    place: Place = field(default=NOWHERE, compare=False)
 
 
 @dataclass(frozen=True)
@@ -116,7 +114,7 @@ class EffectUse:
     effect: str
     joints: tuple[int, ...]
     values: Mapping[str, Quantity] = field(default_factory=dict)
-    place: Place = _NOWHERE
+    place: Place = NOWHERE
 
 
 @dataclass(frozen=True)
@@ -166,7 +164,7 @@ class ParameterValue:
     relative_std: float | None = None
     source: str = ""
     note: str = ""
-    place: Place = _NOWHERE
+    place: Place = NOWHERE
 
 
 @dataclass(frozen=True)
@@ -182,7 +180,7 @@ class ParameterSet:
     source: str
     values: Mapping[str, ParameterValue]
     other_values: Mapping[str, ParameterValue] = field(default_factory=dict)
-    place: Place = _NOWHERE
+    place: Place = NOWHERE
 
 
 @dataclass(frozen=True)

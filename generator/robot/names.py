@@ -22,44 +22,37 @@ constinit co_await co_return co_yield decltype delete dynamic_cast explicit expo
 noexcept not not_eq operator or or_eq private protected public reinterpret_cast requires static_cast template
 this throw try typeid typename using virtual wchar_t xor xor_eq"""
 
-#: Functions and macros of the C headers that generated code includes, and headers a robot's own must not hide.
-_C_LIBRARY = """abs acos acosh asin asinh assert atan atan2 atanh cbrt ceil copysign cos cosh erf erfc errno exp
-exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp hypot ilogb ldexp lgamma log log10 log1p log2 logb lrint
-lround main math memcpy memset modf nan nearbyint nextafter pow printf remainder remquo rint round scalbn
-signbit sin sinh size_t sqrt stdio stdint stdbool stddef stdlib string strlen tan tanh tgamma trunc float32_t
-float64_t NULL NAN INFINITY EOF EXIT_SUCCESS EXIT_FAILURE HUGE_VAL j0 j1 jn y0 y1 yn"""
+_MATHEMATICS = """acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim
+floor fma fmax fmin fmod frexp hypot ilogb ldexp lgamma log log10 log1p log2 logb lrint lround modf nan nearbyint
+nextafter pow remainder remquo rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc j0 j1 jn y0 y1 yn
+NAN INFINITY HUGE_VAL"""
+
+C_KEYWORDS, CPP_KEYWORDS = frozenset(_C.split()), frozenset(_CPP.split())
+
+#: Functions and macros of <math.h>.
+C_MATHEMATICS = frozenset(_MATHEMATICS.split())
+
+#: The other names of the C headers that generated code includes.
+_C_LIBRARY = """abs assert errno main math memcpy memset printf size_t strlen float32_t float64_t NULL EOF EXIT_SUCCESS
+EXIT_FAILURE"""
 
 _PYTHON = """casadi numpy np math sympy"""
 
-#: Headers that a robot's own would hide from the C library, and modules from Python.
-_HIDDEN = {
-    *[
-        "ctype",
-        "features",
-        "fenv",
-        "inttypes",
-        "limits",
-        "locale",
-        "setjmp",
-        "stdarg",
-        "tgmath",
-        "time",
-        "wchar",
-        "wctype",
-        "cffi",
-    ]
-}
-_HIDDEN |= sys.stdlib_module_names
+#: Further headers of the C library, which a robot's own would hide.
+_HEADERS = """complex ctype features fenv float inttypes iso646 limits locale setjmp signal stdalign stdarg stdatomic
+stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype"""
+
+_HIDDEN = {*_HEADERS.split(), "cffi"} | sys.stdlib_module_names
 
 #: Targets that CMake makes by itself, and a library that the robot's own links.
 _CMAKE = "all clean depend edit_cache help install m package rebuild_cache test"
 
 _RESERVED = {
     **dict.fromkeys(_PYTHON.split(), "a module of the generated Python"),
-    **dict.fromkeys(_C_LIBRARY.split(), "a name of the C library"),
+    **dict.fromkeys([*C_MATHEMATICS, *_C_LIBRARY.split()], "a name of the C library"),
     **dict.fromkeys([*keyword.kwlist, *keyword.softkwlist], "a Python keyword"),
-    **dict.fromkeys(_CPP.split(), "a C++ keyword"),
-    **dict.fromkeys(_C.split(), "a C keyword"),
+    **dict.fromkeys(CPP_KEYWORDS, "a C++ keyword"),
+    **dict.fromkeys(C_KEYWORDS, "a C keyword"),
 }
 
 

@@ -13,7 +13,7 @@ from generator.robot import fields
 from generator.robot.description import ParameterValue
 from generator.robot.document import Entry, Table
 from generator.robot.readers import document
-from generator.robot.sections.parameter_sets import parameter_value, relative_std
+from generator.robot.sections.parameter_sets import in_size, parameter_value, relative_std
 
 #: Unit of a value that the file gives as a number alone: the parameter's own, in SI.
 UNSTATED = ""
@@ -34,14 +34,14 @@ def _value(name: str, entry: Entry) -> ParameterValue:
     if not isinstance(entry.value, Table):
         scalar = fields.text(entry.value, what, "a number, with a unit or without")
         if has_unit(scalar.content):
-            short = fields.quantity(entry.value, what, None)
-            return ParameterValue(float(short.value), short.unit, place=entry.key)
-        return ParameterValue(float(fields.number(entry.value, what)), UNSTATED, place=entry.key)
+            return parameter_value(name, entry)
+        value = in_size(name, fields.number(scalar, what), scalar.place)
+        return ParameterValue(value, UNSTATED, place=entry.key)
     if "unit" in entry.value.entries:
         return parameter_value(name, entry)
     keys = fields.table(entry.value, what, ("value",), ("unit", "relative_std", "source", "note"))
     return ParameterValue(
-        value=float(fields.number(keys["value"].value, what)),
+        value=in_size(name, fields.number(keys["value"].value, what), keys["value"].value.place),
         unit=UNSTATED,
         relative_std=relative_std(keys.get("relative_std"), name),
         source=fields.prose(keys.get("source"), f"source of {name}"),

@@ -21,6 +21,8 @@ INERTIAL = (
     ("MZ", "kg m", "first moment along z: mass times z of the centre of mass"),
     ("M", "kg", "mass"),
 )
+INERTIAL_STEMS = tuple(stem for stem, _, _ in INERTIAL)
+INERTIAL_UNITS = tuple(unit for _, unit, _ in INERTIAL)
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.robot import parameters
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, array
 
 #: The ten inertial parameters of a body in SYMORO's order (report eq. 4).
-INERTIAL = tuple(stem for stem, _, _ in parameters.INERTIAL)
+INERTIAL = INERTIAL_STEMS
 
 
 @dataclass(frozen=True)
@@ -29,14 +29,14 @@ class Body:
 
 def body(program: Program, values: Mapping[str, Node]) -> Body:
     """The body of the parameters ``values`` ("XX" ... "M"); those that are absent are zero."""
-    xx, xy, xz, yy, yz, zz, mx, my, mz, m = (values.get(name, program.zero) for name in INERTIAL)
+    xx, xy, xz, yy, yz, zz, mx, my, mz, m = (values.get(name, program.zero) for name in INERTIAL_STEMS)
     inertia = array(program, [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     return Body(inertia, array(program, [mx, my, mz]), m)
 
 
 def bodies(program: Program, values: Mapping[str, Node], numbers: list[int]) -> dict[int, Body]:
     """The bodies of the numbered frames from parameters named ``XX1`` ... ``M1``."""
-    given = {j: {name: values[f"{name}{j}"] for name in INERTIAL if f"{name}{j}" in values} for j in numbers}
+    given = {j: {name: values[f"{name}{j}"] for name in INERTIAL_STEMS if f"{name}{j}" in values} for j in numbers}
     return {j: body(program, own) for j, own in given.items()}
 
 

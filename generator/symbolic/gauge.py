@@ -11,6 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from generator.numbering import numbered
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.matter import Matter, matter, moved, nothing
@@ -32,12 +33,24 @@ class Gauge:
     unit: Fraction = Fraction(1)
 
     def __str__(self) -> str:
-        slide, balance = (", ".join(map(str, sorted(joints))) for joints in (self.slide, self.balance))
+        one = len(self.balance) == 1
+        kept, moments = ("a mass", "a first moment") if one else ("masses", "first moments")
         return (
-            (f", frames {slide} slid along their axes" if slide else "")
-            + (f", a mass kept at O{balance} against a first moment" if balance else "")
+            slid(self.slide)
+            + (
+                f", {kept} kept at {', '.join(f'O{j}' for j in sorted(self.balance))} against {moments}"
+                if self.balance
+                else ""
+            )
             + (f", lengths in units of {float(self.unit):g} m" if self.unit != 1 else "")
         )
+
+
+def slid(frames: Collection[int]) -> str:
+    """``, frame 6 slid along its axis``: what is said of frames that are; empty without any."""
+    return (
+        f", {numbered('frame', frames)} slid along {'its axis' if len(frames) == 1 else 'their axes'}" if frames else ""
+    )
 
 
 @dataclass(frozen=True)

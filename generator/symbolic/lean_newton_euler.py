@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from generator.numbering import numbered
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, is_last, regauge
@@ -33,7 +34,7 @@ class Strategy:
     gauge: Gauge = field(default_factory=Gauge)
 
     def __str__(self) -> str:
-        still = f", bodies {', '.join(map(str, sorted(self.unspun)))} in axes that do not spin" if self.unspun else ""
+        still = f", {numbered('body', self.unspun, 'bodies')} in axes that do not spin" if self.unspun else ""
         return f"segments of parallel axes, pseudo-inertias{still}{self.gauge}"
 
 

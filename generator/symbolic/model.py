@@ -17,11 +17,11 @@ from generator.errors import InputError, Place
 from generator.grouping.grouping import Grouping
 from generator.grouping.observability import STEMS
 from generator.grouping.special_lengths import elsewhere, general_grouping
-from generator.robot.description import FIXED, Robot
-from generator.robot.parameters import Parameter, inertial_parameters
+from generator.robot.description import Robot
+from generator.robot.parameters import INERTIAL_STEMS, Parameter, inertial_parameters
 from generator.robot.undefined import hardly_defined
 from generator.symbolic.absorption import NotGrouped, absorbed
-from generator.symbolic.bodies import INERTIAL, Body, body
+from generator.symbolic.bodies import Body, body
 from generator.symbolic.dynamics import Dynamics
 from generator.symbolic.effect_torques import STATES, WARMTH
 from generator.symbolic.flexible import FlexibleDynamics
@@ -241,7 +241,7 @@ class Model:
 
     def chain_at(self, q: Array) -> Chain:
         """The chain with the joint variables read from ``q``."""
-        return build_chain(self.robot, self.program, self.lengths | self._variables(q))
+        return build_chain(self.robot, self.program, self.lengths | self.variables(q))
 
     @cached_property
     def lengths(self) -> dict[sympy.Symbol, Node]:
@@ -326,11 +326,12 @@ class Model:
         return replace(one, site=replace(one.site, values={**one.site.values, "rotor": sympy.S.Zero}))
 
     def _payload(self) -> Body:
-        nodes = self.signal("payload", len(INERTIAL))
-        return body(self.program, dict(zip(INERTIAL, nodes, strict=True)))
+        nodes = self.signal("payload", len(INERTIAL_STEMS))
+        return body(self.program, dict(zip(INERTIAL_STEMS, nodes, strict=True)))
 
-    def _variables(self, q: Array) -> dict[sympy.Symbol, Node]:
-        return {joint.variable: q[index] for index, joint in enumerate(self.robot.moving) if joint.sigma != FIXED}
+    def variables(self, q: Array) -> dict[sympy.Symbol, Node]:
+        """What the joints' variables stand for where the positions are ``q`` (n)."""
+        return {joint.variable: q[index] for index, joint in enumerate(self.robot.moving)}
 
 
 def _absorbed(robot: Robot, exact: Grouping, others: Sequence[str]) -> Grouping:

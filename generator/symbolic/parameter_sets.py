@@ -14,8 +14,7 @@ from generator.errors import InputError
 from generator.robot.description import ParameterValue
 from generator.robot.fields import nearest
 from generator.robot.parameter_file import UNSTATED
-from generator.robot.parameters import Parameter
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS, Parameter
 from generator.symbolic.model import Model
 from generator.symbolic.pseudo_inertia import of_body, possible
 
@@ -115,7 +114,7 @@ def impossible_bodies(model: Model, values: Values, of: str = "") -> list[str]:
         f"note: {values[f'XX{number}'].place}: XX{number} to M{number}{of} are those of no body: "
         "about its centre of mass one moment of inertia is more than the sum of the two others"
         for number in (joint.number for joint in model.robot.bodies)
-        if all(f"{stem}{number}" in values for stem in INERTIAL)
+        if all(f"{stem}{number}" in values for stem in INERTIAL_STEMS)
         and not possible(of_body(number, {name: one.value for name, one in values.items()}))
     ]
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 
 Matrix = NDArray[np.float64]
 
@@ -29,12 +29,12 @@ def pseudo_inertia(parameters: ArrayLike) -> Matrix:
 
 def basis() -> Matrix:
     """P per unit of each of the ten parameters (10 x 4 x 4): P is linear in them."""
-    return np.array([pseudo_inertia(unit) for unit in np.eye(len(INERTIAL))])
+    return np.array([pseudo_inertia(unit) for unit in np.eye(len(INERTIAL_STEMS))])
 
 
 def of_body(name: int | str, values: Mapping[str, float]) -> Matrix:
     """P of the body whose parameters are called XX<name> ... M<name>: a link's number, a payload's letters."""
-    return pseudo_inertia([values[f"{stem}{name}"] for stem in INERTIAL])
+    return pseudo_inertia([values[f"{stem}{name}"] for stem in INERTIAL_STEMS])
 
 
 def possible(P: Matrix) -> bool:
@@ -44,12 +44,6 @@ def possible(P: Matrix) -> bool:
     centre = P[:3, 3] / P[3, 3]
     about_centre = np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre))
     return bool(about_centre[0] >= -_ROUNDED * np.trace(np.abs(P[:3, :3])) / P[3, 3])
-
-
-def radii_of_gyration(P: Matrix) -> Matrix:
-    """Root mean square distances [m] (3) of the mass from its centre along its principal axes, ascending."""
-    centre = P[:3, 3] / P[3, 3]
-    return np.sqrt(np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre)))
 
 
 def uniform_bar(mass: float, start: Sequence[float], end: Sequence[float], radius: float) -> Matrix:

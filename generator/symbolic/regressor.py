@@ -6,10 +6,11 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from generator.numbering import numbered
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic import lean_motion, newton_euler
-from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.frames import Chain, Frame
-from generator.symbolic.gauge import Origins, slid_origins
+from generator.symbolic.gauge import Origins, slid, slid_origins
 from generator.symbolic.kinematics import Screw
 from generator.symbolic.lean_screws import Beside, screws_beside
 from generator.symbolic.lean_wrenches import descent, handed_on, in_unspun_axes, power
@@ -65,12 +66,9 @@ class RegressorStrategy:
     meetings: frozenset[int] = frozenset()
 
     def __str__(self) -> str:
-        frames, met = (", ".join(map(str, sorted(numbers))) for numbers in (self.slide, self.meetings))
-        return (
-            "wrenches on screws, parallel ones by their difference"
-            + (f", behind frame {met} at that frame" if self.meetings else "")
-            + (f", frames {frames} slid along their axes" if frames else "")
-        )
+        there = "that frame" if len(self.meetings) == 1 else "those frames"
+        met = f", behind {numbered('frame', self.meetings)} at {there}" if self.meetings else ""
+        return f"wrenches on screws, parallel ones by their difference{met}{slid(self.slide)}"
 
 
 #: A column of a frame's origin in terms of columns of a point r before it on the axis: factor, power of r, parameter.
@@ -185,4 +183,4 @@ def _recursive_columns(
 
 def _stems(j: int, names: Collection[str]) -> list[str]:
     """Of the parameters of body j among ``names``."""
-    return [stem for stem in INERTIAL if f"{stem}{j}" in names]
+    return [stem for stem in INERTIAL_STEMS if f"{stem}{j}" in names]

@@ -3774,7 +3774,8 @@ def flexible_regressor(q, qd, qdd):
 def gravity(parameters, q):
     """Joint torques that hold the bodies' weight at rest.
 
-    Q(q) of report eq. 73; balancers and offsets are effects and are not in it.
+    Q(q) of report eq. 73; balancers, springs and offsets are effects and are not in it. With
+    them bias(q, 0) holds the robot at rest.
 
     Inputs:
         parameters: (96) parameters, in the order of PARAMETERS [SI]

@@ -10,19 +10,64 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Threads, if OpenMP is 3.0 (May 2008) at least: earlier ones know no loop that counts in size_t. */
+#if defined(_OPENMP) && (_OPENMP >= 200805)
+#define THREADS
+#endif
+
 typedef kr500_real real;
 
 /* A constant in the precision of real. */
 #ifdef KR500_USE_FLOAT
 #define R(literal) literal##F
 #define REAL_BYTES 4
-#define MATHEMATICS(name) name##f
 typedef uint32_t real_bits;
 #else
 #define R(literal) literal
 #define REAL_BYTES 8
-#define MATHEMATICS(name) name
 typedef uint64_t real_bits;
+#endif
+
+/*
+ * Sines and cosines are computed for all lanes at once, or by the functions below where kr500.c takes these too.
+ * Samples with positions out of reach are left to the functions for one sample.
+ */
+#if !defined(KR500_USE_LIBM)
+#if defined(kr500_sin) || defined(kr500_cos)
+#define KR500_USE_LIBM
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
+#define KR500_USE_LIBM
+#elif defined(__INTEL_COMPILER) || defined(__INTEL_LLVM_COMPILER)
+#define KR500_USE_LIBM
+#elif defined(FLT_EVAL_METHOD)
+/* 16 widens half precision alone. */
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16)
+#define KR500_USE_LIBM
+#endif
+#endif
+#endif
+
+/* Mathematics; each may be defined from outside, such as -Dkr500_sin=my_sin -include my_sin.h. */
+#ifndef kr500_sin
+#ifdef KR500_USE_FLOAT
+#define kr500_sin sinf
+#else
+#define kr500_sin sin
+#endif
+#endif
+#ifndef kr500_cos
+#ifdef KR500_USE_FLOAT
+#define kr500_cos cosf
+#else
+#define kr500_cos cos
+#endif
+#endif
+#ifndef kr500_sqrt
+#ifdef KR500_USE_FLOAT
+#define kr500_sqrt sqrtf
+#else
+#define kr500_sqrt sqrt
+#endif
 #endif
 
 /* Samples of a tile: a line of the cache for each of its entries. */
@@ -138,23 +183,13 @@ INLINE real lanes_sum(lanes x)
     return sum;
 }
 
-/*
- * Sines and cosines: computed here for all lanes at once, or by <math.h> where arithmetic is not that of the type itself
- * and where KR500_USE_LIBM is defined. Samples with positions out of reach are left to the functions for one sample.
- */
-#if !defined(KR500_USE_LIBM)
-#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (FLT_EVAL_METHOD != 0)
-#define KR500_USE_LIBM
-#endif
-#endif
-
 #ifdef KR500_USE_LIBM
 
 INLINE lanes lanes_sin(lanes x)
 {
     lanes y = x;
     for (size_t l = 0; l < LANES; ++l) {
-        LANE(y, l) = MATHEMATICS(sin)(LANE(x, l));
+        LANE(y, l) = kr500_sin(LANE(x, l));
     }
     return y;
 }
@@ -163,7 +198,7 @@ INLINE lanes lanes_cos(lanes x)
 {
     lanes y = x;
     for (size_t l = 0; l < LANES; ++l) {
-        LANE(y, l) = MATHEMATICS(cos)(LANE(x, l));
+        LANE(y, l) = kr500_cos(LANE(x, l));
     }
     return y;
 }
@@ -203,7 +238,7 @@ INLINE void sine_cosine(lanes x, lanes *sine_of_x, lanes *cosine_of_x)
     (void)memcpy(&number, &sum, sizeof number);
     (void)memcpy(&s, &sine, sizeof s);
     (void)memcpy(&c, &cosine, sizeof c);
-    odd = (s ^ c) & -(number & UINT32_C(1));
+    odd = (s ^ c) & (UINT32_C(0) - (number & UINT32_C(1)));
     s ^= odd ^ ((sign ^ (number << 30)) & top);
     c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
     (void)memcpy(&sine, &s, sizeof sine);
@@ -243,7 +278,7 @@ INLINE void sine_cosine(lanes x, lanes *sine_of_x, lanes *cosine_of_x)
     (void)memcpy(&number, &sum, sizeof number);
     (void)memcpy(&s, &sine, sizeof s);
     (void)memcpy(&c, &cosine, sizeof c);
-    odd = (s ^ c) & -(number & UINT64_C(1));
+    odd = (s ^ c) & (UINT64_C(0) - (number & UINT64_C(1)));
     s ^= odd ^ ((sign ^ (number << 62)) & top);
     c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
     (void)memcpy(&sine, &s, sizeof sine);
@@ -276,7 +311,7 @@ INLINE lanes lanes_sqrt(lanes x)
 {
     lanes y = x;
     for (size_t l = 0; l < LANES; ++l) {
-        LANE(y, l) = MATHEMATICS(sqrt)(LANE(x, l));
+        LANE(y, l) = kr500_sqrt(LANE(x, l));
     }
     return y;
 }
@@ -1239,7 +1274,7 @@ void kr500_batch_inverse_dynamics(
     const kr500_prepared *prepared, size_t n, const kr500_real *q, const kr500_real *qd,
     const kr500_real *qdd, kr500_real *tau)
 {
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp parallel for schedule(static) if (n > 64 * TILE)
 #endif
     for (size_t k = 0; k < n; k += LANES) {
@@ -1270,7 +1305,7 @@ void kr500_batch_filter(const kr500_filter *filter, size_t n, const kr500_real *
 {
     const kr500_filter f = filter_of(filter);
     const size_t rows = kr500_filtered_count(filter, n);
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp parallel for schedule(static) if (rows * f.count > 256 * TILE)
 #endif
     for (size_t m = 0; m < rows; ++m) {
@@ -1342,7 +1377,7 @@ void kr500_observation_matrix_rows(
     const samples from = samples_of(prepared, filter, n, q, qd, qdd, NULL);
     const size_t rows = kr500_filtered_count(filter, n);
     const int stream = past_caches(rows * NQ * ld);
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp parallel if (rows > 8 * TILE)
 #endif
     {
@@ -1352,7 +1387,7 @@ void kr500_observation_matrix_rows(
         windows all;
         memset(&entry[ENTRIES * PITCH], 0, PITCH * sizeof(real));
         cover(&all);
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp for schedule(static)
 #endif
         for (size_t first = 0; first < rows; first += TILE) {
@@ -1378,7 +1413,7 @@ void kr500_observation_matrix_columns(
     const samples from = samples_of(prepared, filter, n, q, qd, qdd, NULL);
     const size_t rows = kr500_filtered_count(filter, n);
     const int stream = past_caches(rows * NQ * NBASE);
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp parallel for schedule(static) if (rows > BLOCK)
 #endif
     for (size_t first = 0; first < rows; first += BLOCK) {
@@ -1514,7 +1549,7 @@ static void reflect_joint(size_t joint, real *block, size_t size, real *factor)
         real *row = &factor[i * n];
         const real below = product(x, x, size);
         if (below > R(0.0)) {
-            const real norm = MATHEMATICS(sqrt)((row[i] * row[i]) + below);
+            const real norm = kr500_sqrt((row[i] * row[i]) + below);
             const real beta = (row[i] > R(0.0)) ? -norm : norm;
             const real v0 = row[i] - beta;
             const real shrink = -v0 / beta;
@@ -1566,7 +1601,7 @@ static size_t parts(const samples *from, real *work, entering enter, real **squa
     const size_t count = (rows > 0) ? ((rows + length - 1) / length) : 1;
     real *first = aligned(work);
     *squares = &first[ENTRIES * PITCH];
-#ifdef _OPENMP
+#ifdef THREADS
 #pragma omp parallel for schedule(dynamic, 1) if (count > 1)
 #endif
     for (size_t p = 0; p < count; ++p) {

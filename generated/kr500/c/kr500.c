@@ -11,8 +11,8 @@
  * Equations of the bodies, as they were chosen for this chain. With a unit of length of their own, VP is divided by it,
  * F and MS are multiplied by it; S and torques stay as they are:
  *   torques: segments of parallel axes, pseudo-inertias, bodies 2, 6 in axes that do not spin,
- *       frames 6 slid along their axes, a mass kept at O4 against a first moment, lengths in units
- *       of 1.025 m
+ *       frame 6 slid along its axis, a mass kept at O4 against a first moment, lengths in units of
+ *       1.025 m
  *   gravity: first moments of composite bodies, as weights
  *   inertia matrix: composite bodies on segments, wrenches meet screws at frame 3, frames 1, 4, 6
  *       slid along their axes, lengths in units of 1.025 m
@@ -34,13 +34,18 @@
 
 /*
  * Sine and cosine are those of <math.h> on request, if one is given from outside, and where the compiler may reorder
- * sums or computes in another precision than the type's: FLT_EVAL_METHOD.
+ * sums or may compute in another precision than the type's: FLT_EVAL_METHOD.
  */
 #if !defined(KR500_USE_LIBM)
-#if defined(kr500_sin) || defined(kr500_cos) || defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
+#if defined(kr500_sin) || defined(kr500_cos)
+#define KR500_USE_LIBM
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
+#define KR500_USE_LIBM
+#elif defined(__INTEL_COMPILER) || defined(__INTEL_LLVM_COMPILER)
 #define KR500_USE_LIBM
 #elif defined(FLT_EVAL_METHOD)
-#if (FLT_EVAL_METHOD == 1) || (FLT_EVAL_METHOD == 2)
+/* 16 widens half precision alone. */
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16)
 #define KR500_USE_LIBM
 #endif
 #endif
@@ -163,7 +168,7 @@ static void kr500_sines_cosines(
         (void)memcpy(&number, &sum, sizeof number);
         (void)memcpy(&s, &sine, sizeof s);
         (void)memcpy(&c, &cosine, sizeof c);
-        odd = (s ^ c) & -(number & UINT32_C(1));
+        odd = (s ^ c) & (UINT32_C(0) - (number & UINT32_C(1)));
         s ^= odd ^ ((sign ^ (number << 30)) & top);
         c ^= odd ^ (((number + UINT32_C(1)) << 30) & top);
         (void)memcpy(&sine, &s, sizeof sine);
@@ -204,7 +209,7 @@ static void kr500_sines_cosines(
         (void)memcpy(&number, &sum, sizeof number);
         (void)memcpy(&s, &sine, sizeof s);
         (void)memcpy(&c, &cosine, sizeof c);
-        odd = (s ^ c) & -(number & UINT64_C(1));
+        odd = (s ^ c) & (UINT64_C(0) - (number & UINT64_C(1)));
         s ^= odd ^ ((sign ^ (number << 62)) & top);
         c ^= odd ^ (((number + UINT64_C(1)) << 62) & top);
         (void)memcpy(&sine, &s, sizeof sine);

@@ -810,7 +810,8 @@ void kr500_flexible_regressor(
 /**
  * Joint torques that hold the bodies' weight at rest.
  *
- * Q(q) of report eq. 73; balancers and offsets are effects and are not in it.
+ * Q(q) of report eq. 73; balancers, springs and offsets are effects and are not in it. With them
+ * bias(q, 0) holds the robot at rest.
  *
  * @param[in] prepared from kr500_prepare()
  * @param[in] q (6) joint positions [rad]

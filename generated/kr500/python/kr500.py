@@ -176,6 +176,9 @@ SPARSITY = {
 #: Moving joints, base parameters.
 NQ, NBASE = 6, 59
 
+#: The integration methods.
+METHODS = ("RK4", "DP8")
+
 #: The robots that are simulated, each with the number of its coordinates.
 PLANTS = {"rigid": 6, "flexible": 12}
 
@@ -329,13 +332,38 @@ def _signal(value, shape, name, also=""):
             return _buffer(value)
         except ValueError:
             pass
-    try:
-        array = np.array(value, dtype=float, order="C", copy=True)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} is no array of numbers, expected {shape}") from None
+    array = _numbers(value, name, shape)
     if array.shape != shape:
         raise ValueError(f"{name} has shape {array.shape}, expected {shape}{also}")
     return _buffer(array)
+
+
+def _numbers(value, name, expected):
+    """A new array of what converts to numbers."""
+    try:
+        return np.array(value, dtype=float, order="C")
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is no array of numbers, expected {expected}") from None
+
+
+def _number(value, name):
+    """One number, from what float() takes."""
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{name} is {value!r}, expected a number") from None
+
+
+def _whole(value, name):
+    """A whole number from 1 on."""
+    wanted = "expected a whole number from 1 on"
+    try:
+        whole = 1 <= value < 2**63 and value == int(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}, {wanted}") from None
+    if not whole:
+        raise ValueError(f"{name} is {value}, {wanted}")
+    return int(value)
 
 
 def _new(out, shape, name="out"):
@@ -386,13 +414,11 @@ def _apart(out, **signals):
 
 def _filter(taps, decimation):
     """The filter for C, and what it points to."""
-    array = np.array([1.0] if taps is None else taps, dtype=float, ndmin=1)
+    array = np.atleast_1d(_numbers([1.0] if taps is None else taps, "taps", "an odd number of weights"))
     if array.ndim != 1 or len(array) % 2 == 0:
         raise ValueError(f"taps has shape {array.shape}, expected an odd number of weights")
-    if decimation != int(decimation) or decimation < 1:
-        raise ValueError(f"decimation is {decimation}, expected a whole number from 1 on")
     weights = _buffer(array)
-    return _ffi.new("filter *", (weights, len(array), int(decimation))), weights
+    return _ffi.new("filter *", (weights, len(array), _whole(decimation, "decimation"))), weights
 
 
 def _aligned(size):
@@ -422,7 +448,7 @@ class Robot:
         elif hasattr(parameters, "keys"):
             self.update(parameters)
         else:
-            values = np.asarray(parameters, dtype=float)
+            values = _numbers(parameters, "parameters", f"({len(PARAMETERS)},)")
             if values.shape != (len(PARAMETERS),):
                 raise ValueError(f"parameters has shape {values.shape}, expected ({len(PARAMETERS)},)")
             self.update(dict(zip(PARAMETERS, values.tolist())))
@@ -438,7 +464,7 @@ class Robot:
             if name not in _PLACES:
                 raise ValueError(f"parameters: there is no parameter {name!r}")
         # All or none: what is no number is refused before any is set.
-        for name, value in {name: float(value) for name, value in values.items()}.items():
+        for name, value in {name: _number(value, f"parameters: {name}") for name, value in values.items()}.items():
             self._params.value[_PLACES[name]] = value
         _lib.kr500_prepare(self._params, self._prepared)
 
@@ -767,7 +793,8 @@ class Robot:
     def gravity(self, q, out=None):
         """Joint torques that hold the bodies' weight at rest.
 
-        Q(q) of report eq. 73; balancers and offsets are effects and are not in it.
+        Q(q) of report eq. 73; balancers, springs and offsets are effects and are not in it.
+        With them bias(q, 0) holds the robot at rest.
 
         Inputs:
             q: (6) joint positions [rad]
@@ -1358,26 +1385,25 @@ class Plant:
     def __init__(self, robot, kind, q, qd=None, method="RK4", steps=1, width=None):
         if kind not in PLANTS:
             raise ValueError(f"kind is {kind!r}, expected one of {', '.join(PLANTS)}")
-        if method not in ("RK4", "DP8"):
-            raise ValueError(f"method is {method!r}, expected 'RK4' or 'DP8'")
-        if steps != int(steps) or steps < 1:
-            raise ValueError(f"steps is {steps}, expected a whole number from 1 on")
+        if method not in METHODS:
+            raise ValueError(f"method is {method!r}, expected {' or '.join(map(repr, METHODS))}")
         size = PLANTS[kind]
         self.robot = robot
         self._state = _ffi.new(f"{kind}_state *")
         self._advance = getattr(_lib, f"kr500_{kind}_advance")
         self._simulate = getattr(_lib, f"kr500_{kind}_simulate")
-        self._width = None if width is None else np.array(np.broadcast_to(np.asarray(width, float), (size,)))
+        self._width = None if width is None else _each(width, size, "width")
         if self._width is not None and not (self._width > 0).all():
             raise ValueError("width is not positive")
         smooth = _ffi.NULL if width is None else _buffer(self._width)
-        self._integration = _ffi.new("integration *", (int(method == "DP8"), int(steps), smooth))
+        self._integration = _ffi.new("integration *", (METHODS.index(method), _whole(steps, "steps"), smooth))
         start = [np.zeros(size), np.zeros(size)]
         for array, value, name in zip(start, (q, qd), ("q", "qd")):
             if value is not None:
-                given = np.asarray(value, dtype=float)
+                wanted = f"({size},)" if size == NQ else f"({NQ},) or ({size},)"
+                given = _numbers(value, name, wanted)
                 if given.shape not in ((NQ,), (size,)):
-                    raise ValueError(f"{name} has shape {given.shape}, expected ({size},)")
+                    raise ValueError(f"{name} has shape {given.shape}, expected {wanted}")
                 array[: given.size] = given
         getattr(_lib, f"kr500_{kind}_start")(robot._prepared, *map(_buffer, start), self._state)
         memory = np.frombuffer(_ffi.buffer(self._state), count=2 * size)
@@ -1443,7 +1469,8 @@ class Controller:
     """
 
     def __init__(self, robot, period, kp, kv, ki, limit=np.inf):
-        gains = [np.broadcast_to(np.asarray(gain, float), (NQ,)).tolist() for gain in (kp, kv, ki, limit)]
+        given = {"kp": kp, "kv": kv, "ki": ki, "limit": limit}
+        gains = [_each(gain, NQ, name).tolist() for name, gain in given.items()]
         self.robot = robot
         self._gains = _ffi.new("controller *", (_time(period, "period"), *gains))
         self._memory = _ffi.new("controller_state *")
@@ -1482,9 +1509,18 @@ class Controller:
 
 def _time(value, name):
     """A time [s]."""
-    if not 0 <= value < np.inf:
+    time = _number(value, name)
+    if not 0 <= time < np.inf:
         raise ValueError(f"{name} is {value}, expected a finite one that is not negative")
-    return float(value)
+    return time
+
+
+def _each(value, size, name):
+    """An array of one number each, from as many or from one for all."""
+    array = _numbers(value, name, f"a number or ({size},)")
+    if array.shape not in ((), (1,), (size,)):
+        raise ValueError(f"{name} has shape {array.shape}, expected a number or ({size},)")
+    return np.array(np.broadcast_to(array, (size,)))
 
 
 def filtered(y, taps, decimation=1, out=None):

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.backends.printing.c_functions import MATHEMATICS
+from generator.backends.printing.runge_kutta import METHODS
 from generator.symbolic.model import Model
 
 #: Macros and constants, behind the robot's name in capitals.
 _MACROS = """
     H NQ NPARAMETERS NSTANDARD USE_FLOAT USE_LIBM LANES STATIC_ASSERT BATCH_H BATCH_SCALAR NBASE NGRAM OBSERVATION_WORK
-    STREAM_BYTES SIMULATION_H RIGID_SIZE FLEXIBLE_SIZE METHOD_RK4 METHOD_DP8 CONTACT_FREE CONTACT_SLIDING CONTACT_STUCK
+    STREAM_BYTES SIMULATION_H RIGID_SIZE FLEXIBLE_SIZE CONTACT_FREE CONTACT_SLIDING CONTACT_STUCK
 """
 #: Types and functions that templates write out, behind the robot's name.
 _WRITTEN = """
@@ -23,7 +24,7 @@ _WRITTEN = """
 #: What the type and the functions of a simulation are called, behind the robot's name and what is simulated.
 _SIMULATED = ("rigid", "flexible")
 _OF_SIMULATION = """
-    state start advance simulate accelerations catch dp8 hold load located margin rates release rk4 rubs search slide
+    state start advance simulate accelerations catch hold load located margin rates release rubs search slide
     solve step stick surfaces trial
 """
 #: What follows the name of a function of CasADi's external.
@@ -33,13 +34,15 @@ _OF_EXTERNAL = ("", "_n_in", "_n_out", "_name_in", "_name_out", "_sparsity_in", 
 def taken(model: Model) -> Iterator[str]:
     """Names of macros, types and functions; a robot named in capitals has one prefix for all of them."""
     prefix, functions = model.robot.name, model.functions
+    methods = [method.name for method in METHODS]
     yield from (f"{prefix.upper()}_{word}" for word in _MACROS.split())
     yield from (f"{prefix}_{word}" for word in (*_WRITTEN.split(), *MATHEMATICS, *functions))
     yield from (f"{prefix}_{name}_sparsity" for name in functions)
     yield from (size_constant(prefix, name) for name in functions)
     yield from (f"{prefix}_casadi_{name}{end}" for name in functions for end in _OF_EXTERNAL)
     yield from (f"{prefix}_params_{name}" for name in model.robot.parameter_sets)
-    yield from (f"{prefix}_{plant}_{word}" for plant in _SIMULATED for word in _OF_SIMULATION.split())
+    yield from (f"{prefix}_{plant}_{word}" for plant in _SIMULATED for word in (*_OF_SIMULATION.split(), *methods))
+    yield from (f"{prefix.upper()}_METHOD_{name.upper()}" for name in methods)
     yield f"{prefix}_has_{len(model.parameters)}_parameters"
 
 

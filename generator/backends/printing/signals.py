@@ -13,7 +13,7 @@ _RUNS = 4
 
 
 def units(signal: Signal) -> str:
-    """``rad``, or the units by flat index: ``[0..2] N, [3..5] N m``."""
+    """``rad``, or the units by flat index: ``N at 0..2, N m at 3..5``."""
     if len(set(signal.units)) <= 1:
         return next(iter(signal.units), "1")
     runs = [(unit, [place for place, _ in run]) for unit, run in groupby(enumerate(signal.units), key=lambda e: e[1])]

@@ -8,6 +8,7 @@ from generator.review.decimals import decimal, rounded
 from generator.review.formula import Call, Equation, Formula, Name, Negative, Number, Power, Product, Quotient
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math, mathml, matrix
+from generator.review.stated import torque_constant_heads
 from generator.review.words import minus, unit
 from generator.robot.description import Drives
 from generator.symbolic.model import Model
@@ -47,10 +48,7 @@ def _coupling(relation: str, entries: list[list[Formula]]) -> Markup:
 
 
 def _table(model: Model, drives: Drives) -> Markup:
-    heads: list[Content] = ["joint", "gear ratio", "≈"]
-    for name in drives.torque_constants:
-        used = ", in use" if name == drives.torque_constant else ""
-        heads.append(join("torque constant, ", name, used, " [N m/A]"))
+    heads = ["joint", "gear ratio", "≈", *torque_constant_heads(drives)]
     if drives.torque_constants:
         heads.append("drive gain")
     rows: list[list[Content]] = []

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.effects.library import Instance
+from generator.numbering import numbered
 from generator.review.formula import Name
-from generator.review.laws import alike, observables, rates, torque
+from generator.review.laws import alike, indexed, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
-from generator.review.words import bounds, minus, on_joints, unit
+from generator.review.words import bounds, minus, unit
 from generator.symbolic.model import Model
 
 TITLE = "Effects"
@@ -34,7 +35,7 @@ def _effect(instances: list[Instance]) -> Markup:
         element("h3", effect.title[:1].upper() + effect.title[1:]),
         element(
             "p",
-            on_joints(instance.joint.number for instance in instances),
+            numbered("joint", [instance.joint.number for instance in instances]),
             " · ",
             element("code", effect.id),
             class_="where",
@@ -51,12 +52,16 @@ def _effect(instances: list[Instance]) -> Markup:
 
 def _parameter(instances: Sequence[Instance], k: int, index: str) -> list[Content]:
     parameter = instances[0].effect.parameters[k]
-    name = Name(f"{parameter.stem}{index}" if index.isdigit() else f"{parameter.stem}_{index}")
+    name = Name(indexed(parameter.stem, index))
     within = bounds(parameter.lower, parameter.upper)
     joints: dict[str, list[int]] = {}
     for instance in instances:
         joints.setdefault(unit(parameter.unit(instance.joint)), []).append(instance.joint.number)
-    units = [f"{symbol} on {on_joints(numbers)}" for symbol, numbers in joints.items()] if len(joints) > 1 else joints
+    units = (
+        [f"{symbol} on {numbered('joint', numbers)}" for symbol, numbers in joints.items()]
+        if len(joints) > 1
+        else joints
+    )
     return [math(name), f" {parameter.meaning} [{'; '.join(units)}]{f', {within}' if within else ''}. "]
 
 

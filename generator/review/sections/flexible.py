@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.effects.library import Instance
+from generator.numbering import numbered
 from generator.review.formula import Arguments, Call, Equation, Formula, Name, Product, Sum
 from generator.review.laws import alike, torque
 from generator.review.markup import Markup, element, join
 from generator.review.mathml import math
-from generator.review.words import on_joints, plural
+from generator.review.words import plural
 from generator.symbolic.model import Model
 
 TITLE = "Elastic drive trains"
@@ -42,7 +43,7 @@ def render(model: Model) -> Markup | None:
 
 
 def _told(joints: Sequence[int]) -> str:
-    return on_joints(joints).capitalize()
+    return numbered("joint", joints).capitalize()
 
 
 def _springs(model: Model) -> list[Instance]:

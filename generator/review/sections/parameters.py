@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from generator.review.formula import Name
 from generator.review.markup import Markup, element, join, table
 from generator.review.mathml import math
-from generator.review.words import bounds, unit
+from generator.review.stated import built_in
+from generator.review.words import bounds, minus, unit
 from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
 
@@ -41,11 +42,7 @@ def _vector(model: Model) -> Markup:
 
 def _built_in(model: Model) -> Markup:
     """The values in place of a parameter vector."""
-    rows = (
-        (math(Name(p.name)), unit(p.unit), f"{float(model.constants[p.name]):g}", p.meaning)
-        for p in model.all_parameters
-        if model.constants[p.name]
-    )
+    rows = ((math(Name(p.name)), unit(p.unit), minus(value), p.meaning) for p, value in built_in(model))
     values = table(("symbol", "unit", "value", "meaning"), rows, class_="numbers")
     return join(
         element("p", "These values stand in the generated functions as numbers; all other parameters are zero."),

@@ -8,8 +8,7 @@ from generator.review.formula import Name
 from generator.review.markup import Markup, element, join
 from generator.review.svg import pixel, subscripted, svg, text
 from generator.review.words import unit
-from generator.robot.parameters import Parameter
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS, Parameter
 from generator.symbolic.model import Model
 
 TITLE = "Structure of the regressor"
@@ -20,7 +19,11 @@ _WIDTH = 1070.0
 _LEGIBLE = 740.0
 _SMALLEST, _LARGEST = 13.0, 22.0
 _LEFT, _TOP = 34.0, 62.0
-_KINDS = dict.fromkeys(INERTIAL[:6], "tensor") | dict.fromkeys(INERTIAL[6:9], "moment") | {INERTIAL[9]: "mass"}
+_KINDS = (
+    dict.fromkeys(INERTIAL_STEMS[:6], "tensor")
+    | dict.fromkeys(INERTIAL_STEMS[6:9], "moment")
+    | {INERTIAL_STEMS[9]: "mass"}
+)
 _NAMES = {"tensor": "inertia tensor", "moment": "first moments", "mass": "mass", "effect": "effects"}
 
 

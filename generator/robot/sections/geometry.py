@@ -11,11 +11,9 @@ from generator.robot import fields
 from generator.robot.description import Length
 from generator.robot.document import Entry, Node, Table, Text
 from generator.robot.names import identifier
-from generator.robot.parameters import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 
-_STEMS = "|".join(
-    [*(stem for stem, _, _ in INERTIAL), "Ia", "Fv", "Fc", "Off", "Iam", "Fvm", "Fcm", "Offm", "kt?", "ks"]
-)
+_STEMS = "|".join([*INERTIAL_STEMS, "Ia", "Fv", "Fc", "Off", "Iam", "Fvm", "Fcm", "Offm", "kt?", "ks"])
 _PARAMETER = re.compile(rf"(?:{_STEMS})\d+R?\Z", re.IGNORECASE)
 _VARIABLE = re.compile(r"(?:q|qd|qdd|qm|qe|qa|tau)\d*\Z")
 _SIGNALS = ("pi", "wrench", "payload", "parameters", "standard_parameters")
@@ -24,7 +22,8 @@ _SIGNALS = ("pi", "wrench", "payload", "parameters", "standard_parameters")
 def lengths(entry: Entry | None) -> dict[str, Length]:
     """The named lengths and angles of ``geometry``.
 
-    Raises InputError for a name that the generated code or the model uses otherwise and for a value without a unit.
+    Raises InputError for a name that the generated code or the model uses otherwise and for a value without a unit or
+    too large (``fields.check_size``).
     """
     found: dict[str, Length] = {}
     for key, one in fields.named(entry.value, "geometry").items() if entry else ():
@@ -57,6 +56,7 @@ def _length(name: str, entry: Entry) -> Length:
         raise InputError(value.place, f"length {name} has no unit", units)
     if value.unit not in ("m", "rad"):
         raise InputError(value.place, f"length {name} is in {value.unit}", units)
+    fields.check_size(value.place, f"length {name}", value.value, any_small=True)
     return Length(name, value.value, value.unit, symbolic, entry.key)
 
 
@@ -79,7 +79,10 @@ def base(entry: Entry | None) -> sympy.ImmutableMatrix:
         # sympy's rot_axis turn the axes rather than the vector, hence the signs
         pose[:3, :3] = sympy.rot_axis3(-yaw) * sympy.rot_axis2(-pitch) * sympy.rot_axis1(-roll)
     if "translation" in keys:
-        pose[:3, 3] = sympy.Matrix(_vector(keys["translation"].value, "translation", "m", "lengths"))
+        translation = _vector(keys["translation"].value, "translation", "m", "lengths")
+        for value in translation:
+            fields.check_size(keys["translation"].value.place, "translation", value, any_small=True)
+        pose[:3, 3] = sympy.Matrix(translation)
     return sympy.ImmutableMatrix(pose)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from generator.errors import InputError
-from generator.expressions import is_finite
+import sympy
+
+from generator.errors import InputError, Place
+from generator.expressions import has_unit, is_finite
 from generator.robot import fields
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.document import Entry, Table, Text
@@ -41,29 +43,35 @@ def _values(entry: Entry, source: str) -> dict[str, ParameterValue]:
 def parameter_value(name: str, entry: Entry, source: str = "") -> ParameterValue:
     """The value of a parameter in SI, of the ``source`` unless it names its own.
 
-    Raises InputError for what is not a finite number with a known unit, a relative_std below zero
+    Raises InputError for what is not a number with a known unit and in size, a relative_std below zero
     and a source or note that is no text.
     """
     node = entry.value
     if not isinstance(node, Table):
         short = fields.quantity(node, f"value of {name}", None)
-        if short.unit == "1":
+        if not has_unit(fields.text(node, f"value of {name}").content):
             raise InputError(short.place, f"value of {name} has no unit", "a unit, or {value: .., unit: 1}")
-        return ParameterValue(float(short.value), short.unit, source=source, place=entry.key)
+        return ParameterValue(in_size(name, short.value, short.place), short.unit, source=source, place=entry.key)
     keys = fields.table(node, f"value of {name}", ("value", "unit"), ("relative_std", "source", "note"))
     unit_text = fields.text(keys["unit"].value, f"unit of {name}", "a unit")
     unit = parse_unit(unit_text.content, unit_text.place)
     value = fields.number(keys["value"].value, f"value of {name}") * unit.factor
-    if not is_finite(value):
-        raise InputError(keys["value"].value.place, f"value of {name} is too large", "a finite number")
     return ParameterValue(
-        value=float(value),
+        value=in_size(name, value, keys["value"].value.place),
         unit=unit.si,
         relative_std=relative_std(keys.get("relative_std"), name),
         source=fields.prose(keys.get("source"), f"source of {name}") or source,
         note=fields.prose(keys.get("note"), f"note on {name}"),
         place=entry.key,
     )
+
+
+def in_size(name: str, value: sympy.Expr, place: Place) -> float:
+    """The ``value`` of a parameter; raises InputError where it is too large (``fields.check_size``)."""
+    if not is_finite(value):
+        raise InputError(place, f"value of {name} is too large", "a finite number")
+    fields.check_size(place, f"value of {name}", value, any_small=True)
+    return float(value)
 
 
 def relative_std(entry: Entry | None, name: str) -> float | None:

@@ -21,11 +21,14 @@ _INSTEAD = {"m": "lengths of the geometry", "rad": "multiples of pi and angles o
 def constant(node: Node, what: str, unit: str, lengths: Mapping[str, Length]) -> sympy.Expr:
     """An angle [rad] or length [m]: an expression over the geometry's names, or a number with its unit.
 
-    Raises InputError for an undefined name, a joint variable, another dimension and a value that is not finite.
+    Raises InputError for an undefined name, a joint variable, another dimension and a value that is not finite or too
+    large (``fields.check_size``).
     """
     scalar = fields.text(node, what, "an expression")
     if expressions.has_unit(scalar.content):
-        return fields.quantity(scalar, what, unit).value
+        value = fields.quantity(scalar, what, unit).value
+        fields.check_size(scalar.place, what, value, any_small=True)
+        return value
     value = fields.expression(scalar, what)
     for name in sorted(map(str, value.free_symbols)):
         if _VARIABLE.match(name):
@@ -66,6 +69,7 @@ def _check_dimension(value: sympy.Expr, scalar: Text, what: str, unit: str, leng
     nominal = value.xreplace({sympy.Symbol(name, real=True): length.value for name, length in lengths.items()})
     if not expressions.is_finite(nominal):
         raise InputError(scalar.place, f"{what} is not finite for the lengths given", "a finite value")
+    fields.check_size(scalar.place, what, nominal, any_small=True)
 
 
 def _degree_one(value: sympy.Expr, scaled: list[sympy.Expr]) -> bool:
