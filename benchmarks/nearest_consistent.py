@@ -9,7 +9,7 @@ from typing import Any
 import cvxpy
 import numpy as np
 
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from generator.symbolic.pseudo_inertia import Matrix
 from identification.consistency import divergence, grouped, possible, relative_to
@@ -67,7 +67,8 @@ def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str,
     base = grouped(model, s)
     shifts = [(base[name] - value) / estimate.std[name] for name, value in estimate.values.items()]
     relative = [
-        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in knowledge.bodies.items()
+        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL_STEMS])
+        for number, body in knowledge.bodies.items()
     ]
     cost = cp.sum_squares(cp.hstack(shifts))
     if knowledge.weight > 0:
@@ -87,5 +88,5 @@ def _silent(model: Model, estimate: Estimate, knowledge: Knowledge) -> list[str]
     groupings = model.grouping.numeric()
     known = {*estimate.values, *knowledge.given}
     involved = known.union(*(groupings[name] for name in known if name in groupings))
-    of_bodies = {f"{stem}{number}" for number in knowledge.bodies for stem in INERTIAL}
+    of_bodies = {f"{stem}{number}" for number in knowledge.bodies for stem in INERTIAL_STEMS}
     return [p.name for p in model.standard_parameters if p.name not in involved | of_bodies]

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from generator.errors import InputError
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.arrays import Array
 from identification.factors import triangular
@@ -82,7 +82,8 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     # About the least squares' solution, so that the solver need not see what no parameters explain.
     away = cp.hstack([(values[n] - x) * k for n, x, k in zip(found.problem.names, start, scale, strict=True)])
     relative = [
-        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL]) for number, body in _bodies(found, prior).items()
+        relative_to(body, [s[f"{stem}{number}"] for stem in INERTIAL_STEMS])
+        for number, body in _bodies(found, prior).items()
     ]
     relative += [relative_to(_ball(found), [s[name] for name in one.names().values()]) for one in payloads]
     cost = cp.sum_squares((R / scale) @ away - rest) + weight * divergence(relative)

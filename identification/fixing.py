@@ -12,7 +12,7 @@ from generator.given_once import given_once
 from generator.review.words import listed
 from generator.robot.description import ParameterSet
 from generator.robot.fields import nearest
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import regrouped, resolved
 from identification.set_values import told
@@ -75,7 +75,7 @@ def _known(model: Model, prior: ParameterSet) -> set[str]:
 
 def _chosen(wanted: str, names: Sequence[str], model: Model) -> list[str]:
     if wanted == BODIES:
-        inertial = tuple(INERTIAL)
+        inertial = tuple(INERTIAL_STEMS)
         return [
             base.name
             for base, parameter in zip(model.grouping.base, model.base_parameters, strict=True)

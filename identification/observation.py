@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from generator.backends import numpy as numpy_backend
 from generator.derivation import derive
 from generator.robot.description import Robot
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.effect_torques import STATES, WARMTH, reads
 from generator.symbolic.model import Model
 from identification.arrays import Array
@@ -185,8 +185,8 @@ class Regressors:
 
     def payload(self, motion: Motion) -> list[Array]:
         """Per joint, torque per unit of XX XY XZ YY YZ ZZ MX MY MZ M of a body in the tool frame (10 x N)."""
-        flat = self._blocks("payload_regressor", motion, self.model.dof * len(INERTIAL), self.values)
-        return list(flat.reshape(self.model.dof, len(INERTIAL), -1))
+        flat = self._blocks("payload_regressor", motion, self.model.dof * len(INERTIAL_STEMS), self.values)
+        return list(flat.reshape(self.model.dof, len(INERTIAL_STEMS), -1))
 
     def torques(self, parameters: Mapping[str, float], motion: Motion) -> Array:
         """Joint torques (n x N) for values of the base parameters by name, absent ones zero."""

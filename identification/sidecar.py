@@ -13,13 +13,13 @@ from generator.errors import InputError, Place
 from generator.given_once import given_once
 from generator.robot import fields
 from generator.robot.document import Entry, Table, Text
-from generator.robot.parameters import INERTIAL, NOT_NEGATIVE
+from generator.robot.parameters import INERTIAL_STEMS, INERTIAL_UNITS, NOT_NEGATIVE
 from generator.robot.readers import document
 from identification.formula import Formula, formulas
 
 _UNKNOWN = "unknown"
 #: SI units of the ten parameters by stem.
-UNITS = {stem: unit for stem, unit, _ in INERTIAL}
+UNITS = dict(zip(INERTIAL_STEMS, INERTIAL_UNITS, strict=True))
 #: Name of a payload that nobody named, and letters of one at most.
 _UNNAMED, _LONGEST = "L", 8
 

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.review.words import listed, ranges
+from generator.numbering import ranges
+from generator.review.words import listed
 from identification.arrays import Array
 from identification.colour import scatter
 from identification.residuals import Residual

@@ -9,8 +9,8 @@ from generator.derivation import derive
 from generator.reference.sample import physical_parameters
 from generator.resources import find_robot
 from generator.robot.description import ParameterValue
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.robot.readers import read
-from generator.symbolic.bodies import INERTIAL
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.parameter_sets import parameter_vector
@@ -29,9 +29,9 @@ def test_chain_and_reduced_model_accelerate_alike(name: str, seed: int) -> None:
     sample = physical_parameters(robot, seed)
     joints = range(1, 7)
     # Table 5 has no friction and no balancer; its motors carry no matter, its links no rotors.
-    matter = {f"{stem}{j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL}
+    matter = {f"{stem}{j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL_STEMS}
     drives = {f"{stem}{j}": sample[f"{stem}{j}"] for j in joints for stem in ("Iam", "k")}
-    on_chain = {f"{stem}{2 * j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL}
+    on_chain = {f"{stem}{2 * j}": sample[f"{stem}{j}"] for j in joints for stem in INERTIAL_STEMS}
     on_chain |= {f"ks{2 * j}": sample[f"k{j}"] for j in joints}
     on_chain |= {f"Ia{2 * j - 1}": sample[f"Iam{j}"] for j in joints}
 

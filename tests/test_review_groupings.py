@@ -16,7 +16,7 @@ from generator.review.formula import (
 from generator.review.groupings import equations
 from generator.review.tex import escape
 from generator.robot.description import REVOLUTE
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from tests.chains import joint, robot
 from tests.reviewed import block, files, listed, model, parsed, state, value
@@ -150,7 +150,7 @@ def test_counts_are_ranks_of_the_regressor(arm: Subject) -> None:
     stages = ladder(arm.model)
     assert stages[-1].total == len(arm.model.base_parameters)
     rows = np.concatenate([arm.generated("regressor_standard", state(arm, seed))["W"] for seed in range(40)])
-    bodies = {f"{stem}{body.number}" for body in arm.robot.bodies for stem in INERTIAL}
+    bodies = {f"{stem}{body.number}" for body in arm.robot.bodies for stem in INERTIAL_STEMS}
     inertial = [k for k, parameter in enumerate(arm.model.standard_parameters) if parameter.name in bodies]
     columns = rows[:, inertial]
     size = np.linalg.norm(columns, axis=0)

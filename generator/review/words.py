@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from generator.numbering import ranges as ranges
-
 
 def listed(words: Iterable[str]) -> str:
     """``a, b and c``."""

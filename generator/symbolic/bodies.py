@@ -11,9 +11,6 @@ from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, array
 
-#: The ten inertial parameters of a body in SYMORO's order (report eq. 4).
-INERTIAL = INERTIAL_STEMS
-
 
 @dataclass(frozen=True)
 class Body:

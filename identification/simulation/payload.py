@@ -8,7 +8,7 @@ import numpy as np
 
 from generator.command_line import command_line
 from generator.errors import InputError
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.pseudo_inertia import pseudo_inertia
 from identification.arrays import Array
 from identification.sidecar import Payload
@@ -34,11 +34,11 @@ def whole(payload: Payload) -> Payload:
     stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
     inertias = dict(zip(stems, point[np.triu_indices(3)].tolist(), strict=True))
     values = inertias | {"MX": c[0], "MY": c[1], "MZ": c[2]} | dict(known)
-    P = pseudo_inertia([values[stem] for stem in INERTIAL])
+    P = pseudo_inertia([values[stem] for stem in INERTIAL_STEMS])
     if np.linalg.eigvalsh(P)[0] < -1e-9 * np.abs(P).max():
         problem = "inertias that are too small for its moments, or break the triangle inequality"
         raise InputError(command_line("--payload"), problem, "XX .. ZZ in the tool frame, about its origin")
-    return Payload(payload.name, {stem: values[stem] for stem in INERTIAL})
+    return Payload(payload.name, {stem: values[stem] for stem in INERTIAL_STEMS})
 
 
 def carried(module: Any, model: Any, payload: Payload) -> dict[str, float]:
@@ -48,7 +48,7 @@ def carried(module: Any, model: Any, payload: Payload) -> dict[str, float]:
     """
     draw = np.random.default_rng(0)
     n = module.NQ
-    p = np.array([payload.known[stem] for stem in INERTIAL])
+    p = np.array([payload.known[stem] for stem in INERTIAL_STEMS])
     W, Y = [], []
     for q, qd, qdd in draw.uniform(-2, 2, (_STATES, 3, n)):
         Y.append(model.payload_regressor(q, qd, qdd) @ p)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.effects.library import library
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank, Variant
 from identification.diagnosis.columns.hypothesis import BODY, EFFECT, LOAD, SHAPE, VALUE, Coefficient, Hypothesis
@@ -68,7 +68,7 @@ class Acting:
 
     def body(self, scene: Scene) -> Array:
         """Inertial parameters (10) [SI], in the tool's frame, of the payload that was found along a scene."""
-        values, result = self.coefficients, dict.fromkeys(INERTIAL, 0.0)
+        values, result = self.coefficients, dict.fromkeys(INERTIAL_STEMS, 0.0)
         for one in self.variants:
             there = one.hypothesis.kind == BODY or states(scene.sampled.run.payload, one.shape)
             if there and one.hypothesis.kind in (BODY, LOAD):

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from generator.review.words import listed, ranges
+from generator.numbering import ranges
+from generator.review.words import listed
 from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump

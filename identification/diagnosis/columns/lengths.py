@@ -16,7 +16,7 @@ import sympy
 
 from generator.derivation import derive
 from generator.robot.description import PRISMATIC, Joint, Robot
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import LENGTH, Coefficient, Hypothesis
@@ -122,7 +122,7 @@ class _Bodies:
         """Along a scene (n x N) [N m, N], of standard parameters that make its base parameters."""
         names, torques = self._function
         values = _standard(scene)
-        for stem, value in zip(INERTIAL, scene.body.tolist(), strict=True):
+        for stem, value in zip(INERTIAL_STEMS, scene.body.tolist(), strict=True):
             name = f"{stem}{self._tool}"
             values[name] = values.get(name, 0.0) + value
         signals = [x.T for x in scene.motion.signals]

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import Coefficient
 from identification.diagnosis.runs.scene import Scene
@@ -43,7 +43,7 @@ PARAMETERS: Mapping[str, tuple[str, ...]] = {one.name: _OTHERS.get(one.name, (on
 def columns(scene: Scene) -> Array:
     """Torques (k x n x N) [N m, N] per unit of each coefficient along a scene."""
     per_joint = np.stack(scene.regressors.payload(scene.motion), axis=1)
-    by_name = dict(zip(INERTIAL, per_joint, strict=True))
+    by_name = dict(zip(INERTIAL_STEMS, per_joint, strict=True))
     return np.stack([np.sum([by_name[name] for name in names], axis=0) for names in PARAMETERS.values()])
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from generator.effects.library import names_of_effects
 from generator.robot.description import ParameterSet
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from identification.arrays import Array
 from identification.colour import inflation
 from identification.diagnosis.columns.normal_equations import FAR, Normal, Prior
@@ -155,7 +155,7 @@ def with_payload(prior: Prior, regressors: Regressors, payload: Mapping[str, flo
     """
     to_base = _payload_in_base(regressors)
     for name, value in payload.items():
-        direction = np.sum([to_base[:, INERTIAL.index(stem)] for stem in PARAMETERS[name]], axis=0)
+        direction = np.sum([to_base[:, INERTIAL_STEMS.index(stem)] for stem in PARAMETERS[name]], axis=0)
         prior = prior.shifted(direction, value, std.get(name, 0.0))
     return prior
 
@@ -178,7 +178,7 @@ def _payload_in_base(regressors: Regressors) -> Array:
     for row, names, columns in zip(W, regressors.structure, regressors.base(motion), strict=True):
         row[:, [place[name] for name in names]] = columns.T
     body = np.stack([columns.T for columns in regressors.payload(motion)])
-    solution = np.linalg.lstsq(W.reshape(-1, len(place)), body.reshape(-1, len(INERTIAL)), rcond=None)[0]
+    solution = np.linalg.lstsq(W.reshape(-1, len(place)), body.reshape(-1, len(INERTIAL_STEMS)), rcond=None)[0]
     return np.asarray(solution, dtype=float)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from generator.effects.effect import accelerates
 from generator.robot.description import Robot
-from generator.symbolic.bodies import INERTIAL
+from generator.robot.parameters import INERTIAL_STEMS
 from identification.arrays import Array
 from identification.corrections import heated, warming_up
 from identification.drive_train import motor_torques
@@ -142,7 +142,11 @@ class Scene:
         found.
         """
         payload = self.sampled.run.payload
-        known = np.zeros(len(INERTIAL)) if payload is None else np.array([payload.known[stem] for stem in INERTIAL])
+        known = (
+            np.zeros(len(INERTIAL_STEMS))
+            if payload is None
+            else np.array([payload.known[stem] for stem in INERTIAL_STEMS])
+        )
         return known if self.beside is None else known + self.beside.body(self)
 
     def carried(self, motion: Motion) -> Array:
@@ -165,7 +169,7 @@ class Scene:
 
     @property
     def _of_bodies(self) -> set[str]:
-        return {f"{stem}{body.number}" for body in self.robot.bodies for stem in INERTIAL}
+        return {f"{stem}{body.number}" for body in self.robot.bodies for stem in INERTIAL_STEMS}
 
     def _made_of(self, names: Collection[str]) -> dict[str, float]:
         """Values of the base parameters in which standard parameters of these names are."""
