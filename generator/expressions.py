@@ -28,7 +28,7 @@ _TOKEN = re.compile(
 )
 _NOT_FINITE = re.compile(r"\.?(?:inf|infinity|nan)\Z", re.IGNORECASE)
 #: The unit of a pure number, written behind it.
-_ONE = re.compile(r"(?<=[\d.)])\s+1\s*\Z")
+_ONE = re.compile(r"(?:(?<=[\d.)])|(?<=pi))\s+1\s*\Z")
 _GRAMMAR = "numbers, pi, names and + - * / ^ ( )"
 _POINT = f"{_GRAMMAR}; decimals stand after a point"
 _END = "an operator or the end"

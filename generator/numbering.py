@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 
 
-def numbered(noun: str, numbers: Collection[int], several: str = "") -> str:
+def numbered(noun: str, numbers: Iterable[int], several: str = "") -> str:
     """``joint 1``, ``joints 1 to 4, 6``; ``several`` is the plural where an s does not make it."""
-    return f"{noun if len(numbers) == 1 else several or f'{noun}s'} {ranges(sorted(numbers))}"
+    each = sorted(set(numbers))
+    return f"{noun if len(each) == 1 else several or f'{noun}s'} {ranges(each)}"
 
 
 def ranges(numbers: Iterable[int]) -> str:

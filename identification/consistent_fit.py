@@ -18,7 +18,6 @@ from generator.errors import InputError
 from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.arrays import Array
-from identification.factors import triangular
 from identification.inverse_model import Identification
 from identification.residuals import Residuals, residuals
 from identification.sidecar import Payload
@@ -137,13 +136,13 @@ def _payloads(found: Identification) -> list[Payload]:
 
 
 def _rows(found: Identification, start: Array) -> tuple[Array, Array]:
-    """R (p x p) of the free parameters beyond ``start`` (p), and what is left there that they may explain (p), in
+    """R (at most p x p) of the free parameters beyond ``start`` (p), and what is left there that they may explain, in
     standard deviations of the residuals. Nothing is, where ``start`` minimises their squares.
     """
     problem, sigma = found.problem, found.full.solution.sigma
     stacked = np.concatenate([one.on(problem.names) / sigma[one.joint] for one in problem.factors])
     stacked[:, -1] -= stacked[:, :-1] @ start
-    T = triangular(stacked)[: len(start)]
+    T = np.asarray(np.linalg.qr(stacked, mode="r"))[: len(start)]
     return T[:, :-1], T[:, -1]
 
 

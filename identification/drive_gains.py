@@ -288,7 +288,7 @@ def _observable(
         from_payload = np.zeros(n + len(names))
         relative = _relative(fit, from_payload)
         shown = bool(np.all(relative[live] <= LIMIT))
-        if fit.unsettled and np.all(relative[live] <= LIMIT * fit.misfit):
+        if fit.unsettled and np.all(relative[live] <= LIMIT * fit.misfit[live]):
             problem = f"no drive gain of {robot.name} can be told: the currents contradict what is known of the payload"
             raise InputError(first.place, problem, "currents of all motors and the payload of one and the same run")
         if shown:

@@ -141,7 +141,8 @@ def of_runs(
         seen = late.refused or np.isfinite(late.std)
         latency[f"latency{joint.number}"] = _STANDS if _stands(mine, k) else late if seen else _UNSEEN
         mistaken[name] = _inverse(*_last(at_once.twist, at_once.constants, at_once.torque), stiffness[name].unit)
-        if late.value is not None and (unknown := _lacking(stiffness[name], viscous)):
+        seen_late = latency[f"latency{joint.number}"].value is not None
+        if seen_late and (unknown := _lacking(stiffness[name], viscous)):
             notes.append(f"latency{joint.number} lacks Fv{joint.number}/{name}: {unknown}")
     found = tuple(zip(runs, filters, strict=True))
     return LinkEncoders(robot, found, latency, stiffness, mistaken, residuals, kept, tuple(notes))

@@ -9,7 +9,7 @@ Vandewalle 1991). Without that the noise is laid to the model as well and the ga
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +44,7 @@ class Fit:
 
     ``scale`` is the part of the known column that no parameter can stand for; 0 where the scale of all is open.
     ``unsettled`` tells that the steps to the gains come to no end. ``sigma`` is the noise of each current as its own
-    rows tell it, ``misfit`` the most that errors are in parts of it, of all motors. ``separation`` is the second
+    rows tell it, ``misfit`` (n) what errors are in parts of it, at least 1. ``separation`` is the second
     smallest singular value over the smallest, ``condition`` that of the rows' derivatives by gains and parameters,
     columns of unit length.
     """
@@ -58,7 +58,7 @@ class Fit:
     separation: float
     condition: float = np.inf
     unsettled: bool = False
-    misfit: float = 1.0
+    misfit: Array = field(default_factory=lambda: np.ones(0))
 
     def errors(self, part: Part) -> Array:
         """k i - B chi - w of a part (rows)."""
@@ -192,12 +192,12 @@ def _covariance(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> tup
     return result, condition
 
 
-def _misfit(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> float:
-    most = 1.0
+def _misfit(fit: Fit, parts: Sequence[Part], live: NDArray[np.int64]) -> Array:
+    result = np.ones(len(fit.k))
     for m in live:
         errors = np.concatenate([fit.errors(one) for one in parts if one.gain == m])
-        most = max(most, float(np.sqrt(np.mean(errors**2))) / (abs(fit.k[m]) * fit.sigma[m] + _TINY))
-    return most
+        result[m] = max(1.0, np.sqrt(np.mean(errors**2)) / (abs(fit.k[m]) * fit.sigma[m] + _TINY))
+    return result
 
 
 def _derivative(fit: Fit, part: Part, gains: int) -> Array:

@@ -266,7 +266,7 @@ def test_each_rule_is_told(arm: Subject) -> None:
     grouping = arm.model.grouping
     assert all(one.rule for one in grouping.eliminated)
     acting = [one for one in grouping.eliminated if "antecedent" in one.rule]
-    assert all(one.rule.endswith("where no torque shows it") != bool(one.into) for one in acting)
+    assert all(one.rule.endswith("where no torque shows them") != bool(one.into) for one in acting)
     for base in grouping.base:
         assert base.terms[0] == (1, base.head)
         assert base.name == (base.head if len(base.terms) == 1 else f"{base.head}R")

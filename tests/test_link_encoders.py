@@ -154,6 +154,7 @@ def test_a_joint_that_stands_has_no_latency(machine: Machine, tmp_path: Path) ->
     assert found.latency["latency1"].value is not None
     assert found.latency["latency2"].value is None
     assert found.latency["latency2"].refused == "the joint stands still"
+    assert not [one for one in link_encoders(machine.robot, [str(run)], MOTORS).notes if "latency2" in one]
 
 
 def test_a_loaded_joint_that_stands_shows_its_stiffness(tmp_path: Path) -> None:

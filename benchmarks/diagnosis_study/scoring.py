@@ -17,7 +17,7 @@ class Score:
     """``found`` of the ``visible`` hidden effects are named, ``first`` says that the first finding is one of
     them, ``listed`` counts those that are an alternative of a finding only, ``invisible_told`` those of
     ``invisible`` that are said to be so, or named all the same. ``extra`` are named effects that are not hidden,
-    ``firm`` all that are named without an alternative.
+    ``firm`` counts those of status firm.
     ``within`` is whether the named parameter is within two standard deviations of the truth, ``closed`` the share of
     the explainable gap that closed on the untouched run; None where there is nothing to say.
     """
@@ -86,7 +86,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
 
 
 def _told(one: Mapping[str, Any], verdict: str) -> bool:
-    """Whether a finding is a name: firm, or beside nothing unexplained tentative with what else it may be."""
+    """Whether a finding is a name: firm, or tentative with alternatives while nothing is left unexplained."""
     return one["status"] == "firm" or (verdict == NAMED and bool(one.get("alternatives")))
 
 

@@ -27,7 +27,7 @@ def told(rule: str, into: Sequence[str]) -> str:
     """The rule of a parameter that went ``into`` base parameters, if any."""
     if rule == _UNSEEN:
         return _CARRIED if into else _UNSEEN
-    return rule if into else f"{rule}, where no torque shows it"
+    return rule if into else f"{rule}, where no torque shows them"
 
 
 def rule_of(joint: Joint, pivot: int, vector: Sequence[Scalar]) -> str:

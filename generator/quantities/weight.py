@@ -21,7 +21,7 @@ def caveat(model: Model) -> str:
     told = [f"{base} holds {' and '.join(names)}" for base, names in mixed.items() if base in read]
     if not told:
         return ""
-    return f"Not the bodies' weight alone here: {', '.join(told)}. What holds the robot at rest is inverse_dynamics."
+    return f"Not the bodies' weight alone here: {', '.join(told)}."
 
 
 def _read(model: Model) -> set[str]:

@@ -38,7 +38,7 @@ EXIT_FAILURE"""
 
 _PYTHON = """casadi numpy np math sympy"""
 
-#: Further headers of the C library, which a robot's own would hide.
+#: Headers of the C library, which a robot's own would hide.
 _HEADERS = """complex ctype features fenv float inttypes iso646 limits locale setjmp signal stdalign stdarg stdatomic
 stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype"""
 

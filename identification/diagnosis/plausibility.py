@@ -14,7 +14,7 @@ from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Regressors
 from identification.residuals import Residual, Residuals
-from identification.suspicion import REVERSED, another_sign, directed, misread, ordered, suspect
+from identification.suspicion import REVERSED, another_sign, directed, misread, of_one_sense, ordered, suspect
 
 #: Least singular value that a run tells parameters from, and a product that is none.
 _RANK, _NOTHING = 1e-9, 1e-300
@@ -41,8 +41,8 @@ def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior |
 def explained(found: Diagnosis) -> list[str]:
     """What is to be told of joints that stay unexplained though everything was looked for.
 
-    Raises InputError where columns are swapped beside what was found, where friction and inertia have the other sign,
-    and where all that was found leaves most of the torques unexplained.
+    Raises InputError where columns are swapped beside what was found, where friction and inertia, or one column, have
+    the other sign, and where all that was found leaves most of the torques unexplained.
     """
     bank = found.search.bank
     runs = [run.sampled for run in bank.runs]
@@ -57,6 +57,7 @@ def explained(found: Diagnosis) -> list[str]:
         if len(one.joints) == 1 and one.evidence.size > rest.get(one.joints[0], 0.0)
     }
     directed(runs[0].run.place, regressors.model, values, dict(zip(base, std.tolist(), strict=True)), aside)
+    of_one_sense(runs, regressors, left)
     return [*suspect(runs, regressors, left), *(misread(runs[0], regressors) if found.verdict == UNEXPLAINED else ())]
 
 

@@ -10,8 +10,8 @@
  * Samples  q, qd, qdd and tau hold n samples one after the other, KR270_NQ numbers each: joint j of sample k is
  *          [k*KR270_NQ + j], as logs come. Every sample must be finite. Arrays are aligned as numbers are and may not overlap.
  * Memory   All of it is the caller's; nothing is allocated, and no state is kept.
- * Threads  Compiled with OpenMP 3.0 (-fopenmp) the work is shared among OMP_NUM_THREADS threads; the results are the same to
- *          the bit for every number of threads. Each thread needs 256 KiB of stack.
+ * Threads  Compiled with OpenMP 3.0 (-fopenmp) the work is shared among OMP_NUM_THREADS threads; the results are the
+ *          same to the bit for every number of threads. Each thread needs 256 KiB of stack.
  * Compile  kr270_batch.c as C99 or later, with the folder of kr270.h among the include paths, for example
  *          cc -O2 -march=native -ffp-contract=fast -fno-math-errno -fopenmp. GCC and Clang compute with the widest
  *          vectors that -march allows; other compilers sample by sample.

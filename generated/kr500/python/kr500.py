@@ -342,7 +342,7 @@ def _numbers(value, name, expected):
     """A new array of what converts to numbers."""
     try:
         return np.array(value, dtype=float, order="C")
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name} is no array of numbers, expected {expected}") from None
 
 
@@ -350,8 +350,10 @@ def _number(value, name):
     """One number, from what float() takes."""
     try:
         return float(value)
-    except (TypeError, ValueError) as error:
-        raise type(error)(f"{name} is {value!r}, expected a number") from None
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, expected a number") from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"{name} is {value!r}, expected a number") from None
 
 
 def _whole(value, name):

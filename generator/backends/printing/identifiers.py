@@ -11,7 +11,9 @@ from generator.robot.names import C_KEYWORDS, C_MATHEMATICS, CPP_KEYWORDS
 
 #: What the GNU library's <math.h> declares beyond the standard.
 _GNU_MATHEMATICS = "drem exp10 finite gamma isinf isnan scalb significand signgam sincos"
-_PREDEFINED = "I NULL main errno linux unix i386 vax sun"
+_PREDEFINED = "I linux unix i386 vax sun"
+#: What other headers define.
+_DEFINED = "NULL main errno"
 
 #: Macros of the templates of C.
 _TEMPLATES = """
@@ -22,7 +24,9 @@ _TEMPLATES = """
 
 #: What C and C++ reserve, what <math.h> declares (a local of that name would shadow it), what compilers predefine, and
 #: what the templates define.
-C_RESERVED = C_KEYWORDS | CPP_KEYWORDS | C_MATHEMATICS | set(f"{_GNU_MATHEMATICS} {_PREDEFINED} {_TEMPLATES}".split())
+C_RESERVED = (
+    C_KEYWORDS | CPP_KEYWORDS | C_MATHEMATICS | set(f"{_GNU_MATHEMATICS} {_PREDEFINED} {_DEFINED} {_TEMPLATES}".split())
+)
 
 #: Keywords of Python and the built-in names that generated modules call.
 PYTHON_RESERVED = frozenset(keyword.kwlist) | {"_", "tuple", "len", "enumerate", "zip", "float", "dict", "str", "int"}

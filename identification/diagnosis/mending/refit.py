@@ -221,8 +221,8 @@ def _near(
 
 
 def _deviation(one: Factor, names: Sequence[str], values: Mapping[str, float], covariance: Array, was: float) -> float:
-    """Standard deviation of a joint's rows about what ``values`` of all parameters give, less the freedom that those of
-    ``names`` took of them, which were fitted to rows of the deviation that it ``was``.
+    """Standard deviation of a joint's rows about what ``values`` of all parameters give. The rows' freedom is less that
+    which the fit of ``names`` took, which weighed them by the deviation that it ``was``.
     """
     R = one.on(names)[:, :-1] / was
     taken = float(np.sum((R @ covariance) * R))

@@ -46,5 +46,6 @@ def heard(bank: Bank, runs: Sequence[int], variant: Variant, x: Array) -> bool:
         for i, j in ((0, 1), (0, 0), (1, 1))
     )
     coherent = np.sum(np.abs(common) ** 2 / np.maximum(whole.real, np.finfo(float).tiny)) / np.sum(own.real)
-    # Of two signals that have nothing in common, by chance, is half a stretch of all: Hann windows overlap by half.
+    # By chance two signals have about half a stretch of all in common, as Hann windows overlap by half: twice that is
+    # not beyond it.
     return bool(coherent - stretch / rows >= _HEARD)

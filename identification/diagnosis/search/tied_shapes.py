@@ -36,13 +36,8 @@ def tied_cost(weighing: Weighing, chosen: Sequence[Variant]) -> float:
 
 def _products(weighing: Weighing, chosen: Sequence[Variant]) -> Array:
     """Of the base columns, of those that are ``chosen`` and of the torque."""
-    at = [*_numbers(weighing, chosen), len(weighing.normal.gram) - 1]
+    at = [*weighing.normal.numbers(columns_of(chosen)), len(weighing.normal.gram) - 1]
     return weighing.normal.products(at, at)
-
-
-def _numbers(weighing: Weighing, chosen: Sequence[Variant]) -> list[int]:
-    """Of the base columns and of those that are ``chosen``."""
-    return weighing.normal.numbers(columns_of(chosen))
 
 
 def _tied_cost(weighing: Weighing, chosen: Sequence[Variant], G: Array) -> float:
@@ -81,7 +76,7 @@ def refined_tied(weighing: Weighing, start: Variant, beside: Sequence[Variant]) 
     hypothesis, chosen = start.hypothesis, [*beside, start]
     free = [shape for shape in hypothesis.shapes if shape.free]
     best, least = start.shape, tied_cost(weighing, chosen)
-    known, numbers = _products(weighing, beside), _numbers(weighing, beside)
+    known, numbers = _products(weighing, beside), weighing.normal.numbers(columns_of(beside))
 
     def cost(steps: Array) -> float:
         nonlocal best, least
