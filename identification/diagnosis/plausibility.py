@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.diagnosis import UNEXPLAINED, Diagnosis
 from identification.diagnosis.runs.prepared import Prepared, joined
 from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.loop import plain_fit
 from identification.observation import Regressors
 from identification.residuals import Residual, Residuals
 from identification.suspicion import REVERSED, another_sign, directed, misread, of_one_sense, ordered, suspect
@@ -22,7 +23,8 @@ _RANK, _NOTHING = 1e-9, 1e-300
 
 def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior | None) -> None:
     """Raises InputError where columns of one of ``runs`` are swapped, and where its torques have another sign than
-    those of the others, or than parameters that are known beforehand (``prior``) make of its motion.
+    those of the others, or than parameters that are known beforehand (``prior``) make of its motion; of one joint where
+    its own inertia and friction say so as well.
     """
     ordered([run.sampled for run in runs], regressors)
     scenes = [Scene(run.sampled, regressors, {}) for run in runs]
@@ -31,11 +33,30 @@ def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior |
     if prior is None:
         return
     known = dict(zip(regressors.names, prior.mean.tolist(), strict=True))
-    for run, scene in zip(runs, scenes, strict=True):
-        expected = run.decimated(scene.torque_of(known, scene.motion))
-        tau, like = run.tau[run.kept], expected[run.kept]
-        if tau @ like < REVERSED * np.linalg.norm(tau) * np.linalg.norm(like):
+    expected = [run.decimated(scene.torque_of(known, scene.motion)) for run, scene in zip(runs, scenes, strict=True)]
+    for run, like in zip(runs, expected, strict=True):
+        if _opposed(run.tau[run.kept], like[run.kept]):
             raise another_sign(run.sampled.run.place, "the known parameters")
+    torques = [run.tau for run in runs]
+    numbers = regressors.model.robot.numbers
+    right = {n for k, n in enumerate(numbers) if not _opposed(joined(runs, torques, k), joined(runs, expected, k))}
+    if len(right) < len(numbers):
+        _as_inertia_and_friction(runs, Bank(runs, scenes), regressors, right)
+
+
+def _opposed(tau: Array, like: Array) -> bool:
+    return bool(tau @ like < REVERSED * np.linalg.norm(tau) * np.linalg.norm(like))
+
+
+def _as_inertia_and_friction(
+    runs: Sequence[Prepared], bank: Bank, regressors: Regressors, right: Collection[int]
+) -> None:
+    """Raises InputError where the runs alone say that inertia and friction of a joint are of the other sign, but for
+    joints number ``right``: what is known may lack more than it has, as of an arm that a balancer holds.
+    """
+    solution, covariance = plain_fit(bank, range(len(runs)))
+    values, std = (dict(zip(bank.base, x.tolist(), strict=True)) for x in (solution, np.sqrt(np.diag(covariance))))
+    directed(runs[0].sampled.run.place, regressors.model, values, std, right)
 
 
 def explained(found: Diagnosis) -> list[str]:

@@ -10,7 +10,9 @@ import pytest
 from generator.errors import InputError
 from generator.robot.readers import read
 from identification.dataset import load
+from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.plausibility import of_one_sign
 from identification.diagnosis.runs.prepared import prepared
 from identification.inverse_model import identify
 from identification.recipes import Recipe
@@ -122,3 +124,27 @@ def test_a_joint_that_is_read_wrong_is_told(
     run = prepared(load(str(path), regressors.model.robot, resting=True), Recipe(), regressors)
     notes = misread(run.sampled, regressors)
     assert [note[: len(hint)] for note in notes] == [hint] if hint else notes == []
+
+
+@pytest.mark.parametrize(("turned", "held"), [(True, False), (False, False), (False, True)])
+def test_one_joint_is_of_the_other_sign_where_its_friction_and_inertia_say_so(
+    turned: bool, held: bool, tmp_path: Path
+) -> None:
+    """An arm that something unknown ``held`` up has torques that are the other way, too, and is none of that."""
+    links = two_links(tmp_path)
+    t, motion = fourier(links.model.robot, 20.0, 200.0, 1)
+    tau = links.torques(LINKS, motion)
+    if held:
+        tau[1] -= 2 * links.torques(dict.fromkeys(links.names, 0.0) | {"MX2": LINKS["MX2"]}, motion)[1]
+    if turned:
+        tau = tau * [[1.0], [-1.0]]
+    tau = tau + 0.01 * tau.std(axis=1, keepdims=True) * np.random.default_rng(4).normal(size=tau.shape)
+    source = as_recorded(links, t, motion.q, tau).save(tmp_path / "a.csv")
+    runs = [prepared(load(str(source), links.model.robot, {}), Recipe(), links)]
+    mean = np.array([LINKS[name] for name in links.names])
+    prior = Prior(mean, np.diag(1 / (0.05 * mean) ** 2))
+    if not turned:
+        of_one_sign(runs, links, prior)
+        return
+    with pytest.raises(InputError, match=r"a.csv:1:1: all friction and inertia that the torques of joint 2 show alone"):
+        of_one_sign(runs, links, prior)

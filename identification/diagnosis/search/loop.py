@@ -215,7 +215,7 @@ def first_values(
     values: dict[str, float] = {}
     for _ in range(_FITS if _depends(regressors) else 1):
         bank = Bank(runs, [Scene(run.sampled, regressors, values) for run in runs])
-        values = bank.values(_weighted(bank, train, prior))
+        values = bank.values(plain_fit(bank, train, prior)[0])
     return values
 
 
@@ -226,14 +226,14 @@ def _depends(regressors: Regressors) -> bool:
     return regressors.reads_load or bool(stated_elasticity.names(regressors.model.robot))
 
 
-def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
-    """Values of the base columns (p), each joint weighted by its own residual."""
+def plain_fit(bank: Bank, train: Sequence[int], prior: Prior | None = None) -> tuple[Array, Array]:
+    """Values of the base columns (p), each joint weighted by its own residual, and their covariance (p x p)."""
     deviations = np.ones(bank.dof)
-    solution = np.zeros(len(bank.base))
+    solution, covariance = np.zeros(len(bank.base)), np.zeros((len(bank.base),) * 2)
     for _ in range(3):
         bank.whiten([[_flat(one) for one in deviations] for _ in bank.runs])
         normal = Normal(np.sum([bank.grams[r] for r in train], axis=0), len(bank.base), 1, prior)
-        solution, _ = normal.solution([])
+        solution, covariance = normal.solution([])
         weights = dict(enumerate(solution.tolist()))
         for joint in range(bank.dof):
             parts = []
@@ -241,7 +241,7 @@ def _weighted(bank: Bank, train: Sequence[int], prior: Prior | None) -> Array:
                 kept = bank.raw(r, joint)[3]
                 parts += stretches(bank.residual(r, joint, weights, white=False), kept)
             deviations[joint] = colour(parts, order=0).deviations[0]
-    return solution
+    return solution, covariance
 
 
 def _flat(deviation: float) -> Colour:
