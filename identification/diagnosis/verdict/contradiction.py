@@ -160,4 +160,6 @@ def note(ones: Sequence[Contradicted]) -> list[str]:
     told = [one.text for one in ones[:_NAMED]]
     more = len(ones) - len(told)
     rest = [f"{more} more"] if more else []
-    return [f"the runs contradict values that are known: {listed([*told, *rest])}; the new set has those of the runs"]
+    return [
+        f"the runs contradict values that are known: {listed([*told, *rest])}; the new set is fitted anew, between both"
+    ]
