@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from generator.review.markup import Markup, element
 from generator.review.svg import pixel, points, svg, text
-from generator.review.words import minus
+from generator.words import minus
 
 _WIDTH, _HEIGHT = 720.0, 300.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 70.0, 20.0, 48.0, 44.0

@@ -9,12 +9,12 @@ from generator import expressions
 from generator.effects.library import names_of_effects
 from generator.errors import InputError, Place
 from generator.given_once import given_once
-from generator.review.words import listed
 from generator.robot.description import ParameterSet
 from generator.robot.fields import nearest
 from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import regrouped, resolved
+from generator.words import listed
 from identification.set_values import told
 
 #: Word for all base parameters that stand for the bodies' inertia and weight.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from generator.review.words import listed, plural
+from generator.words import listed, plural
 from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, off_cubics
 from identification.recording import Where

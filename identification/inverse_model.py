@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from generator.errors import InputError
-from generator.review.words import listed
 from generator.robot.description import Robot
+from generator.words import listed
 from identification import recipes
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 from identification.factors import Factor, triangular
 from identification.rank import nonzero, not_identifiable

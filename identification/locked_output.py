@@ -12,8 +12,8 @@ import numpy as np
 
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
-from generator.review.words import plural
 from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.words import plural
 from identification.arrays import Array
 from identification.colour import inflation
 from identification.dataset import Run, load

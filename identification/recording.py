@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from generator.errors import Place
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 
 #: The place of a value by its row, from 0, and its column; of the column's name without a row.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.errors import InputError
-from generator.review.words import plural
+from generator.words import plural
 from identification.dataset import Run
 from identification.recipes import Filters, Recipe
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from generator.errors import InputError
-from generator.review.words import listed, plural
 from generator.robot.description import Robot
+from generator.words import listed, plural
 from identification.arrays import Array
 from identification.drive_train import constants, coupling
 from identification.recording import Recording

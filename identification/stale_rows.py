@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 from identification.neighbours import in_a_row
 from identification.recording import Where

@@ -16,9 +16,9 @@ import sympy
 from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
-from generator.review.words import listed
 from generator.robot.description import REVOLUTE, Robot
 from generator.symbolic.model import Model
+from generator.words import listed
 from identification.arrays import Array
 from identification.drive_train import constants, coupling
 from identification.factors import Factor, triangular

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generator.errors import InputError
-from generator.review.words import plural
+from generator.words import plural
 from identification.arrays import Array
 from identification.neighbours import off_cubics
 from identification.recording import Recording

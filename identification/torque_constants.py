@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from generator.numbering import ranges
-from generator.review.words import listed
+from generator.words import numbered
 from identification.arrays import Array
 from identification.colour import scatter
 from identification.residuals import Residual
@@ -51,9 +50,8 @@ def doubts(found: Mapping[int, float], stated: Mapping[int, float], exchanged: s
     times = {number: abs(one / stated[number]) for number, one in found.items() if one and stated.get(number)}
     if far := {number: one for number, one in times.items() if not 1 / _FAR < one < _FAR}:
         sizes = dict.fromkeys(f"{one:.3g}" for one in (min(far.values()), max(far.values())))
-        motors = f"motor{'s' if len(far) > 1 else ''} {listed(ranges(far).split(', '))}"
         asked = "is what is known of the load in SI units, and are the currents in A?"
-        notes.append(f"{motors}: {' to '.join(sizes)} times the torque constant of the file; {asked}")
+        notes.append(f"{numbered('motor', far)}: {' to '.join(sizes)} times the torque constant of the file; {asked}")
     return notes
 
 

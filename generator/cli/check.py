@@ -7,7 +7,7 @@ import argparse
 from generator.cli.shared_arguments import takes_robot
 from generator.progress import stage
 from generator.resources import find_robot
-from generator.review.words import plural
+from generator.words import plural
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

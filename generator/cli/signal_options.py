@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.expressions import parse_number
-from generator.review.words import plural
 from generator.symbolic.function import Signal
+from generator.words import plural
 
 _WORD = re.compile(r"[^\s,]+")
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from generator.effects.effect import Effect
-from generator.review.words import listed
 from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.model import Model
+from generator.words import listed
 
 
 @dataclass(frozen=True)

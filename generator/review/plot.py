@@ -10,7 +10,7 @@ from itertools import groupby
 from generator.review.decimals import scientific
 from generator.review.markup import Markup, element, join
 from generator.review.svg import pixel, points, svg, text
-from generator.review.words import minus
+from generator.words import minus
 
 _WIDTH, _HEIGHT = 400.0, 250.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 58.0, 14.0, 26.0, 40.0

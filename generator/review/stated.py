@@ -6,12 +6,12 @@ import sympy
 
 from generator.constants import exact_constant
 from generator.effects.library import Instance
-from generator.numbering import numbered, ranges
 from generator.review.decimals import MACHINE, decimal, rounded, scientific
 from generator.robot.description import Drives, Robot
 from generator.robot.parameters import Parameter
 from generator.robot.signal_units import signal_unit
 from generator.symbolic.model import Model
+from generator.words import numbered, ranges
 
 #: Rows of a table, its head first; empty where the file states nothing of it.
 Table = tuple[tuple[str, ...], ...]
@@ -35,7 +35,7 @@ def effects(model: Model) -> Table:
     shaped = [one for one in model.motor_effects if one.site.values != {s.name: s.default for s in one.effect.shapes}]
     for instance in (*model.effects, *shaped):
         joints.setdefault((instance.effect.id, values(instance)), []).append(instance.joint.number)
-    rows = tuple((effect, ranges(sorted(set(numbers))), told) for (effect, told), numbers in joints.items())
+    rows = tuple((effect, ", ".join(ranges(sorted(set(numbers)))), told) for (effect, told), numbers in joints.items())
     return (("effect", "joints", "values"), *rows) if rows else ()
 
 

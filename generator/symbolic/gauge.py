@@ -11,12 +11,12 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from generator.numbering import numbered
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.matter import Matter, matter, moved, nothing
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, array, dot, identity, named, zeros
+from generator.words import listed, numbered
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Gauge:
         return (
             slid(self.slide)
             + (
-                f", {kept} kept at {', '.join(f'O{j}' for j in sorted(self.balance))} against {moments}"
+                f", {kept} kept at {listed(f'O{j}' for j in sorted(self.balance))} against {moments}"
                 if self.balance
                 else ""
             )

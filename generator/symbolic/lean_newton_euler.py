@@ -12,7 +12,6 @@ from functools import cached_property
 
 import numpy as np
 
-from generator.numbering import numbered
 from generator.symbolic.bodies import Body
 from generator.symbolic.frames import Chain, Frame
 from generator.symbolic.gauge import Gauge, Regauged, is_last, regauge
@@ -24,6 +23,7 @@ from generator.symbolic.segments import Spun, segments
 from generator.symbolic.spin import Turning, added_u, moment, moment_of, turning, turning_tip
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, Nodes, cross, named, zeros
+from generator.words import numbered
 
 
 @dataclass(frozen=True)

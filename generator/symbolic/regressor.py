@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from generator.numbering import numbered
 from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic import lean_motion, newton_euler
 from generator.symbolic.frames import Chain, Frame
@@ -18,6 +17,7 @@ from generator.symbolic.newton_euler import Motion, Wrench, along_axis
 from generator.symbolic.segments import Spun, segments
 from generator.symbolic.statements import Node, Program
 from generator.symbolic.vectors import Array, Nodes, array, cross, dot, zeros
+from generator.words import numbered
 
 #: Entries of the inertia tensor that each of its parameters fills.
 _TENSOR = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}

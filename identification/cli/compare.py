@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from generator.cli.shared_arguments import takes_out
 from generator.command_line import command_line
-from generator.review.words import plural
+from generator.words import plural
 from identification.extras import needing
 
 if TYPE_CHECKING:

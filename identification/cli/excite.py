@@ -17,7 +17,7 @@ from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.progress import bar, stage
 from generator.resources import find_robot
-from generator.review.words import listed
+from generator.words import listed
 from generator.writing import spare, writable
 from identification.extras import needing
 

@@ -17,7 +17,7 @@ from generator.command_line import command_line
 from generator.errors import InputError
 from generator.progress import stage
 from generator.resources import find_robot
-from generator.review.words import plural
+from generator.words import plural
 from identification.cli.shared_arguments import takes_recipe
 from identification.extras import needing
 

@@ -17,7 +17,7 @@ from generator.cli.shared_arguments import takes_out, takes_robot
 from generator.command_line import command_line
 from generator.progress import stage
 from generator.resources import find_robot
-from generator.review.words import listed, plural
+from generator.words import listed, plural
 from identification.cli.shared_arguments import takes_data, takes_test
 from identification.extras import needing
 

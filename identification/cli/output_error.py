@@ -16,7 +16,7 @@ from generator.command_line import command_line
 from generator.errors import InputError
 from generator.progress import counter, stage
 from generator.resources import find_robot
-from generator.review.words import plural
+from generator.words import plural
 from identification import executors
 from identification.cli.shared_arguments import takes_data, takes_recipe, takes_test
 from identification.extras import needing

@@ -22,7 +22,7 @@ from generator.errors import InputError
 from generator.given_once import given_once
 from generator.progress import bar, stage
 from generator.resources import find_robot
-from generator.review.words import plural
+from generator.words import plural
 from generator.writing import spare, writable
 from identification.extras import needing
 

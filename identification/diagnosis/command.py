@@ -9,8 +9,8 @@ from pathlib import Path
 
 from generator.errors import InputError
 from generator.progress import stage, stages
-from generator.review.words import plural
 from generator.robot.description import Robot
+from generator.words import plural
 from generator.writing import replace, replacing
 from identification import recipes
 from identification.dataset import Run, load

@@ -8,8 +8,8 @@ from hashlib import sha256
 import numpy as np
 
 from generator.errors import InputError
-from generator.review.words import plural
 from generator.robot.description import Robot
+from generator.words import plural
 from identification.arrays import Array
 from identification.dataset import Run
 from identification.filtering import derivative, smoothed

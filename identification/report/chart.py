@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from generator.review.markup import Content, Markup, element
-from generator.review.words import unit
+from generator.words import unit
 
 #: Colours by what they stand for on every page.
 MEASURED, ESTIMATED, RESIDUAL, HELD_OUT, INK = "--curve-5", "--curve-0", "--curve-1", "--curve-2", "--ink"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from generator.review.markup import Content, Markup, join, table
-from generator.review.words import unit
+from generator.words import unit
 from identification.report.chart import HELD_OUT, RESIDUAL, axis, chart
 from identification.report.numbers import NONE, number, percent
 from identification.report.series import numbers

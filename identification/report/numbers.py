@@ -6,7 +6,7 @@ import math
 
 from generator.review.decimals import scientific
 from generator.review.markup import Markup, element
-from generator.review.words import minus
+from generator.words import minus
 
 #: What stands where there is no number.
 NONE = "–"

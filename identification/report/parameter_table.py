@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from generator.review.markup import Content, Markup, element, table
-from generator.review.words import unit
+from generator.words import unit
 from identification.report.numbers import NONE, number, percent
 
 #: Relative standard deviations [%]: where the bars begin and end (their scale is logarithmic), and what is poor.

@@ -9,9 +9,9 @@ import numpy as np
 from generator.bounds import above, not_negative, whole_number
 from generator.command_line import command_line
 from generator.errors import InputError
-from generator.review.words import plural
 from generator.robot.description import Robot
 from generator.robot.fields import nearest
+from generator.words import plural
 from identification.arrays import Array
 from identification.named_set import named_set
 from identification.simulation.payload import whole

@@ -13,11 +13,11 @@ from generator.quantities.balancer import observed
 from generator.review.laws import observables
 from generator.review.markup import Markup, element, join
 from generator.review.plot import Curve, Marker, plot
-from generator.review.words import listed, unit
 from generator.robot.description import PRISMATIC, Joint
 from generator.symbolic.function import Function, Output
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.model import Model
+from generator.words import listed, unit
 
 TITLE = "Balancer"
 ORDER = 90

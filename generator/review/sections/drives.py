@@ -9,9 +9,9 @@ from generator.review.formula import Call, Equation, Formula, Name, Negative, Nu
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math, mathml, matrix
 from generator.review.stated import torque_constant_heads
-from generator.review.words import minus, unit
 from generator.robot.description import Drives
 from generator.symbolic.model import Model
+from generator.words import minus, unit
 
 TITLE = "Drives"
 ORDER = 100

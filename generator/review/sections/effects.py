@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.effects.library import Instance
-from generator.numbering import numbered
 from generator.review.formula import Name
 from generator.review.laws import alike, indexed, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
-from generator.review.words import bounds, minus, unit
 from generator.symbolic.model import Model
+from generator.words import bounds, minus, numbered, unit
 
 TITLE = "Effects"
 ORDER = 80

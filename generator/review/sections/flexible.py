@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.effects.library import Instance
-from generator.numbering import numbered
 from generator.review.formula import Arguments, Call, Equation, Formula, Name, Product, Sum
 from generator.review.laws import alike, torque
 from generator.review.markup import Markup, element, join
 from generator.review.mathml import math
-from generator.review.words import plural
 from generator.symbolic.model import Model
+from generator.words import numbered, plural
 
 TITLE = "Elastic drive trains"
 ORDER = 110

@@ -6,9 +6,9 @@ from generator.review.formula import Name
 from generator.review.geometry import length_value, limits, rows
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
-from generator.review.words import minus
 from generator.robot.description import FIXED, PRISMATIC, REVOLUTE
 from generator.symbolic.model import Model
+from generator.words import minus
 
 TITLE = "Geometry"
 ORDER = 30

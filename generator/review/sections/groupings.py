@@ -10,8 +10,8 @@ from generator.review.groupings import alone, equations, without_effect
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math, terms
 from generator.review.plain import plain
-from generator.review.words import unit
 from generator.symbolic.model import Model
+from generator.words import unit
 
 TITLE = "Groupings"
 ORDER = 40

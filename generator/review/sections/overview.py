@@ -9,9 +9,9 @@ from generator.review.formula import Formula, Name, formula
 from generator.review.groupings import alone, without_effect
 from generator.review.markup import Markup, element, join, table
 from generator.review.mathml import mathml, matrix
-from generator.review.words import plural
 from generator.robot.description import PRISMATIC
 from generator.symbolic.model import Model
+from generator.words import plural
 
 TITLE = "Overview"
 ORDER = 10

@@ -6,9 +6,9 @@ from generator.review.decimals import scientific
 from generator.review.formula import Name
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
-from generator.review.words import minus, unit
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.symbolic.model import Model
+from generator.words import minus, unit
 
 TITLE = "Parameter sets"
 ORDER = 120

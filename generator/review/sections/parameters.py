@@ -8,9 +8,9 @@ from generator.review.formula import Name
 from generator.review.markup import Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import built_in
-from generator.review.words import bounds, minus, unit
 from generator.robot.parameters import Parameter
 from generator.symbolic.model import Model
+from generator.words import bounds, minus, unit
 
 TITLE = "Parameters"
 ORDER = 125

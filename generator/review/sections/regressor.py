@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from generator.review.formula import Name
 from generator.review.markup import Markup, element, join
 from generator.review.svg import pixel, subscripted, svg, text
-from generator.review.words import unit
 from generator.robot.parameters import INERTIAL_STEMS, Parameter
 from generator.symbolic.model import Model
+from generator.words import unit
 
 TITLE = "Structure of the regressor"
 ORDER = 60

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from generator.review import stated
 from generator.review.markup import Content, Markup, element, join, table
-from generator.review.words import minus, unit
 from generator.symbolic.model import Model
+from generator.words import minus, unit
 
 TITLE = "Signals"
 ORDER = 105

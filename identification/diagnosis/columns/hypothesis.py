@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from generator.numbering import ranges
-from generator.review.words import listed
+from generator.words import numbered
 from identification.arrays import Array
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Jump
@@ -204,7 +203,7 @@ class Hypothesis:
     @property
     def named(self) -> str:
         """``Stribeck friction on joint 3``; what sits on no joint by its title alone."""
-        return f"{self.title} on {on_joints(self.numbers)}" if self.joint else self.title
+        return f"{self.title} on {numbered('joint', self.numbers)}" if self.joint else self.title
 
     def preset_value(self, name: str) -> float | None:
         """The value of a coefficient that is preset; None of another."""
@@ -224,9 +223,3 @@ class Hypothesis:
 def reshaped(name: str) -> str:
     """How a coefficient of the file is called that has another shape."""
     return f"{name}_reshaped"
-
-
-def on_joints(numbers: Iterable[int]) -> str:
-    """``joint 2``, ``joints 1 to 4 and 6``."""
-    several = sorted(set(numbers))
-    return f"joint{'s' if len(several) > 1 else ''} {listed(ranges(several).split(', '))}"

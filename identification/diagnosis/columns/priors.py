@@ -9,10 +9,10 @@ import numpy as np
 
 from generator.command_line import command_line
 from generator.effects.library import motor_side
-from generator.review.words import listed
 from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import regrouped, resolved, shifted
+from generator.words import listed
 from identification.arrays import Array
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.named_set import named_set

@@ -15,10 +15,10 @@ from generator.effects.effect import Effect
 from generator.effects.library import library
 from generator.effects.rotor_inertia import EFFECT as ROTOR
 from generator.errors import InputError
-from generator.review.words import listed
 from generator.robot.description import Joint, Robot
 from generator.robot.sections.drives import element
 from generator.robot.signal_units import signal_unit
+from generator.words import listed, numbered
 from identification.corrections import NEVER, by_time
 from identification.diagnosis.columns.hypothesis import (
     BASE,
@@ -31,7 +31,6 @@ from identification.diagnosis.columns.hypothesis import (
     SHAPE,
     SIGNAL,
     VALUE,
-    on_joints,
 )
 from identification.diagnosis.mending.addition import Addition
 from identification.robot_file import written
@@ -181,7 +180,7 @@ def _add_drive(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]]:
     if one.effect == "gear_ratio":
         for number in one.joints:
             text = _with_ratio(text, robot, number, one.values["gear_ratio"])
-        return text, [f"gear_ratio is in section drives of the robot file, changed on {on_joints(one.joints)}"]
+        return text, [f"gear_ratio is in section drives of the robot file, changed on {numbered('joint', one.joints)}"]
     drift = {
         k: written(one.values["torque_drift"] + (float(drives.torque_drift[k]) if drives.torque_drift else 0.0))
         for k in (robot.numbers.index(number) for number in one.joints)
@@ -271,8 +270,8 @@ def _add_elastic(text: str, robot: Robot, one: Addition) -> tuple[str, list[str]
     if joints != sorted(robot.flexible):
         text = with_value(text, ("flexible",), f"[{', '.join(map(str, joints))}]")
     notes = [
-        f"the drive train of {on_joints(one.joints)} is elastic in the flexible model; on the untouched runs its swing "
-        "is integrated with what was found, beside the generated inverse dynamics of rigid joints"
+        f"the drive train of {numbered('joint', one.joints)} is elastic in the flexible model; on the untouched runs "
+        "its swing is integrated with what was found, beside the generated inverse dynamics of rigid joints"
     ]
     for number in one.joints:
         if one.parameters.get(f"Iam{number}") and not robot.has(ROTOR.id, number):

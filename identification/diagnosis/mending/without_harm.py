@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.diagnosis.mending.untouched import Untouched
 from identification.diagnosis.mending.written_model import WrittenModel
 from identification.diagnosis.verdict.finding import TENTATIVE, Finding

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 from generator.effects.library import library
 from generator.errors import InputError
 from generator.robot.description import Robot
+from generator.words import numbered
 from identification import recipes
 from identification.corrections import TooWarm, Untold
 from identification.dataset import Run, load
-from identification.diagnosis.columns.hypothesis import EFFECT, SIGNAL, on_joints
+from identification.diagnosis.columns.hypothesis import EFFECT, SIGNAL
 from identification.diagnosis.columns.warming import following
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.repair import repaired
@@ -69,7 +70,7 @@ def _held(text: str, file: str, additions: Sequence[Addition]) -> tuple[list[Add
             repaired(text, file, [*kept, one])
             kept.append(one)
         except InputError as error:
-            where = on_joints(one.joints)
+            where = numbered("joint", one.joints)
             notes.append(f"{one.effect} on {where} is not written: {error.problem}, expected {error.expected}")
     return kept, notes
 

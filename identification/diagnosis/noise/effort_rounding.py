@@ -13,7 +13,7 @@ from math import pi, sqrt
 import numpy as np
 from scipy.special import ndtr
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.runs.phases import by_period

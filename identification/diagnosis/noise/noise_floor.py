@@ -8,7 +8,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.runs.prepared import joined

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from generator.errors import InputError
-from generator.review.words import listed
+from generator.words import listed
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of
 from identification.diagnosis.runs.prepared import SHORTEST

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from generator.effects.library import library
+from generator.words import numbered
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import Hypothesis, on_joints
+from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.whole_orders import UNSURE
@@ -37,7 +38,7 @@ def alternatives(mine: Hypothesis, one: Choice, chosen: Sequence[Variant]) -> tu
 
 def outside(effect: str, title: str, joints: tuple[int, ...], evidence: Evidence, experiment: str) -> Alternative:
     """Something of no law of the library that explains as much."""
-    return Alternative(effect, title, joints, f"{title} on {on_joints(joints)}", evidence.score, experiment)
+    return Alternative(effect, title, joints, f"{title} on {numbered('joint', joints)}", evidence.score, experiment)
 
 
 def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:

@@ -12,7 +12,7 @@ import numpy as np
 
 from generator.effects.library import effects_of, library, names_of_effects
 from generator.review.decimals import scientific
-from generator.review.words import listed
+from generator.words import listed
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import EFFECT, SHAPE
 from identification.diagnosis.columns.normal_equations import FAR, Prior, inverse

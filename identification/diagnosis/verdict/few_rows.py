@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from generator.review.words import listed
 from generator.robot.description import Robot
+from generator.words import listed
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.search.few_rows import LEAST, Few
 from identification.diagnosis.search.loop import Search

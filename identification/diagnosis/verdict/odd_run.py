@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.diagnosis.runs.told_files import paths, told_files
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.lack_of_fit import CHANCE, lack_of_fit

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
-from generator.review.words import listed
+from generator.words import listed
 from identification.arrays import Array
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.views import BINS, FEW_ROWS, variables

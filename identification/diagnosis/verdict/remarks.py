@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence, Set
 
-from generator.review.words import listed
-from identification.diagnosis.columns.hypothesis import ELASTIC, Key, on_joints
+from generator.words import listed, numbered
+from identification.diagnosis.columns.hypothesis import ELASTIC, Key
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
 from identification.diagnosis.runs.swings import watched
@@ -36,7 +36,7 @@ def of_tests(found: Search, trial: Trial | None, test: Sequence[Prepared]) -> It
     moving = found.bank.robot.moving
     unseen = [k for k in range(len(moving)) if k not in found.bank.shown and any(run.kept[k].any() for run in test)]
     if unseen:
-        where = on_joints(moving[k].number for k in unseen)
+        where = numbered("joint", (moving[k].number for k in unseen))
         yield f"no run that is fitted tells of {where}, on which those that test have rows"
     unlike = [run.sampled.run for run in test if not comparable(run, found)]
     for one in unlike:
@@ -68,7 +68,7 @@ def of_elasticity(found: Search) -> list[str]:
 def _drive_trains(trains: Sequence[Stated]) -> str:
     """Those of some joints, in words, as what a sentence is about."""
     are = "drive train of {} is" if len(trains) == 1 else "drive trains of {} are"
-    return f"the {are.format(on_joints(one.number for one in trains))}"
+    return f"the {are.format(numbered('joint', (one.number for one in trains)))}"
 
 
 def of_swings(found: Search, lacking: Set[int]) -> Iterator[str]:
@@ -100,8 +100,8 @@ def of_links(found: Search, lacking: Collection[int]) -> list[str]:
     if not seen:
         return []
     return [
-        f"elasticity is not looked for on {on_joints(seen)}: counterpoise stiffness --link-encoders tells it from the "
-        "link-side encoders"
+        f"elasticity is not looked for on {numbered('joint', seen)}: counterpoise stiffness --link-encoders tells it "
+        "from the link-side encoders"
     ]
 
 

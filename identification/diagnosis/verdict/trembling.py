@@ -11,8 +11,7 @@ from math import sqrt
 
 import numpy as np
 
-from generator.review.words import listed
-from identification.diagnosis.columns.hypothesis import on_joints
+from generator.words import listed, numbered
 from identification.diagnosis.noise.noise_floor import noise_floor
 from identification.diagnosis.noise.rounding import deviations, rounding
 from identification.diagnosis.search.loop import Search
@@ -45,7 +44,7 @@ def notes(found: Search, lacks: Mapping[int, float]) -> list[str]:
     for step, joint in zip(steps.tolist(), bank.robot.moving, strict=True):
         if step:
             alike.setdefault(f"{step:.2g} {joint.position_unit}", []).append(joint.number)
-    told = [f"{step} on {on_joints(numbers)}" for step, numbers in alike.items()]
+    told = [f"{step} on {numbered('joint', numbers)}" for step, numbers in alike.items()]
     return [
         f"positions come in steps, {listed(told)}, whose rounding alone makes torques, {listed(coarse)}; drives that "
         "tremble over them make larger ones, which repeat with the motion and look like something missing"

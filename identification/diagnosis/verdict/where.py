@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from generator.review.words import listed
+from generator.words import listed, numbered
 from identification.arrays import Array
 from identification.diagnosis.columns.bank import columns_of
-from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC, on_joints
+from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.search.loop import Search
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
@@ -125,7 +125,7 @@ def led(before: Where, first: Finding, after: Where) -> Where:
     coupling = first.hypothesis.kind == EFFECT and len(first.joints) > 1
     if not coupling and of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
-    region = f"of {on_joints(sorted(first.joints))} together" if coupling else _region(mine, variable)
+    region = f"of {numbered('joint', first.joints)} together" if coupling else _region(mine, variable)
     happens = [one.joint for one in after.lack if one.burst is not None]
     lack = [one if one.joint != joint or joint in happens else replace(one, burst=None) for one in before.lack]
     return replace(before, joint=joint, variable=variable, region=region, shares=shares, lack=tuple(lack))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from generator.review.words import listed, minus, unit
-from identification.diagnosis.columns.hypothesis import on_joints
+from generator.words import listed, minus, numbered, unit
 from identification.diagnosis.diagnosis import KNOWN, LOCATED, NAMED, NOTHING, Diagnosis
 from identification.diagnosis.runs.played import together
 from identification.diagnosis.verdict.contradiction import Contradicted
@@ -44,7 +43,8 @@ def named(group: Sequence[Finding]) -> str:
     """Findings that are alike, by their title and joints."""
     if len(group) == 1:
         return group[0].hypothesis.named
-    return f"{group[0].hypothesis.title} on {on_joints(number for one in group for number in one.joints)}"
+    numbers = (number for one in group for number in one.joints)
+    return f"{group[0].hypothesis.title} on {numbered('joint', numbers)}"
 
 
 def capitalised(text: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from generator.review.words import plural
+from generator.words import plural
 from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Identification
 from identification.observed import Observed

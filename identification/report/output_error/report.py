@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from generator.review.words import plural
+from generator.words import plural
 from identification.output_error.multi_start import OutputError
 from identification.output_error.results import document
 from identification.report.output_error import sections

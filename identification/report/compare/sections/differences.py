@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
-from generator.review.words import unit
+from generator.words import unit
 from identification.comparison import AGREE, Comparison, Difference
 from identification.parameter_source import Known
 from identification.report.chart import COLOURS, axis, chart

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import plural
+from generator.words import plural
 from identification.comparison import AGREE, Comparison
 from identification.report.numbers import plain
 

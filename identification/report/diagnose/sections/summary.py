@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import plural
+from generator.words import plural
 from identification.diagnosis.diagnosis import LOCATED, NAMED, NOTHING
 from identification.report.diagnose import words
 from identification.report.diagnose.subject import Subject

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Content, Markup, element, join, table
-from generator.review.words import unit
+from generator.words import unit
 from identification.report.chart import ESTIMATED, MEASURED, RESIDUAL, axis, chart
 from identification.report.choice import choice
 from identification.report.diagnose.subject import Subject

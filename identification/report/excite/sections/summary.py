@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import listed
+from generator.words import listed
 from identification.excitation.results import Excitation
 from identification.report.numbers import card, number, plain
 

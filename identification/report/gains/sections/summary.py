@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import listed
+from generator.words import listed
 from identification.report.gains.subject import Subject
 from identification.report.numbers import card, number, percent, plain
 from identification.report.told import notes

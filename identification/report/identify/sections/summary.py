@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import listed, plural
+from generator.words import listed, plural
 from identification.report.identify.subject import ALL, Subject
 from identification.report.numbers import card, number, percent, plain
 from identification.report.told import notes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import listed, plural
+from generator.words import listed, plural
 from identification.report.numbers import card, number, percent, plain
 from identification.report.output_error.subject import Subject
 from identification.report.told import notes

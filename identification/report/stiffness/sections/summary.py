@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from generator.review.markup import Markup, element, join
-from generator.review.words import listed, unit
+from generator.words import listed, unit
 from identification.link_encoders import LinkEncoders
 from identification.report.numbers import plain
 from identification.report.stiffness.subject import Subject
