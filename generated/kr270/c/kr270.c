@@ -10,12 +10,12 @@
  *
  * Equations of the bodies, as they were chosen for this chain. With a unit of length of their own, VP is divided by it,
  * F and MS are multiplied by it; S and torques stay as they are:
- *   torques: segments of parallel axes, pseudo-inertias, bodies 2, 6 in axes that do not spin,
+ *   torques: segments of parallel axes, pseudo-inertias, bodies 2 and 6 in axes that do not spin,
  *       frame 6 slid along its axis, a mass kept at O4 against a first moment, lengths in units of
  *       1.1 m
  *   gravity: first moments of composite bodies, as weights
- *   inertia matrix: composite bodies on segments, wrenches meet screws at frame 3, frames 1, 4, 6
- *       slid along their axes, lengths in units of 1.1 m
+ *   inertia matrix: composite bodies on segments, wrenches meet screws at frame 3, frames 1, 4 and
+ *       6 slid along their axes, lengths in units of 1.1 m
  *   regressor: wrenches on screws, parallel ones by their difference, behind frame 5 at that frame
  */
 #include "kr270.h"
