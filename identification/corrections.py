@@ -156,15 +156,21 @@ def true_torques(tau: Array, robot: Robot, period: float, warmth: Array | None) 
     signals, drifts = robot.signals, drifting(robot)
     if not (signals.torque_gain or signals.torque_delay or drifts):
         return tau
-    motor = motor_torques(robot, tau)
-    if signals.torque_gain:
-        motor = _column(signals.torque_gain) * motor
+    motor = motor_torques(robot, cold_torques(tau, robot))
     if warmth is not None:
         for k, part in drifts:
             motor[k] *= 1 + part * warmth[k]
     if signals.torque_delay:
         motor = earlier(motor, signals.torque_delay, period)
     return np.asarray(coupling(robot).T @ motor, dtype=float)
+
+
+def cold_torques(tau: Array, robot: Robot) -> Array:
+    """Joint torques (n x N) [N m, N] of cold motors as strong as their gain makes them, when they are recorded."""
+    gain = robot.signals.torque_gain
+    if not gain:
+        return tau
+    return np.asarray(coupling(robot).T @ (_column(gain) * motor_torques(robot, tau)), dtype=float)
 
 
 def recorded_motor_torques(motor: Array, robot: Robot, period: float, warmth: Array | None) -> Array:

@@ -43,8 +43,8 @@ class Run:
     ``by_motors`` tells that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of
     the drives (n x N) is there where the robot file says it. ``others`` are the file's further columns of known meaning
     by name (N each). ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a
-    part of, the run's own where they are not given. ``notes`` tell every repair. ``coarse`` is how the efforts were
-    rounded in the record, None where they take no steps.
+    part of, the run's own where they are not given. ``notes`` tell every repair. ``coarse`` is how the efforts of cold
+    drives were rounded in the record, None where they take no steps.
     """
 
     name: str
@@ -288,6 +288,9 @@ def _corrected(run: Run, robot: Robot) -> Run:
         unusable = corrections.moved(bad, robot, run.period) | bad
     tau = corrections.true_torques(run.tau, robot, run.period, warmth)
     others = corrections.true_links(run.others, robot, run.period)
+    coarse = run.coarse
+    if coarse is not None:
+        coarse = replace(coarse, acting=corrections.cold_torques(coarse.acting, robot))
     kept = corrections.whole(run.samples, robot, run.period)
     return replace(
         run,
@@ -297,4 +300,5 @@ def _corrected(run: Run, robot: Robot) -> Run:
         unusable=None if unusable is None else unusable[:, kept],
         warmth=None if warmth is None else warmth[:, kept],
         others={name: values[kept] for name, values in others.items()},
+        coarse=coarse,
     )

@@ -87,6 +87,16 @@ def test_offset_gain_and_delay_are_taken_back(recorded: Recorded) -> None:
     np.testing.assert_allclose(run.tau, expected, atol=2e-6 * np.abs(expected).max())
 
 
+def test_steps_of_efforts_grow_with_the_torques(tmp_path: Path) -> None:
+    """Of a slide with a motor of its own, and of two coupled joints."""
+    of = robot(tmp_path, "torque_gain: [1.25, 0.5, 2], torque_delay: [0 s, 0 s, 3 ms]")
+    step = np.array([[0.01], [0.02], [0.04]])
+    run = Recorded(tmp_path).run(of, positions(T), step * np.round(currents(T) / step))
+    assert run.coarse is not None
+    each = N * KT * [[1.25], [0.5], [2.0]] * step
+    np.testing.assert_allclose(run.coarse.of_joints, np.abs(each).max(axis=0), rtol=1e-6)
+
+
 def test_the_ends_of_what_is_allowed_are_allowed(tmp_path: Path) -> None:
     ends = "torque_delay: [0.1 s, -0.1 s, 0 s], torque_gain: [0.3, 3, 1], link_delay: 100 ms"
     signals = robot(tmp_path, ends).signals

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -51,6 +53,21 @@ def test_a_balancer_is_usual_on_the_shoulder(lean: float, usual: set[int], tmp_p
     found = [one for one in library.hypotheses([scene]) if balances(one.effect)]
     assert {2, 3} <= {one.joint for one in found}
     assert {one.joint for one in found if one.usual} == usual
+
+
+def test_the_weight_on_a_slide_says_nothing_of_shoulders(tmp_path: Path) -> None:
+    """A lift that leans, and carries a light arm: newtons are no part of newton metres."""
+    path = tmp_path / "lift.yaml"
+    axes = ((1, 1, "pi/6", "0", "q1"), (2, 0, "pi/2", "q2", "0"), (3, 0, "0", "q3", "0"), (4, 0, "pi/2", "q4", "0"))
+    joints = "".join(f"  - {{j: {j}, sigma: {s}, alpha: {a}, d: 0, theta: {t}, r: {r}}}\n" for j, s, a, t, r in axes)
+    path.write_text(f"name: lift\ngravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\njoints:\n{joints}", encoding="utf-8")
+    swing = np.array([200.0, 50.0, 20.0, 1.0])
+    slides, turning = sorted(library._alike(read(path)), key=len)
+    assert library._shoulders(swing, turning) == {1}
+    assert library._shoulders(swing, slides) == {0}
+    assert library._shoulders(0 * swing, turning) == set()
+    scenes: Any = [SimpleNamespace(tau=np.array([[0.0, 300.0], [0.0, 80.0], [0.0, 30.0], [0.0, 5.0]]))]
+    assert library._weighty(scenes, swing, turning) == {1, 2}
 
 
 def test_a_balancer_has_room_over_the_limits_of_the_joint(tmp_path: Path) -> None:

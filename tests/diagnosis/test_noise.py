@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from identification.diagnosis.columns.whitening import Colour, colour
 from identification.diagnosis.noise.measured import colours
+from identification.diagnosis.noise.noise_floor import density
 from tests.matrices import bank, hypothesis, process, run, whitened
 
 Array = NDArray[np.float64]
@@ -182,6 +183,17 @@ def test_rows_of_one_rate_have_one_colour() -> None:
     first, second = colours(bank(runs))
     expect_the_noise(first[0])
     assert second[0].filters[-1][1:] == pytest.approx(np.zeros(10), abs=0.12)
+
+
+def test_noise_beyond_the_rows_of_a_slow_run_is_as_strong_as_at_their_end() -> None:
+    """It is no mirror image of what is below."""
+    runs = [run(base(), base()[0] + noise(1), period=PERIOD)]
+    one = bank(runs)
+    one.whiten(colours(one))
+    end = runs[0].rate / 2
+    inside, *beyond = density(one, 0, np.array([end, 1.2 * end, 1.9 * end]))
+    assert beyond == pytest.approx([inside, inside])
+    assert density(one, 0, np.array([0.1 * end]))[0] > 2 * inside
 
 
 @pytest.mark.parametrize("periods", [1.8, 2.0, 4.0, 10.0])

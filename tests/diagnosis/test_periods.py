@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from generator.errors import InputError, Place
 from generator.resources import find_robot
+from generator.robot.description import PRISMATIC, REVOLUTE
 from generator.robot.readers import read
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import period_of, repeating
@@ -87,6 +88,15 @@ def test_a_joint_that_is_held_does_not_count() -> None:
     assert period_of(q, 0.002) == 750
     q[1] = 0.3 + 0.02 * tremble
     assert period_of(q, 0.002) == 0
+
+
+def test_a_short_stroke_of_a_slide_counts_beside_a_wide_turn() -> None:
+    """Metres are no part of radians: 4 mm that repeat after another time than 5 rad do."""
+    t = np.arange(5000) / 250.0
+    q = np.stack([2.5 * np.sin(2 * np.pi * t / 5.0), 0.002 * np.sin(2 * np.pi * t / 3.7)])
+    assert repeating(q, 0.004, [REVOLUTE, PRISMATIC])[0] == 0
+    q[1] = 0.002 * np.sin(2 * np.pi * t / 2.5)
+    assert repeating(q, 0.004, [REVOLUTE, PRISMATIC])[0] == 1250
 
 
 @pytest.mark.parametrize(

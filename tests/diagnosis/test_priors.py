@@ -59,6 +59,21 @@ def regressors(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
     return Regressors(read(path))
 
 
+def test_zeros_of_a_unit_are_known_though_nothing_else_of_it_is(tmp_path: Path) -> None:
+    """Without friction; what of it may be there is small beside all else."""
+    path = tmp_path / "arm.yaml"
+    none = {name: (0.0 if name.startswith("Fv") else told[0], told[1]) for name, told in VALUES.items()}
+    lines = [f"      {name}: {{value: {value}, unit: {unit}}}" for name, (value, unit) in none.items()]
+    path.write_text(ARM + "\n".join(lines) + "\n", encoding="utf-8")
+    of = Regressors(read(path))
+    found = prior_of(of.model, "drawing")
+    at = [of.names.index(name) for name in ("Fv1", "Fv2")]
+    assert found.known[at].all()
+    assert found.mean[at].tolist() == [0.0, 0.0]
+    assert np.all(np.diag(found.precision)[at] ** -0.5 < 0.01)
+    assert notes_of(of.model, "drawing") == []
+
+
 @pytest.mark.parametrize(("rotor", "known"), [(None, False), (0.0, True), (5.0, True)])
 def test_bodies_alone_do_not_tell_what_their_drives_add(rotor: float | None, known: bool, tmp_path: Path) -> None:
     """An inertia that holds a rotor's is known where the set tells the rotor, if only that there is none."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.effects.effect import BALANCER, Effect, Shape
 from generator.effects.library import library
@@ -18,6 +19,8 @@ from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
 from identification.diagnosis.runs.rotor import rotor_inertia, usual_rotor
 from identification.diagnosis.runs.scene import Scene
+
+Coordinates = NDArray[np.int64]
 
 #: Part of the largest weight torque's swing that a joint must see to be a place for a balancer.
 _WEIGHT = 0.05
@@ -50,13 +53,15 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
         return []
     robot = scenes[0].robot
     swing = np.max([np.ptp(scene.weight, axis=-1) for scene in scenes], axis=0)
-    weighty, shoulders = _weighty(scenes, swing), _shoulders(swing)
+    alike = _alike(robot)
+    weighty = {k for own in alike for k in _weighty(scenes, swing, own)}
+    shoulders = {k for own in alike for k in _shoulders(swing, own)}
     return [
         one
         for effect in library().values()
         for k, joint in enumerate(robot.moving)
         if any(scene.moves(k) for scene in scenes)
-        if _possible(effect, joint, robot) and (effect.role != BALANCER or weighty[k])
+        if _possible(effect, joint, robot) and (effect.role != BALANCER or k in weighty)
         if "warmth" not in effect.needs or _warming(k, scenes)
         for one in on_joint(effect, joint, k, scenes, effect.role != BALANCER or k in shoulders)
     ]
@@ -78,19 +83,25 @@ def _there(joint: Joint, robot: Robot) -> set[str]:
     return {use.effect for use in robot.effects if joint.number in use.joints}
 
 
-def _shoulders(swing: Array) -> set[int]:
-    """Joints that a balancer is expected on, by the swing of the weight's torque: the one that carries most, and the
-    first that carries much, of which a balancer that is not known may hide a part.
+def _alike(robot: Robot) -> list[Coordinates]:
+    """Coordinates of joints whose torques compare: those that turn, and those that slide."""
+    kinds = np.array([joint.sigma for joint in robot.moving])
+    return [np.flatnonzero(kinds == kind) for kind in np.unique(kinds)]
+
+
+def _shoulders(swing: Array, alike: Coordinates) -> set[int]:
+    """Joints of those ``alike`` that a balancer is expected on, by the swing (n) of the weight's torque: the one that
+    carries most, and the first that carries much, of which a balancer that is not known may hide a part.
     """
-    if not swing.any():
-        return set()
-    return {int(np.argmax(swing)), int(np.flatnonzero(swing > _CARRIES * swing.max())[0])}
+    most = float(swing[alike].max())
+    carrying = alike[swing[alike] > _CARRIES * most]
+    return {int(alike[np.argmax(swing[alike])]), *carrying[:1].tolist()} if most else set()
 
 
-def _weighty(scenes: Sequence[Scene], swing: Array) -> list[bool]:
-    """Whether the bodies' weight on a joint changes with the position: where a balancer makes sense."""
+def _weighty(scenes: Sequence[Scene], swing: Array, alike: Coordinates) -> set[int]:
+    """Joints of those ``alike`` on which the bodies' weight changes with the position: where a balancer makes sense."""
     torque = np.max([np.ptp(scene.tau, axis=-1) for scene in scenes], axis=0)
-    return [bool(one > _WEIGHT * swing.max() and one > _FELT * most) for one, most in zip(swing, torque, strict=True)]
+    return {k for k in alike.tolist() if swing[k] > max(_WEIGHT * swing[alike].max(), _FELT * torque[k])}
 
 
 def _warming(k: int, scenes: Sequence[Scene]) -> bool:

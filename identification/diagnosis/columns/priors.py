@@ -58,14 +58,18 @@ def notes_of(model: Model, name: str) -> list[str]:
 
 
 def _known(model: Model, name: str) -> tuple[Prior, dict[str, Array]]:
-    """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_untold``)."""
+    """What the set says, a missing parameter being zero in the sums of others, and what is not known (``_unknown``)."""
     told = _joined(model, named_set(model.robot, name, command_line("--prior")).values)
     given = regrouped(model, told)
     values = resolved(model, given)
     largest: dict[str, float] = {}
     for one in given.values():
         largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
-    deviation = {key: _deviation(one, largest[one.unit]) for key, one in given.items()} | _refining(model, given)
+    # Where all of a unit are zero, none of them tells what is small.
+    least = min((one for one in largest.values() if one), default=0.0)
+    deviation = {key: _deviation(one, largest[one.unit] or least) for key, one in given.items()} | _refining(
+        model, given
+    )
     keys = list(deviation)
     map_ = np.zeros((len(model.base_parameters), len(keys)))
     lengths = model.robot.geometry

@@ -21,10 +21,12 @@ _LOUD, _LOUDER, _TIMES = 0.1, 0.02, 3.0
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:
-    """One-sided power density (F) [unit^2/Hz] of coordinate k's noise at frequencies (F) [Hz], mean of all runs."""
+    """One-sided power density (F) [unit^2/Hz] of coordinate k's noise at frequencies (F) [Hz], mean of all runs: even
+    where their rows show no frequencies.
+    """
     every = []
     for run, colours in zip(bank.runs, bank.colours, strict=True):
-        every.append(colours[k].spectrum(frequency, run.rate))
+        every.append(colours[k].spectrum(np.minimum(frequency, run.rate / 2), run.rate))
     return np.asarray(np.mean(every, axis=0))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import argrelmin
@@ -10,7 +12,8 @@ from identification.arrays import Array
 
 #: What a repetition may differ by, mean square over the motion's variance; and what must lie between two of them.
 _SAME, _OTHER = 1e-5, 0.05
-#: Spread of a joint [rad, m] below which it stands; and in parts of the largest, below which it is held and trembles.
+#: Spread of a joint [rad, m] below which it stands; and in parts of the largest of its kind, below which it is held and
+#: trembles.
 _STANDING, _HELD = 1e-9, 1e-3
 #: Shortest period [s]; time [s] after the beginning in which a drive may still catch up with the motion, as a part of
 #: the record at most.
@@ -31,24 +34,26 @@ def period_of(q: Array, period: float) -> int:
     return repeating(q, period)[0]
 
 
-def repeating(q: Array, period: float) -> tuple[int, slice]:
+def repeating(q: Array, period: float, kinds: Sequence[int] = ()) -> tuple[int, slice]:
     """Samples after which positions q (n x N), sampled every ``period`` [s], repeat, 0 where they do not; and those
     that do: all but a way to where the motion begins, and from where it ends.
 
-    At least two whole periods must be there; the first second need not repeat. A joint that hardly moves beside the
-    others does not count: the steps of its encoder do not repeat.
+    At least two whole periods must be there; the first second need not repeat. A joint that hardly moves beside
+    others of its kind does not count: the steps of its encoder do not repeat. ``kinds`` (n) are those of the joints,
+    without which all are of one.
     """
     count = q.shape[-1]
     beginning = int(min(_STARTING / period, _PART * count))
-    if found := _period(q, period, count // 2) or _period(q[:, beginning:], period, (count - beginning) // 2):
+    x = _moved(q, kinds)
+    rest = _moved(q[:, beginning:], kinds)
+    if found := _period(x, period, count // 2) or _period(rest, period, (count - beginning) // 2):
         return found, slice(0, count)
-    x = _moved(q)
     for near in _lags_that_stand_out(x, period):
         lag = _of_most(x, near)
         stretch = _stretch(x, lag)
         length = stretch.stop - stretch.start
         if length > max(_MOST * count, _TWICE * lag) and (
-            found := _period(q[:, stretch], period, int(length / _TWICE))
+            found := _period(_moved(q[:, stretch], kinds), period, int(length / _TWICE))
         ):
             return found, stretch
     return 0, slice(0, count)
@@ -90,17 +95,17 @@ def _stretch(x: Array, lag: int) -> slice:
     return slice(int(starts[longest]), int(stops[longest]) + lag)
 
 
-def _moved(q: Array) -> Array:
+def _moved(q: Array, kinds: Sequence[int]) -> Array:
     """Positions of the joints that move, about their mean, in units of their spread."""
     moved = q - q.mean(axis=-1, keepdims=True)
     spread = moved.std(axis=-1)
-    moving = spread > max(_STANDING, _HELD * spread.max())
+    alike = np.equal.outer(kinds, kinds) if len(kinds) else np.ones((len(q), len(q)), dtype=bool)
+    moving = spread > np.maximum(_STANDING, _HELD * np.max(alike * spread, axis=1))
     return np.asarray(moved[moving] / spread[moving, None])
 
 
-def _period(q: Array, period: float, most: int) -> int:
-    """Samples after which all positions repeat, up to so many at ``most``; 0 where they do not."""
-    x = _moved(q)
+def _period(x: Array, period: float, most: int) -> int:
+    """Samples after which all positions x, ``_moved``, repeat, up to so many at ``most``; 0 where they do not."""
     if not x.size:
         return 0
     lags, difference = _differences(x, most)

@@ -198,7 +198,8 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
         raise InputError(
             run.place, f"a run of {run.duration:.3g} s", f"{SHORTEST:g} s at least, better several periods"
         )
-    period, stretch = repeating(run.q, run.period)
+    kinds = [joint.sigma for joint in regressors.model.robot.moving]
+    period, stretch = repeating(run.q, run.period, kinds)
     factor, compared = _decimation(run.rate / RATE, period, stretch.stop - stretch.start)
     changed = recipe.changed(cutoff=min(RATE, 0.4 * run.rate), factor=factor, order=4, standstill=0.0)
     filtering = replace(changed, dropped_first=None, dropped_last=None)

@@ -119,7 +119,7 @@ class Scene:
         return self.sampled.run.period
 
     def moves(self, k: int) -> bool:
-        """Whether coordinate ``k`` moves, and has rows."""
+        """Whether coordinate ``k`` moves."""
         return bool(np.ptp(self.motion.q[k]) >= STILL)
 
     @cached_property

@@ -16,8 +16,8 @@ _ELSEWHERE = "other motion, or the base mounted another way: along these runs it
 
 
 def invisible(weighing: Weighing) -> list[Hypothesis]:
-    """Hypotheses of which, with most of their shapes, the model takes up all but a hundredth; then those that make no
-    torque along the runs. What may be of one joint is told of each.
+    """Hypotheses of which, with most of their shapes, the model takes up nearly all (``least_part``); then those that
+    make no torque along the runs. What may be of one joint is told of each.
     """
     hidden: dict[Key, list[bool]] = {}
     whose: dict[Key, Hypothesis] = {}

@@ -2,8 +2,8 @@
 
 A hypothesis may be taken when nothing speaks against it. ``Weighing._judged`` asks in this order: chance, for all that
 was tried; another effect, known friction or noise of the positions, of which its drop may be a part; a run that was not
-fitted; its size, beside the noise and beside what is still unexplained; what laws that were taken lack; the end of what
-was tried of its shape; and joints of few rows.
+fitted; its size, beside the noise and beside what is still unexplained; what laws that were taken lack; what the
+joint's friction lacks; the end of what was tried of its shape; and joints of few rows.
 """
 
 from __future__ import annotations

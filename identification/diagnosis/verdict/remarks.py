@@ -137,7 +137,7 @@ def of_warmth(found: Search) -> Iterator[str]:
             files = listed(dict.fromkeys(one.sampled.run.file for one in without))
             yield (
                 f"{files}: how warm the drive of joint {found.bank.robot.numbers[k]} was is not recorded, as it is in "
-                "other runs: friction that warms up and a torque that drifts are not looked for there"
+                "other runs: friction that warms up and a torque that drifts are not looked for on that joint"
             )
 
 

@@ -30,7 +30,7 @@ def render(subject: Subject) -> Markup | None:
 def _row(one: Finding) -> list[Content]:
     e = one.evidence
     sizes = [number(e.size, 3), chance(e.p), number(e.drop, 4), number(e.validation, 4)]
-    return [capitalised(one.hypothesis.named), values(one), one.status, one.hypothesis.variable or "–", *sizes]
+    return [capitalised(one.hypothesis.named), values(one), one.status, one.variable or "–", *sizes]
 
 
 def _alternatives(one: Finding) -> Markup:

@@ -22,7 +22,7 @@ def render(subject: Subject) -> Markup | None:
         for (title, show), numbers in grouped.items()
     ]
     text = (
-        "Of these effects the model's own parameters take up all but a hundredth, or they make no torque along these"
+        "Of these effects the model's own parameters take up nearly all, or they make no torque along these"
         " runs: whether they are there cannot be told, and nothing is said about them."
     )
     return join(element("p", text), table(("effect", "joints", "what would show it"), rows, class_="remarks"))

@@ -34,4 +34,4 @@ def render(subject: Subject) -> Markup:
 
 
 def _period(one: Prepared) -> str:
-    return one.unlike or f"repeats every {one.period * one.sampled.filters.factor * one.sampled.run.period:.4g} s"
+    return one.unlike or f"repeats every {one.repeats * one.sampled.run.period:.4g} s"
