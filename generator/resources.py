@@ -11,8 +11,6 @@ from generator.errors import InputError, Place
 #: Names a folder that holds ``robots`` and ``templates`` and comes before all others.
 OVERRIDE = "COUNTERPOISE_DATA"
 
-_EXTENSIONS = (".yaml", ".yml")
-
 
 def data_folder(name: str) -> Path:
     """The folder ``robots`` or ``templates``: the environment's override, then the checkout, then the package's own.
@@ -35,17 +33,16 @@ def templates() -> Path:
 
 def robots() -> list[Path]:
     """The robot files that ``find_robot`` knows by name, sorted."""
-    folder = data_folder("robots")
-    return sorted(path for path in folder.glob("*") if path.suffix in _EXTENSIONS and path.is_file())
+    return sorted(path for path in data_folder("robots").glob("*") if _is_robot_file(path) and path.is_file())
 
 
 def find_robot(name_or_path: str) -> Path:
-    """The robot file of a name in ``robots/`` or of a path (with a separator, or ending in .yaml or .yml).
+    """The robot file of a name in ``robots/`` or of a path (with a separator, or with a robot file's ending).
 
     Raises InputError where there is none.
     """
     path = Path(name_or_path)
-    if path.suffix in _EXTENSIONS or "/" in name_or_path or os.sep in name_or_path:
+    if _is_robot_file(path) or "/" in name_or_path or os.sep in name_or_path:
         if not os.path.exists(path):
             raise InputError(Place(name_or_path), "there is no such file", "the path of a robot file")
         return path
@@ -59,3 +56,10 @@ def find_robot(name_or_path: str) -> Path:
         f"there is no robot {name_or_path!r}",
         f"{perhaps}one of {', '.join(known)} or the path of a robot file",
     )
+
+
+def _is_robot_file(path: Path) -> bool:
+    """Whether a reader takes files of that name."""
+    from generator.robot.readers import endings
+
+    return path.suffix.lower() in endings()

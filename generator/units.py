@@ -36,7 +36,7 @@ _SYMBOLS: dict[str, tuple[sympy.Expr, tuple[int, ...]]] = {
 #: SI units as the field writes them; any other is written in base units.
 _CUSTOMARY = (
     "1", "kg", "kg m", "kg m2", "m", "rad", "m/s", "rad/s", "m/s2", "rad/s2", "N", "N m", "N/m", "N m/rad", "N s/m",
-    "N m s/rad", "N m/rad3", "N/m3", "N/A", "N m/A",
+    "N m s/rad", "N m/rad3", "N/m3", "N/A", "N m/A", "rad/m", "m/rad",
 )  # fmt: skip
 
 _ALTERNATIVES = {"m": "m, cm or mm", "rad": "rad, mrad or deg"}

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sympy import Integer
+from sympy import Abs, Integer, sign
 
 from generator.derivation import derive
 from generator.effects.effect import Effect, LinearParameter, Shape, State
 from generator.effects.library import library
+from generator.reference.joint_effects import LAWS
 from generator.review.stated import effects
 from generator.robot.readers import read
 from generator.selftest import Case, cases
@@ -146,3 +147,26 @@ def test_an_effect_of_drive_trains_needs_what_a_motor_has() -> None:
 
 def _parameters(case: Case) -> dict[str, tuple[float, ...]]:
     return {"parameters": case.parameters}
+
+
+def test_friction_by_the_load_needs_no_rotor(tmp_path: Path, added: Added, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without that value, all that accelerates is load, as with a rotor of no inertia."""
+    of_load = library()["load_friction"]
+    added(
+        replace(
+            of_load,
+            id="pressed_friction",
+            parameters=(LinearParameter("Fl", ("1", "1"), "friction", 0.0),),
+            columns=lambda at: (at.on_joint(sign(at.qd) * Abs(at.load)),),
+            shapes=(),
+        )
+    )
+    law = replace(LAWS["load_friction"], torque=lambda at: (at.direction * abs(at.load),), defaults={})
+    monkeypatch.setitem(LAWS, "pressed_friction", law)  # type: ignore[arg-type]
+    one = model(tmp_path, "  - {effect: pressed_friction, joint: 2}\n")
+    other = model(tmp_path, "  - {effect: load_friction, joint: 2, values: {rotor: 0 kg m2}}\n")
+    parameters = [0.1 * k for k in range(1, len(one.parameters) + 1)]
+    state = {"parameters": parameters, "q": [0.3, 0.4], "qd": [1.0, -2.0], "tau": [3.0, 4.0]}
+    qdd, expected = (evaluate(each.functions["direct_dynamics"], state)["qdd"] for each in (one, other))
+    np.testing.assert_allclose(qdd, expected, rtol=1e-12)
+    assert {case.function for case in cases(one)} == {case.function for case in cases(other)}

@@ -179,3 +179,13 @@ def test_a_header_without_parameters_asks_for_none(tmp_path: Path) -> None:
         header = next(str(text) for path, text in c.library(model, ()).items() if path.endswith(".h"))
         assert all(words in header for words in there)
         assert not any(words in header for words in absent)
+
+
+def test_a_robot_without_a_description_is_titled_by_its_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "pendulum.yaml"
+    path.write_text(PENDULUM.replace("description: one link on a horizontal axis\n", ""))
+    assert built_in(read(path), "light").robot.description == "parameter set light built in"
+    done = command("generate", path, "--out", tmp_path, capsys=capsys)
+    assert done.out.startswith("pendulum\nbase parameters")

@@ -14,6 +14,7 @@ from generator.errors import InputError
 from generator.generation import generate
 from generator.python_library import build_library, load_library
 from generator.robot.readers import read
+from tests.compiled import module
 
 ARM = """\
 name: names
@@ -121,3 +122,24 @@ def test_a_length_called_like_a_parameter_of_an_effect_is_told_where_it_stands(t
     path.write_text(path.read_text() + "  - {effect: dahl_friction, joint: 1, values: {xs: 1 mrad}}\n")
     with pytest.raises(InputError, match=r":4:3: length 'Fd1' has the name of a parameter of dahl_friction, expected"):
         derive(read(path))
+
+
+@pytest.mark.parametrize("name", ["Fst2", "kc1", "Fp3", "Iam2", "k1", "ks3", "F01", "Fv12", "Ia1R"])
+def test_no_length_has_a_name_that_an_effect_could_bring(name: str, tmp_path: Path) -> None:
+    """A diagnosis may add any effect of the library to the file, which is then to be read as before."""
+    path = tmp_path / "names.yaml"
+    path.write_text(ARM.replace("FIRST", name).replace("SECOND", "b"))
+    with pytest.raises(InputError, match=rf":4:3: length '{name}' has the name of a parameter of [a-z_]+, expected"):
+        derive(read(path), ())
+
+
+def test_arguments_of_casadi_functions_have_names_that_no_length_takes(tmp_path: Path) -> None:
+    path = tmp_path / "names.yaml"
+    values = []
+    for names in (("a", "b"), ("in_q", "in_parameters")):
+        path.write_text(ARM.replace("FIRST", names[0]).replace("SECOND", names[1]))
+        model = derive(read(path), ["inverse_dynamics"], check=False)
+        functions = module(casadi.emit(model)["names.py"], "names").functions()
+        size = len(model.parameters)
+        values.append(functions["inverse_dynamics"]([0.1 * k for k in range(size)], [1, 2, 3], [4, 5, 6], [7, 8, 9]))
+    assert (values[0] == values[1]).full().all()

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import re
 from contextlib import nullcontext
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from generator.derivation import derive
-from generator.effects.library import effects_of
+from generator.effects.library import effects_of, library
 from generator.errors import InputError
+from generator.robot.description import PRISMATIC
 from generator.robot.readers import read
 from tests.commands import PENDULUM
 
@@ -51,3 +54,53 @@ def test_values_that_leave_torques_nearly_alike_are_refused(
     told += f"expected values of {effect} with which it is, or the effect left out"
     with pytest.raises(InputError, match=re.escape(told)):
         derive(read(path), ())
+
+
+#: The second joint slides.
+SCREW = """\
+name: screw
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: pi/2, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 1, alpha: pi/2, d: 0, theta: 0, r: q2}
+  - {j: 3, sigma: 0, alpha: pi/2, d: 0.3 m, theta: q3, r: 0}
+effects: [{effect: coupled_rotor, joint: JOINT, values: {other: OTHER, ratio: RATIO}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("joint", "other", "ratio", "told"),
+    [
+        (1, 2, "314 rad/m", 314),
+        (1, 2, "0.314 rad/mm", 314),
+        (1, 2, "314", 314),
+        (2, 1, "3 mm/rad", Fraction(3, 1000)),
+        (2, 1, "3 rad/m", "ratio is given in rad/m, expected a number without a unit or in m/rad"),
+        (1, 2, "3 rad", "ratio is given in rad, expected a number without a unit or in rad/m"),
+        (1, 3, "3 rad/m", "ratio is given in rad/m, expected a number without a unit"),
+    ],
+)
+def test_a_ratio_between_a_slide_and_a_revolute_joint_may_state_its_unit(
+    joint: int, other: int, ratio: str, told: Fraction | str, tmp_path: Path
+) -> None:
+    path = tmp_path / "screw.yaml"
+    path.write_text(SCREW.replace("JOINT", str(joint)).replace("OTHER", str(other)).replace("RATIO", ratio))
+    if isinstance(told, str):
+        with pytest.raises(InputError, match=re.escape(told) + "$"):
+            effects_of(read(path))
+    else:
+        (instance,) = effects_of(read(path))
+        assert instance.site.values["ratio"] == told
+
+
+def test_the_kinds_of_joint_that_an_effect_needs_are_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "screw.yaml"
+    use = "effect: cycloid_ripple, joint: 2, values: {order: 3}"
+    path.write_text(re.sub("effect: coupled_rotor.*}}", f"{use}}}", SCREW))
+    with pytest.raises(InputError, match=r"cycloid_ripple cannot sit on joint 2, expected a revolute joint$"):
+        effects_of(read(path))
+    of_slides = replace(library()["cycloid_ripple"], kinds=(PRISMATIC,))
+    monkeypatch.setattr("generator.effects.library.library", lambda: {of_slides.id: of_slides})
+    path.write_text(path.read_text().replace("joint: 2", "joint: 1"))
+    with pytest.raises(InputError, match=r"cycloid_ripple cannot sit on joint 1, expected a prismatic joint$"):
+        effects_of(read(path))

@@ -79,3 +79,17 @@ def test_a_named_angle_that_is_a_number_is_one_in_the_code(angle: str, exact: st
 
 def test_other_values_hold_away_from_the_nominal_ones(tmp_path: Path) -> None:
     check_core(subject(arm(tmp_path, symbolic=True, values={"A": "0.4 m", "B": "0.3 m"}), 1, CORE), 1)
+
+
+def test_a_general_value_is_made_special_by_no_step(tmp_path: Path) -> None:
+    """Each symbolic length, the seventh too, is held against another value of it, which must not be a special one."""
+    lengths = "".join(f"  l{k}: {{nominal: 0.1 m, symbolic: true}}\n" for k in range(1, 7))
+    fixed = "".join(f"  - {{j: {k}, sigma: 2, alpha: 0, d: l{k}, theta: 0, r: 0}}\n" for k in range(1, 7))
+    path = tmp_path / "arm.yaml"
+    path.write_text(
+        f"name: arm\ngravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\ngeometry:\n{lengths}"
+        f"  l7: {{nominal: -1 m, symbolic: true}}\njoints:\n{fixed}"
+        "  - {j: 7, sigma: 0, alpha: pi/2, d: 0, theta: q7, r: 0}\n"
+        "  - {j: 8, sigma: 0, alpha: pi/2, d: l7, theta: q8, r: 0}\n"
+    )
+    assert Model(read(path)).grouping.base

@@ -33,6 +33,7 @@ _LANGUAGE = Language(
     statement="{name} = {value}",
     literal="{value}",
     reserved=PYTHON_RESERVED | {"ca"},
+    argument="in_{name}",
 )
 
 

@@ -8,7 +8,7 @@ from generator.backends.printing.identifiers import C_RESERVED, PYTHON_RESERVED,
 from generator.backends.printing.language import LINE
 from generator.backends.printing.many_samples import DYNAMICS, REGRESSOR, of_many_samples
 from generator.backends.printing.observation import layout
-from generator.backends.printing.plants import plants
+from generator.backends.printing.plants import plants, turns_rotors
 from generator.backends.printing.prepared import prepare
 from generator.backends.printing.python_functions import module_constants
 from generator.backends.printing.runge_kutta import METHODS
@@ -52,6 +52,7 @@ def emit(model: Model) -> dict[str, str | bytes]:
         "methods": [_method(function) for function in model.functions.values()],
         "prefix": model.robot.name,
         "plants": plants(model),
+        "drives": turns_rotors(model),
         "integrators": METHODS,
         "many": of_many_samples(model),
         "width": len(model.base_parameters),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from generator.backends.printing.c_functions import c_language
 from generator.backends.printing.language import LINE
-from generator.backends.printing.plants import plants
+from generator.backends.printing.plants import plants, turns_rotors
 from generator.backends.printing.runge_kutta import METHODS, Method, Stage, stages
 from generator.backends.printing.signals import paragraph
 from generator.backends.printing.templates import render
@@ -15,9 +15,6 @@ from generator.symbolic.model import Model
 from generator.version import VERSION
 
 NAME = "simulation"
-
-#: The maps between joints and rotors of a robot that has drives.
-_MAPS = ("motor_position", "motor_speed", "motor_torque", "joint_torque")
 
 
 @dataclass(frozen=True)
@@ -55,7 +52,7 @@ def sources(model: Model, methods: Sequence[Method]) -> dict[str, str | bytes]:
         "nq": model.dof,
         "plants": found,
         "methods": [Integrator(m.name, m.title, tuple(stages(m, language))) for m in methods],
-        "drives": all(name in model.functions for name in _MAPS),
+        "drives": turns_rotors(model),
     }
     return {
         f"{prefix}_simulation.h": render("simulation/header.h.jinja", **context),

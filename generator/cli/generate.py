@@ -61,8 +61,10 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _summary(folder: Path, manifest: dict[str, Any], passed: dict[str, int]) -> str:
+    from generator.backends.printing.signals import headline
+
     robot, base = manifest["robot"], manifest["base_parameters"]
-    lines = [f"{robot['name']}: {robot['description']}", f"base parameters  {len(base)}"]
+    lines = [headline(robot["name"], robot["description"]), f"base parameters  {len(base)}"]
     lines += [f"effect           {_effect(effect)}" for effect in manifest["effects"]]
     if manifest["flexible"]:
         lines.append(f"elastic joints   {', '.join(map(str, manifest['flexible']))}")

@@ -43,6 +43,7 @@ EFFECT = Effect(
             "ratio",
             "1",
             "rotor speed per speed of the other joint, in units of that per speed of its own",
+            per_other=True,
             nonzero=True,
         ),
     ),

@@ -51,13 +51,15 @@ class Shape:
     """A fixed value of an effect: its unit, what it is, open physical bounds (None where free), a default if any.
 
     ``prismatic`` is the unit on a prismatic joint, where it is another one. ``joint`` tells that it is the number of
-    another moving joint. ``tried`` are the values at which a search for an unknown one begins, in units of the joint's
-    top speed where ``relative`` says "speed", of its rotor's inertia where it says "rotor", of half the range it moves
-    through, from its middle, where it says "position", of that half or of the shape's unit, whichever is less, where it
-    says "way", and ``within`` are ends between which it goes on from there in geometric steps; where ``whole`` nothing
-    between whole numbers is a value, and where ``several`` every whole number up to that one can be. Where ``exact``
-    what fits better between two whole numbers is another effect. Of a ``scale`` any value will do where none is known:
-    others count in units of it. One that is ``nonzero`` may have either sign.
+    another moving joint, ``per_other`` that it counts the joint's motion per that of this other one: between a slide
+    and a revolute joint it may be written in rad/m or m/rad, in which it is taken. ``tried`` are the values at which a
+    search for an unknown one begins, in units of the joint's top speed where ``relative`` says "speed", of its rotor's
+    inertia where it says "rotor", of half the range it moves through, from its middle, where it says "position", of
+    that half or of the shape's unit, whichever is less, where it says "way", and ``within`` are ends between which it
+    goes on from there in geometric steps; where ``whole`` nothing between whole numbers is a value, and where
+    ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole numbers is
+    another effect. Of a ``scale`` any value will do where none is known: others count in units of it. One that is
+    ``nonzero`` may have either sign.
     """
 
     name: str
@@ -68,6 +70,7 @@ class Shape:
     default: sympy.Expr | None = None
     prismatic: str | None = None
     joint: bool = False
+    per_other: bool = False
     tried: tuple[float, ...] = ()
     within: tuple[float, float] | None = None
     relative: str = ""
@@ -187,7 +190,7 @@ class Effect:
     (elongation), motor (its position; the robot needs drives), load, warmth, state.
     ``rates`` are the time derivatives of ``states``, in their order. ``drive_train`` effects sit on the motor side of
     an elastic joint. ``on_link`` effects act on the link past the transmission, whose load they are part of; they
-    depend on q alone. What reads the load is proportional to |load - rotor qdd|, ``rotor`` a shape value.
+    depend on q alone. What reads the load is proportional to |load - rotor qdd|, ``rotor`` a shape value, 0 without it.
     ``dissipates`` tells that the effect never gives power to the robot while its parameters are not below their bounds.
     ``kinds`` are the kinds of joint (sigma) it can sit on. ``rank`` orders the parameters of one joint. ``occurs`` is
     how many robots have it (``EVERYWHERE``, ``OFTEN``), ``role`` what it is there for (``BALANCER``, ``SPRING``), both

@@ -17,7 +17,7 @@ EFFECT = Effect(
     potential_energy=lambda at: (at.q**2 / 2,),
     needs=("q",),
     on_link=True,
-    sign_convention="the inverse dynamic model holds + k q; a joint without a motor moves so that its torque is zero",
+    sign_convention="the inverse dynamic model holds + ks q; a joint without a motor moves so that its torque is zero",
     assumptions="linear, relaxed at q = 0",
     source="report eq. 7",
     rank=60,

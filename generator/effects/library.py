@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -12,9 +13,11 @@ import generator.effects
 from generator.discovery import modules
 from generator.effects.effect import Column, Effect, Positive, Shape, Site, State
 from generator.errors import InputError, Place
-from generator.robot.description import FIXED, EffectUse, Joint, Robot
+from generator.robot.description import PRISMATIC, REVOLUTE, EffectUse, Joint, Robot
 from generator.robot.fields import check_size, nearest
 from generator.robot.parameters import Parameter
+
+_KINDS = {REVOLUTE: "revolute", PRISMATIC: "prismatic"}
 
 
 @dataclass(frozen=True)
@@ -105,7 +108,7 @@ def effects_of(robot: Robot) -> tuple[Instance, ...]:
         for number in use.joints:
             joint = robot.joints[number - 1]
             _check_joint(use, effect, robot, joint, [one.effect for (j, _), one in instances.items() if j == number])
-            site = Site(joint, _values(use, effect, joint), _ratios(use, effect, robot, joint))
+            site = Site(joint, _values(use, effect, joint, robot), _ratios(use, effect, robot, joint))
             _check_range(use, effect, site)
             instances[number, effect.id] = Instance(effect, site)
     rigid = {key: one for key, one in instances.items() if "qe" not in one.effect.needs}
@@ -124,10 +127,9 @@ def _check_joint(use: EffectUse, effect: Effect, robot: Robot, joint: Joint, the
     number = joint.number
     if effect in there:
         raise InputError(use.place, f"effect {effect.id} stands twice on joint {number}", "it once")
-    if joint.sigma == FIXED:
-        raise InputError(use.place, f"effect {effect.id} sits on fixed joint {number}", "a moving joint")
     if joint.sigma not in effect.kinds:
-        raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", "a revolute joint")
+        expected = f"a {' or '.join(_KINDS[sigma] for sigma in effect.kinds)} joint"
+        raise InputError(use.place, f"effect {effect.id} cannot sit on joint {number}", expected)
     if "qe" in effect.needs and number not in robot.flexible:
         raise InputError(use.place, f"the drive train of joint {number} is not elastic", "a joint of flexible")
     if effect.observables and any(one.observables for one in there):
@@ -167,20 +169,25 @@ def _not_positive(effect: Effect, site: Site, lower: sympy.Expr, upper: sympy.Ex
 
 
 def _check_names(robot: Robot, instances: list[Instance]) -> None:
-    """Every parameter has a name of its own, among the lengths too."""
-    motor = motor_side(robot)
-    names = {name: one.effect.id for one in (*instances, *motor) for name in one.names}
+    """Every parameter has a name of its own. No length has one that an effect could bring, here or in another file."""
     for length in robot.lengths:
-        if length.name in names:
-            problem = f"length {length.name!r} has the name of a parameter of {names[length.name]}"
-            raise InputError(length.place, problem, "another name")
-    known = {name for one in motor for name in one.names}
+        for effect in library().values():
+            if any(re.fullmatch(rf"{stem}\d+R?", length.name) for stem in _stems(effect)):
+                problem = f"length {length.name!r} has the name of a parameter of {effect.id}"
+                raise InputError(length.place, problem, "another name")
+    known = {name for one in motor_side(robot) for name in one.names}
     for one in instances:
         for name in one.names:
             if name in known:
                 place = robot.use(one.effect.id, one.joint.number).place
                 raise InputError(place, f"the parameter {name} of {one.effect.id} has its name twice", "another name")
             known.add(name)
+
+
+def _stems(effect: Effect) -> set[str]:
+    """Stems of its parameters, on the motor side of an elastic joint too."""
+    stems = {parameter.stem for parameter in effect.parameters}
+    return stems | {f"{stem}m" for stem in stems} if effect.drive_train and "qe" not in effect.needs else stems
 
 
 def motor_side(robot: Robot) -> tuple[Instance, ...]:
@@ -221,7 +228,7 @@ def _by_default(effect: Effect) -> bool:
 def _motor_values(robot: Robot, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:
     """The values of a drive train's effect: those that the file gives on the joint, else the defaults."""
     uses = [use for use in robot.effects if use.effect == effect.id and joint.number in use.joints]
-    return _values(uses[0] if uses else EffectUse(effect.id, (joint.number,)), effect, joint)
+    return _values(uses[0] if uses else EffectUse(effect.id, (joint.number,)), effect, joint, robot)
 
 
 def _effect(use: EffectUse) -> Effect:
@@ -242,25 +249,36 @@ def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[
     return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}
 
 
-def _values(use: EffectUse, effect: Effect, joint: Joint) -> dict[str, sympy.Expr]:
+def _values(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> dict[str, sympy.Expr]:
     shapes = {shape.name: shape for shape in effect.shapes}
     for name, quantity in use.values.items():
         if name not in shapes:
             known = nearest(name, shapes)
             raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
-    return {name: _value(use, effect, shape, shape.unit_on(joint)) for name, shape in shapes.items()}
+    between = _unit_between(use, effect, joint, robot)
+    units = {name: (shape.unit_on(joint), between if shape.per_other else "") for name, shape in shapes.items()}
+    return {name: _value(use, effect, shape, *units[name]) for name, shape in shapes.items()}
 
 
-def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str) -> sympy.Expr:
+def _unit_between(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> str:
+    """The unit of the joint's motion per that of the other joint in ``values``; empty where they are of one kind."""
+    numbers = [use.values[shape.name].value for shape in effect.shapes if shape.joint and shape.name in use.values]
+    kinds = {other.sigma for other in robot.moving if other.number in numbers}
+    return ("rad/m", "m/rad")[joint.sigma == PRISMATIC] if kinds - {joint.sigma} else ""
+
+
+def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str, between: str = "") -> sympy.Expr:
+    """The value in ``unit``, which may be written in the unit ``between`` two joints as well, if there is one."""
     quantity = use.values.get(shape.name)
     if quantity is None:
         if shape.default is None:
             problem = f"effect {effect.id} lacks its value {shape.name}"
             raise InputError(use.place, problem, f"{shape.meaning} [{unit}]")
         return shape.default
-    if quantity.unit != unit:
+    if quantity.unit not in (unit, between or unit):
         given = f"is given in {quantity.unit}" if quantity.unit not in ("", "1") else "has no unit"
         expected = "a number without a unit" if unit == "1" else f"a value in {unit}"
+        expected += f" or in {between}" if between else ""
         raise InputError(quantity.place, f"{shape.name} {given}", expected)
     _check_bounds(quantity.place, shape, unit, quantity.value)
     return quantity.value

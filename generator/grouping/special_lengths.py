@@ -10,8 +10,9 @@ from generator.errors import InputError
 from generator.grouping.grouping import Grouping, group
 from generator.robot.description import Length, Robot
 
-#: By how much [m, rad] the first symbolic length is changed, the second by twice as much, and so on.
-_STEP = sympy.Rational(1, 7)
+#: By how much [m, rad] the first length is changed if it is symbolic, the second by twice as much, and so on. No
+#: multiple is a length or an angle that a file would state.
+_STEP = sympy.Rational(1009, 7919)
 
 
 def general_grouping(robot: Robot, standard: tuple[str, ...]) -> Grouping:

@@ -167,7 +167,7 @@ class Rigid:
         result = zeros(self.chain.dof)
         for effect in self.effects:
             if effect.law.by_load:
-                result[effect.coordinate] = effect.shape["rotor"]
+                result[effect.coordinate] = effect.shape.get("rotor", Decimal(0))
         return result
 
     def _of_bodies(self, q: Array, qd: Array, qdd: Array) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from generator.reference.arithmetic import CONTEXT, decimals
 from generator.reference.joint_effects import LAWS, acting
 from generator.reference.matter import INERTIAL
-from generator.robot.description import PRISMATIC, Joint, Robot
+from generator.robot.description import PRISMATIC, REVOLUTE, Joint, Robot
 from generator.robot.undefined import hardly_defined
 
 #: Positions drawn until every effect has a value.
@@ -21,6 +21,10 @@ _TRIES = 1000
 #: Room around a position in which effects have values too [rad, m]: more than what a drive train is stretched by, and
 #: enough to stay away from the edge, where torques grow without bound.
 _ROOM = 0.1
+
+#: Farthest way from the position within the limits that is nearest to zero, by kind of joint: a turn and little more
+#: [rad], or metres. Far from zero, single precision leaves too few digits of a position to compare.
+_FARTHEST = {REVOLUTE: 6.4, PRISMATIC: 5.0}
 
 #: Range of a parameter for which no law gives one.
 _USUAL = (0.5, 2.0)
@@ -58,11 +62,13 @@ def _loading_nothing(robot: Robot, values: Mapping[str, float]) -> dict[str, flo
     """A rotor whose inertia the file tells has that, and more; where there is none, nothing rubs by the load."""
     found: dict[str, float] = {}
     for use in robot.effects:
-        if use.effect == "load_friction" and "rotor" in use.values:
+        law = LAWS[use.effect]
+        if law.by_load and "rotor" in use.values:
             for number in use.joints:
                 name = f"Ia{number}"
                 rotor = round(float(use.values["rotor"].value), 5)
-                found |= {name: values[name] + rotor} if name in values else {f"Fl{number}": 0.0}
+                nothing = {f"{stem}{number}": 0.0 for stem in law.stems}
+                found |= {name: values[name] + rotor} if name in values else nothing
     return found
 
 
@@ -75,8 +81,8 @@ def payload(seed: int) -> list[float]:
 def positions(robot: Robot, seed: int) -> list[float]:
     """Joint positions (n) inside the limits, a turn or a metre either way where there are none, of three decimals.
 
-    Every effect has a value there and close by; one without a law here is taken to have it. Raises InputError where
-    no such positions are found.
+    Of wide limits, only the part nearest to zero is drawn from. Every effect has a value at the positions and close by;
+    one without a law here is taken to have it. Raises InputError where no such positions are found.
     """
     draw = Random(seed)
     with localcontext(CONTEXT):
@@ -96,6 +102,8 @@ def _position(joint: Joint, draw: Random) -> float:
     reach = 1.0 if joint.sigma == PRISMATIC else 3.1
     lower = -reach if joint.lower is None else float(joint.lower)
     upper = reach if joint.upper is None else float(joint.upper)
+    nearest, way = min(max(0.0, lower), upper), _FARTHEST[joint.sigma]
+    lower, upper = max(lower, nearest - way), min(upper, nearest + way)
     return round(lower + (upper - lower) * draw.uniform(0.02, 0.98), 3)
 
 

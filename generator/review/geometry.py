@@ -38,11 +38,9 @@ def rows(robot: Robot) -> list[Row]:
 
 def limits(joint: Joint) -> str:
     """The range of a joint in degrees or metres, "none" where the file gives none."""
-    if joint.lower is None and joint.upper is None:
+    if joint.lower is None or joint.upper is None:
         return "none"
-    lower = "-inf" if joint.lower is None else _end(joint.lower, joint)
-    upper = "inf" if joint.upper is None else _end(joint.upper, joint)
-    return f"{lower} to {upper} {'m' if joint.sigma == PRISMATIC else 'deg'}"
+    return f"{_end(joint.lower, joint)} to {_end(joint.upper, joint)} {'m' if joint.sigma == PRISMATIC else 'deg'}"
 
 
 def length_value(length: Length) -> str:

@@ -35,7 +35,7 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
     numeric = replace(
         robot,
         name=f"{robot.name}_{name}",
-        description=f"{robot.description}; parameter set {name} built in",
+        description="; ".join(filter(None, (robot.description, f"parameter set {name} built in"))),
         lengths=tuple(_number(length, chosen) for length in robot.lengths),
         flexible=flexible,
         effects=tuple(use for one in robot.effects if (use := _possible(one, flexible)).joints),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import sympy
 
 from generator.effects.library import Instance
 from generator.symbolic import effect_torques, newton_euler, regressor, strategy
@@ -185,7 +186,7 @@ class Dynamics:
         rotors = zeros(program, self.chain.dof)
         for one in by_load:
             coordinate = self.chain.robot.moving.index(one.joint)
-            rotors[coordinate] = lower(program, one.site.values["rotor"], {})
+            rotors[coordinate] = lower(program, one.site.values.get("rotor", sympy.S.Zero), {})
         return effect_torques.torques(self.chain, by_load, seen, self.parameters), rotors
 
     def _moment_at_base(self) -> Array:

@@ -96,14 +96,14 @@ typedef struct kr270_flexible_state {
 typedef struct kr270_controller {
     kr270_real period; /**< [s] of a sample */
     kr270_real kp[KR270_NQ]; /**< [1/s] */
-    kr270_real kv[KR270_NQ]; /**< [N m s/rad, N s/m] of the rotor */
+    kr270_real kv[KR270_NQ]; /**< [N m s/rad] of the rotor */
     kr270_real ki[KR270_NQ]; /**< [1/s] one over the reset time */
-    kr270_real limit[KR270_NQ]; /**< [N m, N] of the rotor's torque: torque constant times largest current */
+    kr270_real limit[KR270_NQ]; /**< [N m] of the rotor's torque: torque constant times largest current */
 } kr270_controller;
 
 /** What the controller remembers from sample to sample; all zero at first. */
 typedef struct kr270_controller_state {
-    kr270_real z[KR270_NQ]; /**< [rad/s, m/s] of the rotor */
+    kr270_real z[KR270_NQ]; /**< [rad/s] of the rotor */
 } kr270_controller_state;
 
 /** What the closed loop is to do, sample by sample, at the joints. What may be NULL is then zero throughout. */

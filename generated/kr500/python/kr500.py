@@ -1466,8 +1466,8 @@ class Plant:
 class Controller:
     """Cascade of every motor, sampled: position P, speed PI, both on the motor's own measurements.
 
-    ``period`` [s] is that of a sample. Each a number or one a motor: ``kp`` [1/s], ``kv`` [N m s/rad, N s/m] of the rotor,
-    ``ki`` [1/s] one over the reset time, ``limit`` [N m, N] of the rotor's torque, none if left out.
+    ``period`` [s] is that of a sample. Each a number or one a motor: ``kp`` [1/s], ``kv`` [N m s/rad] of the rotor,
+    ``ki`` [1/s] one over the reset time, ``limit`` [N m] of the rotor's torque, none if left out.
     """
 
     def __init__(self, robot, period, kp, kv, ki, limit=np.inf):
@@ -1480,7 +1480,7 @@ class Controller:
 
     @property
     def z(self):
-        """The integrals [rad/s, m/s] of the rotors, zero at first: an array that changes with every sample."""
+        """The integrals [rad/s] of the rotors, zero at first: an array that changes with every sample."""
         return self._z
 
     def control(self, q_ref, qd_ref, tau_ref, q, qd, out=None):

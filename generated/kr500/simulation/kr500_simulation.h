@@ -96,14 +96,14 @@ typedef struct kr500_flexible_state {
 typedef struct kr500_controller {
     kr500_real period; /**< [s] of a sample */
     kr500_real kp[KR500_NQ]; /**< [1/s] */
-    kr500_real kv[KR500_NQ]; /**< [N m s/rad, N s/m] of the rotor */
+    kr500_real kv[KR500_NQ]; /**< [N m s/rad] of the rotor */
     kr500_real ki[KR500_NQ]; /**< [1/s] one over the reset time */
-    kr500_real limit[KR500_NQ]; /**< [N m, N] of the rotor's torque: torque constant times largest current */
+    kr500_real limit[KR500_NQ]; /**< [N m] of the rotor's torque: torque constant times largest current */
 } kr500_controller;
 
 /** What the controller remembers from sample to sample; all zero at first. */
 typedef struct kr500_controller_state {
-    kr500_real z[KR500_NQ]; /**< [rad/s, m/s] of the rotor */
+    kr500_real z[KR500_NQ]; /**< [rad/s] of the rotor */
 } kr500_controller_state;
 
 /** What the closed loop is to do, sample by sample, at the joints. What may be NULL is then zero throughout. */

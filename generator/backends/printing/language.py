@@ -19,7 +19,8 @@ class Language:
 
     ``calls`` maps an operation of the program (``sin``, ``pow``, ...) to what is called for it; where it does not hold
     ``directed``, that is a product with ``sign``. ``statement`` and ``literal`` are formats of ``name`` and ``value``.
-    ``reserved`` are the words that no variable may be called.
+    ``argument`` is one of the name that an input of a Python function has, made from that of its signal. ``reserved``
+    are the words that no variable may be called.
     """
 
     calls: Mapping[str, str]
@@ -27,6 +28,7 @@ class Language:
     literal: str
     reserved: frozenset[str]
     line: int = LINE
+    argument: str = "{name}"
 
     def number(self, value: Fraction) -> str:
         """The shortest decimal literal that reads back as the double nearest to a nonnegative ``value``.

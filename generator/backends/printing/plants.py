@@ -8,6 +8,8 @@ from generator.symbolic.model import Model
 
 #: What the direct models read that are simulated.
 _SIGNALS = {"q", "qd", "tau", "tau_ext", "direction", "width"}
+#: The maps between joints and rotors of a robot that has drives.
+_MAPS = ("motor_position", "motor_speed", "motor_torque", "joint_torque")
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,11 @@ class Plant:
     smooth: str
     links: tuple[int, ...]
     load: bool
+
+
+def turns_rotors(model: Model) -> bool:
+    """Whether the controller moves rotors, in rad and N m on every joint; without drives it moves the joints."""
+    return all(name in model.functions for name in _MAPS)
 
 
 def plants(model: Model) -> list[Plant]:

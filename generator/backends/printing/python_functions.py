@@ -75,7 +75,7 @@ def python_function(function: Function, model: Model, language: Language) -> Pyt
     if any(signal_of(node) == PARAMETERS for node in read):
         signals.insert(0, parameter_signal(model))
     names = Identifiers(language.reserved)
-    arguments = {signal.name: names.claim(signal.name) for signal in signals}
+    arguments = {signal.name: names.claim(language.argument.format(name=signal.name)) for signal in signals}
     results = [names.claim(output.signal.name) for output in function.outputs]
     leaves = {node: names.claim(_entry(node, model)) for node in sorted(read, key=lambda n: (signal_of(n), index(n)))}
     block = straight_line(nodes, function.roots, leaves, language, names)

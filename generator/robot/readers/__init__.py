@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from types import ModuleType
 
 from generator.discovery import modules
 from generator.errors import InputError, Place
@@ -24,12 +25,20 @@ def read(path: Path | str) -> Robot:
     """
     path = Path(path)
     file = str(path)
-    readers = {ending: module for module in modules(sys.modules[__name__]) for ending in module.EXTENSIONS}
-    reader = readers.get(path.suffix.lower())
+    reader = _readers().get(path.suffix.lower())
     if reader is None:
         _check_file(path, file, "a robot file")
-        raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(readers))
+        raise InputError(Place(file), f"a file ending in {path.suffix!r}", " or ".join(endings()))
     return robot_from(reader.read(text_of(path, file), file))
+
+
+def endings() -> tuple[str, ...]:
+    """The endings of robot files' names, small letters after the dot."""
+    return tuple(_readers())
+
+
+def _readers() -> dict[str, ModuleType]:
+    return {ending: module for module in modules(sys.modules[__name__]) for ending in module.EXTENSIONS}
 
 
 def document(path: Path, expected: str) -> Node:

@@ -13,7 +13,7 @@ from generator.robot.document import Entry, Node, Table, Text
 from generator.robot.names import identifier
 from generator.robot.parameters import INERTIAL_STEMS
 
-_STEMS = "|".join([*INERTIAL_STEMS, "Ia", "Fv", "Fc", "Off", "Iam", "Fvm", "Fcm", "Offm", "kt?", "ks"])
+_STEMS = "|".join([*INERTIAL_STEMS, "kt"])
 _PARAMETER = re.compile(rf"(?:{_STEMS})\d+R?\Z", re.IGNORECASE)
 _VARIABLE = re.compile(r"(?:q|qd|qdd|qm|qe|qa|tau)\d*\Z")
 _SIGNALS = ("pi", "wrench", "payload", "parameters", "standard_parameters")
@@ -23,7 +23,8 @@ def lengths(entry: Entry | None) -> dict[str, Length]:
     """The named lengths and angles of ``geometry``.
 
     Raises InputError for a name that the generated code or the model uses otherwise and for a value without a unit or
-    too large (``fields.check_size``).
+    too large (``fields.check_size``). Whether a name is that of an effect's parameter is checked against the library of
+    effects, not here.
     """
     found: dict[str, Length] = {}
     for key, one in fields.named(entry.value, "geometry").items() if entry else ():
@@ -62,10 +63,7 @@ def _length(name: str, entry: Entry) -> Length:
 
 def gravity(entry: Entry) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
     """Acceleration of free fall in the world frame [m/s2]; raises InputError for what no world has."""
-    fall = _vector(entry.value, "gravity", "m/s2", "accelerations")
-    for value in fall:
-        fields.check_size(entry.value.place, "gravity", value, any_small=True)
-    return fall
+    return _vector(entry.value, "gravity", "m/s2", "accelerations")
 
 
 def base(entry: Entry | None) -> sympy.ImmutableMatrix:
@@ -79,13 +77,13 @@ def base(entry: Entry | None) -> sympy.ImmutableMatrix:
         # sympy's rot_axis turn the axes rather than the vector, hence the signs
         pose[:3, :3] = sympy.rot_axis3(-yaw) * sympy.rot_axis2(-pitch) * sympy.rot_axis1(-roll)
     if "translation" in keys:
-        translation = _vector(keys["translation"].value, "translation", "m", "lengths")
-        for value in translation:
-            fields.check_size(keys["translation"].value.place, "translation", value, any_small=True)
-        pose[:3, 3] = sympy.Matrix(translation)
+        pose[:3, 3] = sympy.Matrix(_vector(keys["translation"].value, "translation", "m", "lengths"))
     return sympy.ImmutableMatrix(pose)
 
 
 def _vector(node: Node, what: str, unit: str, of: str) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
+    """Three values of a size that single precision computes with."""
     x, y, z = (fields.quantity(item, what, unit).value for item in fields.items(node, what, 3, of))
+    for value in (x, y, z):
+        fields.check_size(node.place, what, value, any_small=True)
     return x, y, z
