@@ -60,6 +60,7 @@ def find_robot(name_or_path: str) -> Path:
 
 def _is_robot_file(path: Path) -> bool:
     """Whether a reader takes files of that name."""
+    # Readers take as long to import as all the rest of a command that reads no robot.
     from generator.robot.readers import endings
 
     return path.suffix.lower() in endings()

@@ -163,10 +163,14 @@ def test_friction_by_the_load_needs_no_rotor(tmp_path: Path, added: Added, monke
     )
     law = replace(LAWS["load_friction"], torque=lambda at: (at.direction * abs(at.load),), defaults={})
     monkeypatch.setitem(LAWS, "pressed_friction", law)  # type: ignore[arg-type]
-    one = model(tmp_path, "  - {effect: pressed_friction, joint: 2}\n")
-    other = model(tmp_path, "  - {effect: load_friction, joint: 2, values: {rotor: 0 kg m2}}\n")
+    alone = "  - {effect: pressed_friction, joint: 2}\n"
+    without = "  - {effect: load_friction, joint: 2, values: {rotor: 0 kg m2}}\n"
+    one, other = (model(tmp_path, text) for text in (alone, without))
     parameters = [0.1 * k for k in range(1, len(one.parameters) + 1)]
     state = {"parameters": parameters, "q": [0.3, 0.4], "qd": [1.0, -2.0], "tau": [3.0, 4.0]}
     qdd, expected = (evaluate(each.functions["direct_dynamics"], state)["qdd"] for each in (one, other))
     np.testing.assert_allclose(qdd, expected, rtol=1e-12)
-    assert {case.function for case in cases(one)} == {case.function for case in cases(other)}
+    rotor = "  - {effect: rotor_inertia, joint: 2}\n"
+    for mine, others in zip(*(cases(model(tmp_path, rotor + text)) for text in (alone, without)), strict=True):
+        assert mine.function == others.function
+        assert (mine.inputs, mine.outputs) == (others.inputs, others.outputs)

@@ -1,4 +1,4 @@
-"""Joints, frames and bodies by their numbers: one of them is no several."""
+"""Lists and numbers in running text: one of them is no several."""
 
 from __future__ import annotations
 

@@ -172,7 +172,8 @@ def _check_names(robot: Robot, instances: list[Instance]) -> None:
     """Every parameter has a name of its own. No length has one that an effect could bring, here or in another file."""
     for length in robot.lengths:
         for effect in library().values():
-            if any(re.fullmatch(rf"{stem}\d+R?", length.name) for stem in _stems(effect)):
+            own, of_motor = _stems(effect)
+            if any(re.fullmatch(rf"{stem}\d+R?", length.name) for stem in own | of_motor):
                 problem = f"length {length.name!r} has the name of a parameter of {effect.id}"
                 raise InputError(length.place, problem, "another name")
     known = {name for one in motor_side(robot) for name in one.names}
@@ -184,10 +185,12 @@ def _check_names(robot: Robot, instances: list[Instance]) -> None:
             known.add(name)
 
 
-def _stems(effect: Effect) -> set[str]:
-    """Stems of its parameters, on the motor side of an elastic joint too."""
+def _stems(effect: Effect) -> tuple[set[str], set[str]]:
+    """Stems of its parameters on the joint, and on the motor side of an elastic one."""
     stems = {parameter.stem for parameter in effect.parameters}
-    return stems | {f"{stem}m" for stem in stems} if effect.drive_train and "qe" not in effect.needs else stems
+    if "qe" in effect.needs:
+        return set(), stems
+    return stems, {f"{stem}m" for stem in stems} if effect.drive_train else set()
 
 
 def motor_side(robot: Robot) -> tuple[Instance, ...]:
@@ -210,12 +213,10 @@ def lacking(robot: Robot, name: str) -> str | None:
     for joint in robot.moving:
         stem, rigid = name.removesuffix(str(joint.number)), joint.number not in robot.flexible
         for effect in library().values():
-            stems = {parameter.stem for parameter in effect.parameters}
-            elastic = "qe" in effect.needs
-            of_motor = stems if elastic else {f"{one}m" for one in stems}
-            if effect.drive_train and rigid and stem in of_motor:
+            own, of_motor = _stems(effect)
+            if rigid and stem in of_motor:
                 return f"joint {joint.number} among flexible"
-            if stem in stems and not elastic:
+            if stem in own:
                 return f"the effect {effect.id} on joint {joint.number}"
     return None
 

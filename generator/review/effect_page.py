@@ -43,6 +43,7 @@ def _section(effect: Effect) -> Iterator[str]:
         limits = [f"more than {shape.lower:g}"] if shape.lower is not None else []
         limits += [f"less than {shape.upper:g}"] if shape.upper is not None else []
         limits += ["not 0"] if shape.nonzero else []
+        limits += ["rad/m or m/rad between a slide and a revolute joint"] if shape.per_other else []
         limits += [f"default {shape.default}"] if shape.default is not None else []
         units = _units(shape.unit, shape.prismatic or shape.unit)
         yield f"| value `{shape.name}` | {units} | {shape.meaning} | {', '.join(limits)} |"

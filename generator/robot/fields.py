@@ -136,6 +136,13 @@ def check_size(place: Place, what: str, value: SupportsFloat, any_small: bool = 
         raise InputError(place, f"{what} is {float(value):g}", expected)
 
 
+def sized_quantity(node: Node, what: str, unit: str) -> sympy.Expr:
+    """The value in SI units of ``quantity``, of a size that single precision computes with: however small."""
+    value = quantity(node, what, unit).value
+    check_size(node.place, what, value, any_small=True)
+    return value
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """What was probably meant by ``name``, or all that could be."""
     known = list(known)

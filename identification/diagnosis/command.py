@@ -107,7 +107,8 @@ def _runs(wanted: Request, robot: Robot, regressors: Regressors) -> _Runs:
 
     with stage(f"reading {plural(len(wanted.data) + len(wanted.validate) + len(wanted.test), 'run')}"):
         fit, validating, last = read(wanted.data, resting=False), read(wanted.validate), read(wanted.test)
-        chosen = roles(fit, validating, last, tested=not wanted.dry)
+        kinds = [joint.sigma for joint in robot.moving]
+        chosen = roles(fit, validating, last, tested=not wanted.dry, kinds=kinds)
         recorded = (*fit, *validating, *last)
         whole = {run.name: run for run in recorded}
         train = looked_at(chosen.train)

@@ -276,6 +276,14 @@ def test_blocks_hold_two_periods_where_the_motion_repeats() -> None:
     assert all(end - start > 14.0 for _, start, end in parts(found.train))
 
 
+def test_blocks_hold_two_periods_of_a_short_stroke_beside_a_wide_turn() -> None:
+    t = np.arange(6001) * 0.01
+    q = np.stack([2.5 * np.sin(2 * np.pi * t / 5.0), 0.002 * np.sin(2 * np.pi * t / 10.0)])
+    run = Run("A", Place("A"), 0.0, 0.01, q, np.zeros_like(q))
+    found = roles([run], [], [recorded("T")], kinds=[REVOLUTE, PRISMATIC])
+    assert all(end - start > 20.0 for _, start, end in parts(found.train))
+
+
 @pytest.mark.parametrize("start", [0.1, 1700000003.2])
 def test_parts_are_told_apart_whatever_the_clock_counts_from(start: float) -> None:
     found = roles([recorded("A", start=start, seconds=20.0)], [], [])

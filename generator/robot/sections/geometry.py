@@ -82,8 +82,5 @@ def base(entry: Entry | None) -> sympy.ImmutableMatrix:
 
 
 def _vector(node: Node, what: str, unit: str, of: str) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """Three values of a size that single precision computes with."""
-    x, y, z = (fields.quantity(item, what, unit).value for item in fields.items(node, what, 3, of))
-    for value in (x, y, z):
-        fields.check_size(node.place, what, value, any_small=True)
+    x, y, z = (fields.sized_quantity(item, what, unit) for item in fields.items(node, what, 3, of))
     return x, y, z

@@ -129,7 +129,7 @@ def _limits(entry: Entry | None, name: str, sigma: int) -> tuple[sympy.Expr | No
     if sigma == FIXED:
         raise InputError(entry.key, f"limits on fixed {name}", "limits on moving joints only")
     what, unit = f"limits of {name}", "m" if sigma == PRISMATIC else "rad"
-    lower, upper = (_sized(item, what, unit) for item in fields.items(entry.value, what, 2, "limits"))
+    lower, upper = (fields.sized_quantity(item, what, unit) for item in fields.items(entry.value, what, 2, "limits"))
     if not float(lower) < float(upper):
         raise InputError(entry.value.place, f"{what} are not in order", "the lower, then the higher limit")
     return lower, upper
@@ -140,16 +140,9 @@ def _limit(entry: Entry | None, what: str, sigma: int, units: tuple[str, str]) -
         return None
     if sigma == FIXED:
         raise InputError(entry.key, f"{what}, which is fixed", "limits on moving joints only")
-    value = _sized(entry.value, what, units[sigma == PRISMATIC])
+    value = fields.sized_quantity(entry.value, what, units[sigma == PRISMATIC])
     if not float(value) > 0:
         raise InputError(entry.value.place, f"{what} is {float(value):g}", "a positive limit, which holds either way")
-    return value
-
-
-def _sized(node: Node, what: str, unit: str) -> sympy.Expr:
-    """A value of a size that single precision computes with."""
-    value = fields.quantity(node, what, unit).value
-    fields.check_size(node.place, what, value, any_small=True)
     return value
 
 

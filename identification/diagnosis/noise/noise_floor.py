@@ -21,8 +21,8 @@ _LOUD, _LOUDER, _TIMES = 0.1, 0.02, 3.0
 
 
 def density(bank: Bank, k: int, frequency: Array) -> Array:
-    """One-sided power density (F) [unit^2/Hz] of coordinate k's noise at frequencies (F) [Hz], mean of all runs: even
-    where their rows show no frequencies.
+    """One-sided power density (F) [unit^2/Hz] of coordinate k's noise at frequencies (F) [Hz], mean of all runs:
+    beyond half the rate of a run's rows as strong as there.
     """
     every = []
     for run, colours in zip(bank.runs, bank.colours, strict=True):

@@ -27,11 +27,11 @@ _NEAR, _STEPS = 0.03, 8
 _OTHER_NOW = 1e-3
 
 
-def period_of(q: Array, period: float) -> int:
+def period_of(q: Array, period: float, kinds: Sequence[int] = ()) -> int:
     """Samples after which positions q (n x N), sampled every ``period`` [s], repeat; 0 where they do not. See
     ``repeating``.
     """
-    return repeating(q, period)[0]
+    return repeating(q, period, kinds)[0]
 
 
 def repeating(q: Array, period: float, kinds: Sequence[int] = ()) -> tuple[int, slice]:

@@ -49,13 +49,19 @@ class Roles:
         return "untouched runs" if self.untouched else "runs that were fitted"
 
 
-def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tested: bool = True) -> Roles:
+def roles(
+    data: Sequence[Run],
+    validate: Sequence[Run],
+    test: Sequence[Run],
+    tested: bool = True,
+    kinds: Sequence[int] = (),
+) -> Roles:
     """Roles for the runs ``data``: the last of three or more tests where none does, else the end of each one
     that is long enough.
 
     Where none validates every run is held against what the others predict, or every block of time of a single one.
-    Where nothing is ``tested`` no run is spent on it. Raises InputError for runs that have samples in common, and for
-    one too short to be split.
+    Where nothing is ``tested`` no run is spent on it. ``kinds`` (n) are those of the joints, as in ``repeating``.
+    Raises InputError for runs that have samples in common, and for one too short to be split.
     """
     unshared({"fit": data, "validate": validate, "test": test})
     fit, validating, last = (tuple(run.name for run in runs) for runs in (data, validate, test))
@@ -80,7 +86,8 @@ def roles(data: Sequence[Run], validate: Sequence[Run], test: Sequence[Run], tes
     train = whole
     if not validate and len(fitted) == 1:
         (run,) = fitted
-        train = tuple(part_of(run.name, *block) for block in _blocks(run, ends.get(run.name, run.start + run.length)))
+        end = ends.get(run.name, run.start + run.length)
+        train = tuple(part_of(run.name, *block) for block in _blocks(run, end, kinds))
         notes.append(f"{len(train)} blocks of its time are each held against what the others predict")
     elif not validate:
         notes.append("each run is held against what the others predict")
@@ -111,14 +118,15 @@ def _recorded(run: Run) -> float:
     return round(run.duration, 6)
 
 
-def _blocks(run: Run, end: float) -> list[tuple[float, float]]:
+def _blocks(run: Run, end: float, kinds: Sequence[int]) -> list[tuple[float, float]]:
     """Equal blocks of time [s] until ``end``; where the motion repeats, each with two periods if two can have them."""
     length, gap = end - run.start, _gap(run)
 
     def count(least: float, most: int) -> int:
         return min(int((length + gap) / (least + gap)), most)
 
-    blocks = max(count(max(_LEAST, 2 * run.period * period_of(run.q, run.period)), _BLOCKS), count(_LEAST, 2))
+    repeated = run.period * period_of(run.q, run.period, kinds)
+    blocks = max(count(max(_LEAST, 2 * repeated), _BLOCKS), count(_LEAST, 2))
     if blocks < 2:
         raise InputError(
             run.place, f"a run of {length:.3g} s", f"{2 * _LEAST + gap:.3g} s at least, to be split in time"
