@@ -182,8 +182,18 @@ def test_what_never_acts_need_not_be_called_unexplained() -> None:
     unseen["score"] = scored(unseen["truth"], answer(verdict=NOTHING)).record()
     results = [{**one, "code": "abc"} for one in (unseen, record("outside", [], stop, UNEXPLAINED))]
     text = page(tables(results, results))
-    assert f"| outside the library | free fit | nothing firmly named | {Share(2, 2)} |" in text
-    assert f"| outside the library | free fit | called unexplained | {Share(1, 1)} |" in text
+    assert f"| outside the library | free fit | nothing firmly named | all | {Share(2, 2)} |" in text
+    assert f"| outside the library | free fit | called unexplained | 95 % | {Share(1, 1)} |" in text
+
+
+def test_two_in_the_place_of_one_finding_are_not_both_found() -> None:
+    springs = [Hidden("spring_balancer", 2, 3.0), Hidden("gas_isotherm", 2, 3.0)]
+    other = [{"effect": "gas_balancer", "joints": [2]}]
+    one = told("spring_balancer", [2], alternatives=other)
+    results = [{**record("two", named, springs), "code": "abc"} for named in ([one], [one, told("offset", [1])])]
+    asked = {row[""]: row["cases"] for row in tables(results, results)["cells"]}
+    assert asked["all named"] == str(Share(0, 2))
+    assert asked["all named, or listed as equal alternatives"] == str(Share(1, 2))
 
 
 def record(cell: str, named: list[dict[str, Any]], hidden: list[Hidden], verdict: str = NAMED) -> dict[str, Any]:
@@ -222,9 +232,9 @@ def test_the_page_says_what_the_results_say() -> None:
     found = tables(results, before)
     assert found["counts"] == {"scored": 7, "out of reach": 1, "failed": 1, "scored apart": 0}
     text = page(found)
-    assert f"| one effect, 3 x noise | free fit | right effect and joint first | {Share(3, 4)} |" in text
-    assert f"| nothing hidden | free fit | nothing named | {Share(1, 1)} |" in text
-    assert f"| nothing hidden | free fit | nothing named | {Share(1, 2)} |" in text
+    assert f"| one effect, 3 x noise | free fit | right effect and joint first | 95 % | {Share(3, 4)} |" in text
+    assert f"| nothing hidden | free fit | nothing named | 99 % | {Share(1, 1)} |" in text
+    assert f"| nothing hidden | free fit | nothing named | 99 % | {Share(1, 2)} |" in text
     assert found["every"] == {"scored": 8, "codes": 2}
     assert "| dahl_friction |" in text
     assert found["power"] == {"stribeck": [{"size": 1.0, "hits": 1, "count": 1}]}

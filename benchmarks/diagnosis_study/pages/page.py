@@ -51,7 +51,7 @@ def page(found: Mapping[str, Any]) -> str:
         f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
         "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
         "once, with the same code but for comments and docstrings, it does not make again. Where the cases are few the "
-        "intervals are wide.",
+        "intervals are wide. Under `asked` stands the share that is to be reached.",
         table(found["cells"]),
         "## Every case that was ever drawn",
         f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
@@ -65,6 +65,7 @@ def page(found: Mapping[str, Any]) -> str:
         "law was not found.",
         table(found["laws"]),
         "## Parameters and the gap",
+        "Asked are 90 % in both.",
         table(found["numbers"]),
         "## Simpler ways on the same runs",
         "Stepwise BIC, a held-out gate alone and sequentially thresholded least squares (PySINDy's STLSQ) see the rows "

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from benchmarks.diagnosis_study.pages.intervals import share
-from benchmarks.diagnosis_study.pages.summary import MODES, TITLES, Result, Row, of
+from benchmarks.diagnosis_study.pages.questions import TITLES
+from benchmarks.diagnosis_study.pages.summary import MODES, Result, Row, of
 from benchmarks.diagnosis_study.runner import BASELINES
 from benchmarks.diagnosis_study.study import STUDY
 

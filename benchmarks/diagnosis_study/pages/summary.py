@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from statistics import median
 from typing import Any
 
 from benchmarks.diagnosis_study.case import FREE, KNOWN
 from benchmarks.diagnosis_study.drawing import SIZES
 from benchmarks.diagnosis_study.pages.intervals import Share, share
+from benchmarks.diagnosis_study.pages.questions import QUESTIONS, TITLES
 from benchmarks.diagnosis_study.runner import MISMATCH
-from benchmarks.diagnosis_study.scoring import NOTHING, UNEXPLAINED
+from benchmarks.diagnosis_study.scoring import UNEXPLAINED
 from benchmarks.diagnosis_study.study import STUDY
 
 #: Share of cases in which an effect must be named to be called detected.
@@ -25,13 +26,14 @@ MODES = {FREE: "free fit", KNOWN: "known parameters"}
 def rows_of_cells(results: Sequence[Result]) -> list[Row]:
     """What is asked of each cell, by mode."""
     rows: list[Row] = []
-    for cell, questions in _QUESTIONS.items():
+    for cell, questions in QUESTIONS.items():
         for mode, title in MODES.items():
             scores = [one["score"] for one in of(results, cell, mode)]
-            for question, answer in questions.items():
-                flags = [flag for flag in map(answer, scores) if flag is not None]
+            for question, one in questions.items():
+                flags = [flag for flag in map(one.answer, scores) if flag is not None]
                 if flags:
-                    rows.append({"cell": TITLES[cell], "mode": title, "": question, "cases": str(share(flags))})
+                    row = {"cell": TITLES[cell], "mode": title, "": question}
+                    rows.append({**row, "asked": one.asked, "cases": str(share(flags))})
     return rows
 
 
@@ -68,7 +70,7 @@ def rows_of_laws(results: Sequence[Result]) -> list[Row]:
         rows.append(
             {
                 "law": f"{law} (reserved)" if law in STUDY.reserved else law,
-                "first": str(share([_first(score) for score in seen])),
+                "first": str(share([bool(score["first"]) for score in seen])),
                 "nothing else": str(share([not score["extra"] for score in seen])),
                 "joint": str(share([bool(score["joint_right"]) for score in seen])),
                 "variable": str(
@@ -155,53 +157,3 @@ def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
         for one in results
         if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode) and "score" in one and not _apart(one)
     ]
-
-
-def _first(score: Mapping[str, Any]) -> bool:
-    return bool(score["first"])
-
-
-Question = Callable[[Mapping[str, Any]], bool | None]
-
-
-def _if_seen(answer: Callable[[Mapping[str, Any]], bool]) -> Question:
-    return lambda score: answer(score) if score["visible"] else None
-
-
-_ONE: Mapping[str, Question] = {
-    "right effect and joint first": _if_seen(_first),
-    "first, or listed as an equal alternative": _if_seen(lambda s: s["first"] or bool(s["listed"])),
-    "nothing else named": _if_seen(lambda s: not s["extra"]),
-    "the right joint in `where`": lambda s: s["joint_right"],
-    "the right variable in `where`": lambda s: s["variable_right"],
-    "invisible ones answered as such, or named": lambda s: s["invisible_told"] > 0 if s["invisible"] else None,
-}
-_ALL: Mapping[str, Question] = {
-    "all named": _if_seen(lambda s: s["found"] == s["visible"]),
-    "all and only those named": _if_seen(lambda s: s["found"] == s["visible"] and not s["extra"]),
-}
-_QUESTIONS: Mapping[str, Mapping[str, Question]] = {
-    "null": {
-        "nothing named": lambda s: not s["named"],
-        "answered `no_discrepancy`": lambda s: s["verdict"] == NOTHING,
-    },
-    "one_3x": _ONE,
-    "one_1x": _ONE,
-    "two": _ALL,
-    "pair": _ALL,
-    "three": _ALL,
-    "outside": {
-        "nothing firmly named": lambda s: not s["firm"],
-        "called unexplained": lambda s: s["verdict"] == UNEXPLAINED if s["joint_right"] is not None else None,
-        "the right joint in `where`": lambda s: s["joint_right"],
-    },
-}
-TITLES = {
-    "null": "nothing hidden",
-    "one_3x": "one effect, 3 x noise",
-    "one_1x": "one effect, 1 x noise",
-    "two": "two effects, 3 x noise",
-    "pair": "two that hide each other",
-    "three": "three effects, 3 x noise",
-    "outside": "outside the library",
-}
