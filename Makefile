@@ -83,7 +83,7 @@ diagnose: $(TESTING) ## robot=NAME data="A.csv B.csv" validate=C.csv test=D.csv 
 	$(IN_CALLER) diagnose "$$robot" $(data) $(if $(validate),--validate $(validate)) $(if $(test),--test $(test)) \
 	    $(if $(prior),--prior $(prior)) $(options)
 
-example-diagnosis: $(TESTING) ## simulate a robot with effects that its file lacks, find them, write docs/diagnosis.md's example anew
+example-diagnosis: $(TESTING) ## simulate a robot with effects that its file lacks, find them, write the example of README.md and docs/diagnosis.md anew
 	@$(IN_VENV) "$(CURDIR)/$(VENV)/bin/python" -m benchmarks.example_diagnosis
 
 setup: $(TESTING) ## install the packages for simulate, excite, identify, diagnose, ... into .venv

@@ -1,4 +1,4 @@
-"""Finding the data files: robots and templates, in a checkout or in an installed package."""
+"""Finding the data files: robots, recipes and templates, in a checkout or in an installed package."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from pathlib import Path
 
 from generator.errors import InputError, Place
 
-#: Names a folder that holds ``robots`` and ``templates`` and comes before all others.
+#: Names a folder that holds ``robots``, ``recipes`` and ``templates`` and comes before all others.
 OVERRIDE = "COUNTERPOISE_DATA"
 
 
 def data_folder(name: str) -> Path:
-    """The folder ``robots`` or ``templates``: the environment's override, then the checkout, then the package's own.
+    """The folder ``robots``, ``recipes`` or ``templates``: the environment's override, then the checkout, then the
+    package's own.
 
     A folder that the override lacks is taken from the next place.
     """
