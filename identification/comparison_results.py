@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ def spare_reports(found: Comparison, folder: Path, report: str) -> None:
     """Raises InputError where ``folder`` holds results that are compared and their ``report``, which has the name of
     this one's.
     """
-    if not (folder / report).exists():
+    if not os.path.exists(folder / report):
         return
     for source in (found.a, found.b):
         path = Path(source.file)

@@ -24,7 +24,6 @@ from benchmarks.diagnosis_study.pages.power_curve import power_curve
 from benchmarks.diagnosis_study.runner import MISMATCH, Plan, result
 from benchmarks.diagnosis_study.scoring import NAMED, NOTHING, UNEXPLAINED, scored
 from benchmarks.diagnosis_study.sizing import Fit, Size
-from benchmarks.diagnosis_study.state import state
 from benchmarks.diagnosis_study.study import STUDY
 from tests.plant.effect import Effect
 from tests.plant.library import LAWS
@@ -259,23 +258,6 @@ def test_a_study_goes_on_from_the_archive_of_the_same_code(tmp_path: Path) -> No
     for code, there in (("abc", [name]), ("def", [])):
         restore(tmp_path / code, archive)
         assert [file.name for file in tmp_path.glob(f"{code}/*")] == there
-
-
-@pytest.mark.parametrize(
-    ("words", "same"),
-    [
-        ('"""Better."""\n\n\ndef half(x):\n    """Of it."""\n    return x / 2  # exactly\n', True),
-        ('"""Doc."""\n\n\ndef half(x):\n    return x / 3\n', False),
-        ('"""Doc."""\n\n\ndef half(x):\n    print("Doc.")\n    return x / 2\n', False),
-    ],
-)
-def test_an_answer_depends_on_the_code_and_not_on_its_words(words: str, same: bool, tmp_path: Path) -> None:
-    (tmp_path / "generator").mkdir()
-    file = tmp_path / "generator" / "half.py"
-    file.write_text('"""Doc."""\n\n\ndef half(x):\n    return x / 2\n', encoding="utf-8")
-    before = state(tmp_path)
-    file.write_text(words, encoding="utf-8")
-    assert (state(tmp_path) == before) is same
 
 
 def test_the_archive_keeps_the_last_answer_to_each_case(tmp_path: Path) -> None:

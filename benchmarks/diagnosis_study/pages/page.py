@@ -50,8 +50,8 @@ def page(found: Mapping[str, Any]) -> str:
         f"One study of one state of the code: {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
         f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
         "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
-        "once, with the same code but for comments and docstrings, it does not make again. Where the cases are few the "
-        "intervals are wide. Under `asked` stands the share that is to be reached.",
+        "once, with the same code but for other commands, comments and docstrings, it does not make again. Where the "
+        "cases are few the intervals are wide. Under `asked` stands the share that is to be reached.",
         table(found["cells"]),
         "## Every case that was ever drawn",
         f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
