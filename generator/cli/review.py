@@ -1,4 +1,4 @@
-"""Print a robot's groupings, geometry and parameters: the text of review/groupings.md."""
+"""Print a robot's groupings, geometry, effects and parameter names: the text of review/groupings.md."""
 
 from __future__ import annotations
 

@@ -90,12 +90,14 @@ def _method(group: argparse._ActionsContainer) -> None:
     group.add_argument(
         "--fix", metavar="NAME[=VALUE]", nargs="+", default=[], help="given parameters, such as Fv* or bodies"
     )
-    group.add_argument("--prior", metavar="SET", help="parameter set of the robot from which --fix takes values")
+    group.add_argument(
+        "--prior", metavar="SET", help="parameter set of the robot: values for --fix, bodies for --consistent"
+    )
     group.add_argument(
         "--consistent",
         action=argparse.BooleanOptionalAction,
         default=True,
-        help="also estimate physically consistent parameters, near the bodies of --prior if it has standard parameters",
+        help="also estimate physically consistent parameters, near the bodies of --prior if it tells all their masses",
     )
     group.add_argument(
         "--prior-weight", metavar="W", type=float, default=0.03, help="weight of these bodies (default: 0.03)"

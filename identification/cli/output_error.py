@@ -43,7 +43,9 @@ def _search(group: argparse._ActionsContainer) -> None:
         default="gauss-newton",
         help="gauss-newton, nelder-mead or evolution (default: gauss-newton)",
     )
-    group.add_argument("--filtered", action="store_true", help="torques pass the recipe's filter, as in the report")
+    group.add_argument(
+        "--filtered", action="store_true", help="torques pass the recipe's filter, as in section 6.2 of the deliverable"
+    )
     group.add_argument("--segment", metavar="S", default="1", help="time of one simulation, or none (default: 1)")
     group.add_argument("--iterations", metavar="N", type=int, help="largest number of iterations of each start")
     group.add_argument("--seconds", metavar="S", type=float, help="longest time of each start")
