@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 from xml.etree import ElementTree
 
 import numpy as np
@@ -50,13 +51,16 @@ def test_results_hold_every_study_and_nothing_of_the_place() -> None:
     assert not any(place in told for place in ("/tmp", "/home", "/work", "/root", "/usr"))
 
 
-def test_every_study_has_a_title_and_a_run() -> None:
+def test_every_study_has_a_title_and_a_run_and_runs_alone() -> None:
     for study in _studies():
         assert isinstance(study.TITLE, str)
         assert callable(study.run)
+        path, name = Path(study.__file__ or ""), study.__name__
+        wanted = f'\n\nif __name__ == "__main__":\n    import {name} as study\n\n    alone(__file__, study)\n'
+        assert path.read_text(encoding="utf-8").endswith(wanted), name
 
 
-def _studies() -> list[object]:
+def _studies() -> list[ModuleType]:
     return list(modules(benchmarks.studies))
 
 
@@ -136,7 +140,7 @@ def test_an_unknown_study_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize("robot", ["kr270", pytest.param("stanford", marks=pytest.mark.long)])
-def test_libraries_agree_and_another_robot_does_not(robot: str, tmp_path: Path) -> None:
+def test_libraries_agree_and_other_parameters_do_not(robot: str, tmp_path: Path) -> None:
     subject = Subject(robot)
     libraries = [*ours.build(subject, tmp_path / "a"), *casadi_recursion.build(subject, tmp_path / "a")]
     reduced = [library for library in libraries if not library.whole]
