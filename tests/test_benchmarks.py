@@ -16,7 +16,8 @@ import benchmarks.studies
 from benchmarks.bench import main
 from benchmarks.chart import Group, chart
 from benchmarks.compiling import Missing
-from benchmarks.documents import RESULTS, documented
+from benchmarks.documents import README, RESULTS, documented
+from benchmarks.example_diagnosis import PAGE
 from benchmarks.peers import casadi_recursion, ours
 from benchmarks.peers.measuring import disagreement, measure
 from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Subject, write
@@ -39,10 +40,18 @@ ROW = {
 # -- what the documents say -------------------------------------------------------------------------------------------
 
 
-def test_documents_and_picture_say_what_was_measured() -> None:
+def test_documents_and_pictures_say_what_was_measured() -> None:
     results = json.loads(RESULTS.read_text(encoding="utf-8"))
     wrong = [str(path) for path, text in documented(results).items() if (ROOT / path).read_text("utf-8") != text]
     assert not wrong, "`python -m benchmarks.documents` writes them anew"
+
+
+def test_pages_with_the_worked_example_print_the_same() -> None:
+    pages = [(ROOT / name).read_text("utf-8") for name in (README, PAGE)]
+    first, second = (
+        page.split("<!-- example output -->")[1].split("<!-- end of example output -->")[0] for page in pages
+    )
+    assert first == second, "`python -m benchmarks.example_diagnosis` writes them anew"
 
 
 def test_results_hold_every_study_and_nothing_of_the_place() -> None:
