@@ -29,7 +29,6 @@ from tests.conftest import EVERY
 from tests.subject import Subject, subject
 
 Array = NDArray[Any]
-
 ROBOTS = ["kr500", "scara", pytest.param("tree_two_arms", marks=pytest.mark.long), "pendulum"]
 
 
@@ -96,8 +95,7 @@ def test_every_quantity_is_that_of_the_numpy_module(made: Made, robot: Any) -> N
         tolerance = 1e-8 if function.solves else 1e-12
         inputs = made.inputs(name, 1)
         found, wanted = getattr(robot, name)(**inputs), made.wanted(name, inputs)
-        several = isinstance(wanted, tuple)
-        for value, right in zip(found if several else [found], wanted if several else [wanted], strict=True):
+        for value, right in zip(_several(found), _several(wanted), strict=True):
             assert agree(value, right, tolerance), name
 
 
