@@ -188,8 +188,8 @@ def test_a_direction_that_nothing_shows_is_left_at_zero() -> None:
 def test_bounds_hold_and_what_is_explained_is_told(seed: int) -> None:
     draw = np.random.default_rng(seed)
     A = draw.normal(size=(60, 3))
-    y = A @ [0.5, 0.3, 0.02] + 0.5 * draw.normal(size=60)
-    lower, upper = np.zeros(3), np.array([np.inf, 0.4, np.inf])
+    y = A @ [0.5, 0.3, 0.01] + 0.5 * draw.normal(size=60)
+    lower, upper = np.zeros(3), np.array([np.inf, 0.37, np.inf])
     x, drop = bounded(A.T @ A, A.T @ y, lower, upper, np.zeros(3))
     assert np.all(x >= lower)
     assert np.all(x <= upper)
