@@ -1,4 +1,4 @@
-"""Results in the documents: tables between pairs of comments, and the picture. Nothing here measures.
+"""Results in the documents: tables between pairs of comments, and the pictures. Nothing here measures.
 
 ``python -m benchmarks.documents`` writes them anew from ``benchmarks/results.json``.
 """
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.chart import chart
+from benchmarks.growth_picture import growth
 from benchmarks.study import shown
 from benchmarks.summary import bars, summary
 from benchmarks.table import table
@@ -18,13 +19,13 @@ from benchmarks.table import table
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results.json"
 README, PERFORMANCE = Path("README.md"), Path("docs/performance.md")
-PICTURE = Path("docs/images/performance.svg")
+PICTURE, GROWTH = Path("docs/images/performance.svg"), Path("docs/images/growth.svg")
 
 Results = Mapping[str, Any]
 
 
 def documented(results: Results) -> dict[Path, str]:
-    """The documents and the picture as the results have them, by their paths in the repository."""
+    """The documents and the pictures as the results have them, by their paths in the repository."""
     files = {PERFORMANCE: replaced(_read(PERFORMANCE), "machine", table(_facts(results["machine"])))}
     for name, result in results["studies"].items():
         page = _page(name)
@@ -33,6 +34,8 @@ def documented(results: Results) -> dict[Path, str]:
     if rows := results["studies"].get("peers", {}).get("rows"):
         files[README] = replaced(_read(README), "performance", table(summary(rows)))
         files[PICTURE] = chart(f"Time of one call, {rows[0]['robot']}", bars(rows), "the generated C")
+    if rows := results["studies"].get("growth", {}).get("rows"):
+        files[GROWTH] = growth(rows)
     return files
 
 

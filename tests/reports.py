@@ -27,8 +27,22 @@ from identification.report.identify.subject import Subject
 from identification.report.stiffness import report as stiffness_report
 from tests import test_gains_command as lifter
 from tests import test_stiffness_command as stiff
+from tests.diagnosis.diagnosed_arm import case
 from tests.recorded import TRUTH, recorded, two_links
 from tests.test_output_error import robot_text
+
+#: The kinds of reports, and the sub-packages of identification.report that make them.
+KINDS = {
+    "identify": "identify",
+    "gains": "gains",
+    "steps": "stiffness",
+    "locked": "stiffness",
+    "links": "stiffness",
+    "compare": "compare",
+    "diagnose": "diagnose",
+    "excite": "excite",
+    "output_error": "output_error",
+}
 
 
 def identified(folder: Path) -> Subject:
@@ -50,7 +64,7 @@ def lagging(folder: Path) -> LinkEncoders:
 
 
 def pages(folder: Path) -> dict[str, bytes]:
-    """A report of every kind by its name."""
+    """A report of every one of ``KINDS`` by its name."""
     subject = identified(folder)
     links = lagging(folder)
     steps, locked = stiff.steps(folder), locked_output(_robot(), 2, [stiff.blocked(folder / "blocked.csv")])
@@ -61,6 +75,7 @@ def pages(folder: Path) -> dict[str, bytes]:
         "locked": stiffness_report.report(locked),
         "links": stiffness_report.report(links),
         "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
+        "diagnose": case(folder, "stribeck").page,
         **_of_commands(folder / "commands"),
     }
 

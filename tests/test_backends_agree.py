@@ -1,4 +1,4 @@
-"""Every backend of every quantity of every robot against the others and against the nodes that they print."""
+"""C, CasADi and NumPy of every quantity of every robot against the nodes that they print."""
 
 from __future__ import annotations
 

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,7 +16,8 @@ import benchmarks.studies
 from benchmarks.bench import main
 from benchmarks.chart import Group, chart
 from benchmarks.compiling import Missing
-from benchmarks.documents import RESULTS, documented
+from benchmarks.documents import README, RESULTS, documented
+from benchmarks.example_diagnosis import PAGE
 from benchmarks.peers import casadi_recursion, ours
 from benchmarks.peers.measuring import disagreement, measure
 from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Subject, write
@@ -38,10 +40,18 @@ ROW = {
 # -- what the documents say -------------------------------------------------------------------------------------------
 
 
-def test_documents_and_picture_say_what_was_measured() -> None:
+def test_documents_and_pictures_say_what_was_measured() -> None:
     results = json.loads(RESULTS.read_text(encoding="utf-8"))
     wrong = [str(path) for path, text in documented(results).items() if (ROOT / path).read_text("utf-8") != text]
     assert not wrong, "`python -m benchmarks.documents` writes them anew"
+
+
+def test_pages_with_the_worked_example_print_the_same() -> None:
+    pages = [(ROOT / name).read_text("utf-8") for name in (README, PAGE)]
+    first, second = (
+        page.split("<!-- example output -->")[1].split("<!-- end of example output -->")[0] for page in pages
+    )
+    assert first == second, "`python -m benchmarks.example_diagnosis` writes them anew"
 
 
 def test_results_hold_every_study_and_nothing_of_the_place() -> None:
@@ -50,13 +60,16 @@ def test_results_hold_every_study_and_nothing_of_the_place() -> None:
     assert not any(place in told for place in ("/tmp", "/home", "/work", "/root", "/usr"))
 
 
-def test_every_study_has_a_title_and_a_run() -> None:
+def test_every_study_has_a_title_and_a_run_and_runs_alone() -> None:
     for study in _studies():
         assert isinstance(study.TITLE, str)
         assert callable(study.run)
+        path, name = Path(study.__file__ or ""), study.__name__
+        wanted = f'\n\nif __name__ == "__main__":\n    import {name} as study\n\n    alone(__file__, study)\n'
+        assert path.read_text(encoding="utf-8").endswith(wanted), name
 
 
-def _studies() -> list[object]:
+def _studies() -> list[ModuleType]:
     return list(modules(benchmarks.studies))
 
 
@@ -136,7 +149,7 @@ def test_an_unknown_study_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize("robot", ["kr270", pytest.param("stanford", marks=pytest.mark.long)])
-def test_libraries_agree_and_another_robot_does_not(robot: str, tmp_path: Path) -> None:
+def test_libraries_agree_and_other_parameters_do_not(robot: str, tmp_path: Path) -> None:
     subject = Subject(robot)
     libraries = [*ours.build(subject, tmp_path / "a"), *casadi_recursion.build(subject, tmp_path / "a")]
     reduced = [library for library in libraries if not library.whole]

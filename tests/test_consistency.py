@@ -166,6 +166,10 @@ def read_back(text: str, tmp_path: Path) -> ParameterSet:
     ],
 )
 def test_set_is_written_and_read_back(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "robot.yaml"
+    # An empty section is filled, and is not read.
+    path.write_text(text.removesuffix("parameters:\n"))
+    before = read(path).parameter_sets
     written = with_parameter_set(text, SET)
     one = read_back(written, tmp_path)
     assert {name: value.value for name, value in one.values.items()} == READ_BACK
@@ -177,10 +181,14 @@ def test_set_is_written_and_read_back(text: str, tmp_path: Path) -> None:
     )
     assert (one.description, one.source, one.other_values["ML"].value) == (SET.description, SET.source, 5)
     assert with_parameter_set(written, SET) == written
-    before = read(tmp_path / "robot.yaml")
     others = [line for line in text.splitlines() if line and "{Fc1: 1" not in line and "{Fc1: 2" not in line]
     assert [line for line in others if line not in written.splitlines()] == []
-    assert before.parameter_sets.keys() >= {"fitted"}
+    after = read(path).parameter_sets
+    assert after.keys() == before.keys() | {"fitted"}
+    for name in before.keys() - {"fitted"}:
+        assert {key: one.value for key, one in after[name].values.items()} == {
+            key: one.value for key, one in before[name].values.items()
+        }
     assert max(map(len, written.splitlines())) <= 120
 
 

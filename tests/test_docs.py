@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from difflib import unified_diff
 from fnmatch import fnmatch
 from functools import cache, reduce
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,9 @@ from tests.at_hand import RECORDINGS, TRANSCRIBED, Folder
 from tests.documents import ROOT, SESSIONS, Workshop, agree, blocks
 
 DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").glob("*.md"))]
-FOLDERS = ("generator", "identification", "recipes", "robots", "templates", "tests")
+FOLDERS = (
+    "benchmarks", "docs", "generated", "generator", "identification", "recipes", "robots", "templates", "tests"
+)  # fmt: skip
 
 _LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"`([^`]+)`")
@@ -187,6 +190,20 @@ def test_files_that_are_named_exist(name: str) -> None:
     for word in _CODE.findall(text(name)):
         if re.fullmatch(rf"(?:{'|'.join(FOLDERS)})/[\w./]+\.\w+", word) and "NAME" not in word and word not in made:
             assert (ROOT / word).is_file(), word
+
+
+def test_modules_that_are_run_exist() -> None:
+    named = {word for name in DOCUMENTS for word in re.findall(r"python3? -m ([\w.]+)", text(name))}
+    assert len(named) > 10
+    assert [one for one in sorted(named) if not _found(one)] == []
+
+
+def _found(module: str) -> bool:
+    """Whether there is a module; none where a package around it is missing."""
+    try:
+        return find_spec(module) is not None
+    except ModuleNotFoundError:
+        return False
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from generator.cli.main import main
 from generator.errors import InputError, Place
 from generator.robot.readers import read
 from identification.cli.excite import configure
@@ -71,8 +72,6 @@ def test_the_command_asks_for_what_a_request_does() -> None:
 
 @pytest.fixture(scope="module")
 def folder(file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    from generator.cli.main import main
-
     result = tmp_path_factory.mktemp("designed") / "two_links"
     assert main(["excite", str(file), "--out", str(result), *WORDS]) == 0
     return result

@@ -76,7 +76,7 @@ def test_bodies_of_which_nothing_is_known_do_not_weigh_on_those_that_slides_show
     found = identify(of.model.robot, [run], options=Options(recipe=PLAIN), regressors=of)
     possible = consistent_fit(found, None, 0.03)
     assert possible.train.total.norm < 1.02 * found.full.train.total.norm
-    assert possible.base["M2R"] == pytest.approx(30.0, rel=0.01)
+    assert possible.base["M2R"] == pytest.approx(30.0, rel=5e-6)
 
 
 def test_a_joint_that_hardly_moves_is_not_swapped_with_another(tmp_path: Path) -> None:

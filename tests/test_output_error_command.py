@@ -17,6 +17,7 @@ import distributed
 import numpy as np
 import pytest
 
+from generator.cli.main import main
 from generator.derivation import derive
 from generator.errors import InputError, Place
 from generator.robot.readers import read
@@ -50,8 +51,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("command")
     (place / "slide.yaml").write_text(SLIDE + TWIN)
     words = ["--duration", "6", "--noise", "0.3", "--parameters", "twin", "--out"]
-    from generator.cli.main import main
-
     assert main(["simulate", str(place / "slide.yaml"), *words, str(place / "A.csv")]) == 0
     return place
 

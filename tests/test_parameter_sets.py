@@ -156,9 +156,6 @@ def test_twin_inertia_matrix_is_positive_definite_everywhere(robot: str) -> None
     (M,) = evaluate(model.functions["inertia_matrix"], inputs).values()
     least = np.linalg.eigvalsh(M).min()
     lightest = min(value.value for name, value in values.items() if name.startswith("Ia"))
-    print(
-        f"{robot}: smallest eigenvalue of M(q) over {len(M)} states {least:.2f} kg m2, smallest Ia {lightest:g} kg m2"
-    )
     # Bodies that can exist only add to the inertia of the drive trains.
     assert least > lightest
 

@@ -291,10 +291,16 @@ def test_laws_with_memory_go_round(law: str) -> None:
     way_round = slice(-6283, None)
     work = np.sum((torque * v)[way_round]) * 1e-3
     # Presliding loses less than the Coulomb friction that it replaces; hysteresis loses by itself.
-    assert (work < 0) == law.startswith("presliding")
-    assert 0.05 < np.max(np.abs(torque[way_round])) < 2.3
-    slow = replayed(law, 0.5 * q, 0.5 * v, 2e-3)[2 * 6283 : 3 * 6283]
-    assert np.max(np.abs(slow)) > 0.05
+    presliding = law.startswith("presliding")
+    assert (work < 0) == presliding
+    # After a reversal presliding still pushes the old way where the friction that it replaces pushes the new one.
+    assert np.max(np.abs(torque[way_round])) == pytest.approx(2.0 if presliding else 1.0, rel=0.05)
+    # The same way at half the speed; the bristles of LuGre alone are weaker at speed.
+    slow = replayed(law, q, 0.5 * v, 2e-3)
+    if law == "presliding_lugre":
+        assert np.max(np.abs(slow - torque)) > 0.05
+    else:
+        np.testing.assert_allclose(slow, torque, rtol=0, atol=1e-12)
 
 
 def test_dry_friction_holds_and_lets_go() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -293,12 +292,3 @@ def test_robot_files_hold_further_effects_by_the_textbooks_law(tmp_path: Path) -
             assert torque_of_law is not None
             expected += torque_of_law[0] * effect.along(ARM)
     np.testing.assert_allclose(json.loads(done.out)["tau"], expected, rtol=1e-9, atol=1e-9)
-
-
-def test_forty_seconds_take_how_long(robot: Robot, capsys: pytest.CaptureFixture[str]) -> None:
-    make_run(robot, SHORT)
-    start = time.perf_counter()
-    played = make_run(robot, fourier(1), [Effect("stribeck", 2), Effect("joint_flexibility", 2)])
-    with capsys.disabled():
-        print(f"\n{robot.name}: {len(played.t)} rows of {robot.joints} axes in {time.perf_counter() - start:.2f} s")
-    assert len(played.t) == 20000

@@ -22,11 +22,14 @@ from generator.errors import InputError
 from generator.python_library import build_library
 from generator.resources import find_robot
 from generator.robot.readers import read
+from tests.chains import every_effect
 from tests.commands import PENDULUM, ROOT, command
 from tests.compiled import module, write
+from tests.conftest import EVERY
 from tests.subject import Subject, subject
 
 Array = NDArray[Any]
+ROBOTS = ["kr500", "scara", pytest.param("tree_two_arms", marks=pytest.mark.long), "pendulum"]
 
 
 @dataclass(frozen=True)
@@ -64,15 +67,13 @@ def folder_of(arm: Subject, folder: Path) -> Path:
     return folder
 
 
-@pytest.fixture(
-    scope="module", params=["kr500", "scara", pytest.param("tree_two_arms", marks=pytest.mark.long), "pendulum"]
-)
+@pytest.fixture(scope="module", params=ROBOTS)
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
     folder = tmp_path_factory.mktemp(request.param)
     file = folder / "pendulum.yaml"
     file.write_text(PENDULUM)
-    arm = subject(read(file if request.param == "pendulum" else find_robot(request.param)))
-    name = arm.robot.name
+    name = request.param
+    arm = subject(every_effect() if name == EVERY else read(file if name == "pendulum" else find_robot(name)))
     build_library(folder_of(arm, folder), name)
     numpy_module = module(numpy.emit(arm.model)[f"{name}.py"], name)
     return Made(arm, load(folder / "python" / f"{name}.py"), numpy_module, folder)
@@ -88,16 +89,17 @@ def agree(found: Array, wanted: Array, tolerance: float = 1e-12) -> bool:
     return bool(np.abs(found - wanted).max(initial=0.0) <= tolerance * np.abs(wanted).max(initial=1e-300))
 
 
+@pytest.mark.parametrize("made", [*ROBOTS, EVERY], indirect=True)
 def test_every_quantity_is_that_of_the_numpy_module(made: Made, robot: Any) -> None:
     for name, function in made.arm.model.functions.items():
         tolerance = 1e-8 if function.solves else 1e-12
         inputs = made.inputs(name, 1)
         found, wanted = getattr(robot, name)(**inputs), made.wanted(name, inputs)
-        several = isinstance(wanted, tuple)
-        for value, right in zip(found if several else [found], wanted if several else [wanted], strict=True):
+        for value, right in zip(_several(found), _several(wanted), strict=True):
             assert agree(value, right, tolerance), name
 
 
+@pytest.mark.parametrize("made", [*ROBOTS, EVERY], indirect=True)
 def test_results_go_where_they_are_asked_to_go(made: Made, robot: Any) -> None:
     for name, function in made.arm.model.functions.items():
         inputs = made.inputs(name, 2)

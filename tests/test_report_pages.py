@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
+from pkgutil import iter_modules
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -17,6 +18,7 @@ import pytest
 
 import identification.report.identify.sections
 from generator.review.page import sections
+from identification import report as report_package
 from identification.excitation.request import Request
 from identification.observation import Motion
 from identification.report import series
@@ -27,9 +29,7 @@ from identification.report.identify.subject import ALL, CONSISTENT, ESSENTIAL, S
 from identification.report.numbers import plain
 from identification.report.welch import spectrum
 from tests.recorded import TRUTH
-from tests.reports import Page, identified, pages
-
-KINDS = ("identify", "gains", "steps", "locked", "links", "compare", "excite", "output_error")
+from tests.reports import KINDS, Page, identified, pages
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +48,11 @@ def numbers(value: object) -> Iterator[float]:
             yield from numbers(one)
     elif isinstance(value, int | float):
         yield float(value)
+
+
+def test_every_kind_is_written(written: dict[str, bytes]) -> None:
+    assert written.keys() == KINDS.keys()
+    assert set(KINDS.values()) == {name for _, name, package in iter_modules(report_package.__path__) if package}
 
 
 @pytest.mark.parametrize("kind", KINDS)

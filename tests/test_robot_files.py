@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy
+from scipy.spatial.transform import Rotation
 
 from generator.effects.library import library
 from generator.resources import find_robot, robots, templates
@@ -270,8 +271,6 @@ def test_base_is_roll_pitch_yaw_about_fixed_axes() -> None:
 
 
 def test_base_of_general_angles(tmp_path: Path) -> None:
-    from scipy.spatial.transform import Rotation
-
     file = tmp_path / "arm.yaml"
     text = find_robot("tilted_two_link").read_text()
     file.write_text(text.replace("[90 deg, 0 deg, 25 deg]", "[0.3 rad, -0.5 rad, 1.1 rad]"))

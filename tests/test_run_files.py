@@ -11,10 +11,13 @@ import numpy as np
 import pytest
 import scipy.io
 
+from generator.discovery import modules
 from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.readers import read
+from identification import readers
 from identification.dataset import load
+from identification.readers import csv
 from tests.recorded import Recorded, same, stacked
 
 N = np.array([[100.0, 0.0], [5.0, -80.0]])
@@ -282,11 +285,12 @@ def test_slowly_logged_torques_are_told(rate: float, good: Recorded, robot: Robo
     assert f"tau1 keeps each value for {int(rate)} rows: it was logged more slowly" in run.notes[0]
 
 
-@pytest.mark.parametrize("ending", [".mat", ".parquet"])
-def test_damaged_binary_files_are_refused(ending: str, robot: Robot, tmp_path: Path) -> None:
+@pytest.mark.parametrize("ending", [ending for one in modules(readers) for ending in one.EXTENSIONS])
+def test_damaged_files_are_refused(ending: str, robot: Robot, tmp_path: Path) -> None:
     path = tmp_path / f"a{ending}"
     path.write_bytes(b"MATLAB 5.0 MAT-file, Platform" + bytes(range(256)) * 3)
-    with pytest.raises(InputError, match="this is not a whole"):
+    told = "3:115: byte 0x80 is not UTF-8" if ending in csv.EXTENSIONS else "1:1: this is not a whole"
+    with pytest.raises(InputError, match=f"a{ending}:{told}"):
         load(str(path), robot)
 
 

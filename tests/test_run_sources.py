@@ -15,7 +15,6 @@ from generator.robot.description import Robot
 from identification import recipes, sidecar
 from identification.dataset import load
 from identification.run_source import RunSource, part_of
-from tests.commands import PENDULUM, command
 from tests.recorded import Recorded
 
 
@@ -91,30 +90,6 @@ def test_a_path_without_a_name_is_refused(source: str, robot: Robot) -> None:
 
 def test_a_folder_may_look_like_a_part() -> None:
     assert part_of("data@1:2/run.csv", 0.0, 5.0) == str(Path("data@1:2/run.csv@0:5"))
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        "identify {robot} --data {long}.csv",
-        "identify {robot} --data {run} --recipe {long}.yaml",
-        "gains {robot} --empty {long}.csv --loaded {run}",
-        "stiffness {robot} --locked 1 --data {long}.csv --prior light",
-        "output-error {robot} --data {long}.csv",
-        "diagnose {robot} {long}.csv",
-        "excite {robot} --recipe {long}.yaml",
-        "simulate {robot} --parameters light --trajectory played --set file={long}.csv",
-        "simulate {robot} --parameters light --duration 0.1 --out {long}.csv",
-    ],
-)
-def test_a_name_that_is_too_long_is_one_line(words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    robot, run = tmp_path / "pendulum.yaml", tmp_path / "a.csv"
-    robot.write_text(PENDULUM)
-    run.write_text("t,q1,tau1\n0,0,0\n")
-    told = [word.format(robot=robot, run=run, long=tmp_path / ("a" * 300)) for word in words.split()]
-    done = command(*told, capsys=capsys)
-    assert done.status == 2
-    assert done.err.splitlines()[-1].startswith("error: ")
 
 
 @pytest.mark.parametrize("ending", ["yaml", "yml", "YAML", "YML"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -163,10 +164,19 @@ def plan(file: Path, name: str, seed: int = 0, **given: float | str) -> tuple[Ta
     return task, kind.plan(task)
 
 
-@pytest.mark.parametrize(
-    ("name", "given"),
-    [("fourier", {}), ("point_to_point", {"profile": "smooth"}), ("point_to_point", {"profile": "trapezoidal"})],
-)
+#: Trajectories that go where something else says, slowly or as it was recorded.
+WITHOUT_LIMITS = {"force_steps", "locked_output", "played"}
+
+
+def limited() -> Iterator[tuple[str, dict[str, str]]]:
+    """The other trajectories, once for each of their words."""
+    for name in sorted(trajectories().keys() - WITHOUT_LIMITS):
+        words = {key: one.choices for key, one in trajectories()[name].settings.items() if one.choices}
+        for chosen in product(*words.values()):
+            yield name, dict(zip(words, chosen, strict=True))
+
+
+@pytest.mark.parametrize(("name", "given"), list(limited()))
 def test_references_start_at_rest_and_keep_their_limits(name: str, given: Mapping[str, str], file: Path) -> None:
     for seed in range(3):
         task, reference = plan(file, name, seed, speed=0.8, acceleration=1.7, **given)

@@ -219,6 +219,6 @@ def _scalar(study: Study, layout: str) -> Array:
 
 
 if __name__ == "__main__":
-    import benchmarks.studies.batch as itself
+    import benchmarks.studies.batch as study
 
-    alone(__file__, itself)
+    alone(__file__, study)

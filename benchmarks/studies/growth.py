@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from benchmarks.loglog import loglog
+from benchmarks.growth_picture import CURVES
 from benchmarks.study import alone
 from generator.derivation import derive
 from generator.generation import emitted, uncollected
@@ -21,25 +21,17 @@ from generator.robot.readers import read
 from tests.chains import random_chain
 
 TITLE = "Generation time"
-PICTURE = Path(__file__).parents[2] / "docs" / "images" / "growth.svg"
-
 JOINTS = (3, 6, 12, 24, 48)
 
 
 def run(build: Path) -> dict[str, Any]:
-    """Rows by chain; draws ``docs/images/growth.svg``."""
+    """Rows by chain."""
     report = read(find_robot("kr500"))
     _measured(report)
     rows = [{"chain": "kr500", **_measured(report)}]
     grown = [{"chain": f"{count} joints", **_measured(random_chain(Random(count), count))} for count in JOINTS]
-    curves = {
-        "derivation": [row["derive [s]"] for row in grown],
-        "with all backends": [row["all [s]"] for row in grown],
-    }
-    PICTURE.parent.mkdir(parents=True, exist_ok=True)
-    picture = loglog("Generation time", "joints", "seconds", JOINTS, curves, {"quadratic": 2.0})
-    PICTURE.write_text(picture + "\n", encoding="utf-8")
-    return {"rows": rows + grown, "notes": [_growth(name, values) for name, values in curves.items()]}
+    notes = [_growth(name, [row[column] for row in grown]) for name, column in CURVES.items()]
+    return {"rows": rows + grown, "notes": notes}
 
 
 def _measured(robot: Robot) -> dict[str, Any]:

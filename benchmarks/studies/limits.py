@@ -226,6 +226,6 @@ def _rows(
 
 
 if __name__ == "__main__":
-    import benchmarks.studies.limits as itself
+    import benchmarks.studies.limits as study
 
-    alone(__file__, itself)
+    alone(__file__, study)

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from benchmarks.study import alone
 from generator.resources import find_robot
 from generator.robot.readers import read
 from identification.dataset import load
@@ -62,3 +63,9 @@ def _row(method: str, found: Estimate, seconds: float, true: Any) -> dict[str, o
         "position error, % of the spread": round(found.train.total.relative_to_mean, 3),
         "within 2 std": f"{inside} of {len(found.names)}" if method == "gauss-newton" else "-",
     }
+
+
+if __name__ == "__main__":
+    import benchmarks.studies.output_error as study
+
+    alone(__file__, study)

@@ -263,7 +263,7 @@ def test_peaks_over_the_way_are_not_hidden_by_standstill() -> None:
 
 
 def test_where_positions_are_counted_from_does_not_matter() -> None:
-    """Where the log begins to count positions does not matter to what is found."""
+    """Neither to whether a spring is found nor to where its middle is."""
     for zero in (0.0, 3.0):
         data = Data(22)
         x = zero + data.draw.uniform(-1.0, 1.0, size=(RUNS, COUNT))
@@ -294,8 +294,8 @@ def test_a_refinement_is_taken_where_the_runs_ask_for_it() -> None:
     (both,) = search(data.bank(0.5 * first + 0.3 * second, offered))
     assert [one.name for one in plain.evidence.variant.coefficients] == ["c"]
     assert [one.name for one in both.evidence.variant.coefficients] == ["c", "c2"]
-    for other in search(data.bank(0.2 * first + 0.5 * second, offered)):
-        assert [one.name for one in other.evidence.variant.coefficients] == ["c"]
+    (other,) = search(data.bank(0.2 * first + 0.5 * second, offered))
+    assert [one.name for one in other.evidence.variant.coefficients] == ["c"]
 
 
 def test_without_its_essential_coefficient_an_effect_is_another() -> None:
@@ -347,7 +347,6 @@ def test_physical_bounds_refuse_a_name() -> None:
 
 def test_what_is_tiny_beside_the_noise_is_refused() -> None:
     data = Data(13)
-    data.noise = data.noise * 1.0
     column = data.column()
     one = data.bank(0.045 * column, [fixed("tiny", column)])
     assert search(one) == []

@@ -34,7 +34,7 @@ def test_the_search_begins_in_each_valley(effect: str) -> None:
     begun = Valleys(Weighing(bank_, TRAIN, VALIDATE, None))._begun(bank_.variants[0], [])
     assert [round(one.shape["phi"], 3) for one in begun] == [round(x, 3) for x in (SEEMING, -pi / 2)]
     (found,) = search(data.bank(3.0 * true, [offered]))
-    assert found.evidence.variant.shape["phi"] == pytest.approx(TRUE, abs=0.02)
+    assert found.evidence.variant.shape["phi"] == pytest.approx(TRUE, abs=0.01)
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,6 @@ def test_instructions_of_casadi_over_ours(compared: tuple[Subject, Path]) -> Non
             same = timed[library.peer, function], timed[other.peer, function]
             assert disagreement(subject, *same) < 1e-9
             ratio = theirs / instructions(subject, library, function, folder)
-            print(f"{subject.name} {library.peer} {function}: {ratio:.2f}")
             if ratio < AT_LEAST[library.peer][function]:
                 short[library.peer, function] = round(ratio, 2)
     assert short == {}

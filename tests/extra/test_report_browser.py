@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.diagnosis.diagnosed_arm import case
 from tests.extra.browser import document, visit
-from tests.reports import pages
+from tests.reports import KINDS, pages
 
 #: What make test-extra looks at, and what only make test-long does.
-KINDS, FURTHER = ("identify", "diagnose"), ("compare", "excite", "gains", "steps", "locked", "links", "output_error")
+FIRST = ("identify", "diagnose")
+FURTHER = [kind for kind in KINDS if kind not in FIRST]
 
 #: Run in a copy of the page: where the charts are and what they say of themselves; then all buttons are pressed.
 _MEASURE = """
@@ -46,8 +46,7 @@ document.body.append(holder);
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    folder = tmp_path_factory.mktemp("reports")
-    return {**pages(folder), "diagnose": case(folder, "stribeck").page}
+    return pages(tmp_path_factory.mktemp("reports"))
 
 
 def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:
@@ -58,7 +57,7 @@ def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("kind", [*KINDS, *(pytest.param(kind, marks=pytest.mark.long) for kind in FURTHER)])
+@pytest.mark.parametrize("kind", [*FIRST, *(pytest.param(kind, marks=pytest.mark.long) for kind in FURTHER)])
 def test_a_report_is_quiet_and_its_charts_are_drawn(written: dict[str, bytes], kind: str, tmp_path: Path) -> None:
     told = measured(written[kind], tmp_path, 1440)
     assert told["undrawn"] == []
