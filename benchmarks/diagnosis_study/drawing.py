@@ -73,14 +73,18 @@ def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) ->
     """In a third of the cases one more effect that the robot file holds, on a joint without a hidden one."""
     law, joint = str(rng.choice(STUDY.beside)), int(rng.integers(1, ROBOTS[robot].joints + 1))
     there = rng.random() < 1 / 3 and joint not in {one.joint for one in hidden}
-    return (Hidden(law, joint),) if there and _may_hold(robot, joint, law) else ()
+    return (Hidden(law, joint),) if there and has_place(law, robot, joint) else ()
 
 
-def _may_hold(robot: str, joint: int, law: str) -> bool:
-    """Whether the robot file may hold the law on a joint: not each has a place on a slide."""
-    known = entry(Effect(law, joint), ROBOTS[robot])
+def has_place(law: str, robot: str, joint: int) -> bool:
+    """Whether a robot file may hold a law on a joint, and the library an effect that it may be called: not each has a
+    place on a slide.
+    """
     kind = PRISMATIC if ROBOTS[robot].chain[joint - 1].prismatic else REVOLUTE
-    return known is None or kind in library()[known.effect].kinds
+    known, effects = entry(Effect(law, joint), ROBOTS[robot]), library()
+    names = [effects[name] for name in STUDY.laws[law].named if name in effects]
+    named = not names or any(kind in one.kinds for one in names)
+    return named and (known is None or kind in effects[known.effect].kinds)
 
 
 def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> Hidden | None:
@@ -93,8 +97,7 @@ def _somewhere(law: str, robot: str, size: float, rng: np.random.Generator) -> H
         elif expected.joints is not None:
             places = expected.joints.get(robot, ())
         else:
-            # What no robot file can hold there is in no library.
-            places = [joint for joint in places if _may_hold(robot, joint, law)]
+            places = [joint for joint in places if has_place(law, robot, joint)]
     if not places:
         return None
     joint = int(rng.choice(places))

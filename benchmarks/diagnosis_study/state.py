@@ -12,7 +12,7 @@ from benchmarks.diagnosis_study.reach import reached
 ROOT = Path(__file__).parents[2]
 #: What makes a case, asks the command, and holds its answer against the truth; the command itself.
 MODULES = (
-    *(f"benchmarks.diagnosis_study.{name}" for name in ("drawing", "making", "asking", "scoring", "baselines")),
+    *(f"benchmarks.diagnosis_study.{name}" for name in ("making", "asking", "scoring", "baselines")),
     "identification.cli.diagnose",
 )
 #: Where they read files that are no modules.

@@ -26,7 +26,7 @@ def tables(results: Sequence[summary.Result], every: Sequence[summary.Result]) -
     return {
         "counts": summary.counts(results),
         "cells": summary.rows_of_cells(results),
-        "every": {"scored": summary.counts(every)["scored"], "codes": len({one["code"] for one in every})},
+        "every": {"codes": len({one["code"] for one in every}), **summary.counts(every)},
         "every cell": summary.rows_of_cells(every),
         "apart": summary.rows_apart(every),
         "laws": summary.rows_of_laws(every),
@@ -49,15 +49,16 @@ def page(found: Mapping[str, Any]) -> str:
         "## What was asked, and what came out",
         f"One study of one state of the code: {counts['scored']} cases, {counts['scored apart']} of them scored apart; "
         f"{counts['failed']} broke off. {counts['out of reach']} draws were left out, since no plausible size of the "
-        "law was as large as wanted. `make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
+        "law was as large as wanted. "
+        f"{_misplaced(counts)}`make study-diagnosis` makes 200 cases of each kind and mode; what it has made "
         "once, with the same code but for other commands, comments and docstrings, it does not make again. Where the "
         "cases are few the intervals are wide. Under `asked` stands the share that is to be reached.",
         table(found["cells"]),
         "## Every case that was ever drawn",
-        f"Studies of {every['codes']} states of the code drew {every['scored']} cases. Each counts once, as the last "
-        "state that was asked about it answered: a study goes through the draws from the first on, or, with `--new`, "
-        "from behind the last that was asked, whatever came out before. The diagnosis was worked on between them. All "
-        "tables from here on are of these cases.",
+        f"Studies of {every['codes']} states of the code drew {every['scored']} cases. "
+        f"{_misplaced(every)}Each counts once, as the last state that was asked about it answered: a study goes "
+        "through the draws from the first on, or, with `--new`, from behind the last that was asked, whatever came out "
+        "before. The diagnosis was worked on between them. All tables from here on are of these cases.",
         table(found["every cell"]),
         *(["Scored apart:", table(found["apart"])] if found["apart"] else []),
         "## Each law, three times the noise",
@@ -81,6 +82,13 @@ def page(found: Mapping[str, Any]) -> str:
             table(found["limits"]),
         ]
     return "\n\n".join(_filled(part) for part in parts if part) + "\n"
+
+
+def _misplaced(counts: Mapping[str, int]) -> str:
+    """What is said of cases that no table counts, if there are any."""
+    if not (count := counts["misplaced"]):
+        return ""
+    return f"{count} with a law on a joint where no effect of the library may stand for it are in no table. "
 
 
 def _filled(text: str) -> str:

@@ -7,7 +7,7 @@ from statistics import median
 from typing import Any
 
 from benchmarks.diagnosis_study.case import FREE, KNOWN
-from benchmarks.diagnosis_study.drawing import SIZES
+from benchmarks.diagnosis_study.drawing import SIZES, has_place
 from benchmarks.diagnosis_study.pages.intervals import Share, share
 from benchmarks.diagnosis_study.pages.questions import QUESTIONS, TITLES
 from benchmarks.diagnosis_study.runner import MISMATCH
@@ -139,6 +139,7 @@ def counts(results: Sequence[Result]) -> dict[str, int]:
         "out of reach": sum("skipped" in one for one in results),
         "failed": sum("failed" in one for one in results),
         "scored apart": sum("score" in one and _apart(one) for one in results),
+        "misplaced": sum("score" in one and _misplaced(one) for one in results),
     }
 
 
@@ -150,10 +151,18 @@ def _apart(one: Result) -> bool:
     return bool(one["truth"]["mismatch"] > MISMATCH)
 
 
+def _misplaced(one: Result) -> bool:
+    """Whether a hidden law acts where the library has no effect that it may be called, as earlier studies drew some."""
+    robot, hidden = one["case"]["robot"], one["case"]["hidden"]
+    return any(not has_place(what["law"], robot, what["joint"]) for what in hidden if what["law"] in STUDY.laws)
+
+
 def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
-    """Scored cases of a cell and mode, without those that are scored apart."""
+    """Scored cases of a cell and mode, without those that are scored apart or have an effect where none has a place."""
     return [
         one
         for one in results
-        if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode) and "score" in one and not _apart(one)
+        if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode)
+        and "score" in one
+        and not (_apart(one) or _misplaced(one))
     ]
