@@ -132,6 +132,13 @@ class Recorded:
 
     columns: Mapping[str, Array]
 
+    @classmethod
+    def read(cls, path: Path | str) -> Recorded:
+        """From text with a line of names."""
+        with open(path, encoding="utf-8") as lines:
+            names = lines.readline().strip().split(",")
+            return cls(dict(zip(names, np.loadtxt(lines, delimiter=",").T, strict=True)))
+
     def with_columns(self, **columns: Array) -> Recorded:
         return Recorded({**self.columns, **columns})
 

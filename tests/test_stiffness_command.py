@@ -68,9 +68,7 @@ def test_blocked_output_without_noise(tmp_path: Path) -> None:
 
 def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -> None:
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(path).columns)
     columns["tau2"] = np.minimum(columns["tau2"], np.quantile(columns["tau2"], 0.9))
     found = locked_output(ROBOT, 2, [str(Recorded(columns).save(path))])
     assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
@@ -80,8 +78,7 @@ def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -
 def test_a_motor_slower_than_a_fifth_of_its_largest_speed_tells_nothing(tmp_path: Path) -> None:
     """Friction that sticks there, a quarter of what winds the drive train up, leaves the stiffness as it is."""
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    columns = dict(Recorded.read(path).columns)
     speed = np.gradient(columns["q2"], columns["t"])
     sticks = np.abs(speed) < 0.18 * np.abs(speed).max()
     columns["tau2"] += np.where(sticks, 1000 * np.sign(columns["q2"] + 1.5), 0.0)
@@ -192,9 +189,7 @@ def test_force_steps_without_noise(tmp_path: Path) -> None:
 
 def test_currents_at_their_limit_are_left_out_of_torque_constants(tmp_path: Path) -> None:
     limited = pressed(tmp_path / "straight.csv", STRAIGHT, noise=1e-3, orient=True)
-    lines = Path(limited).read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(limited).columns)
     lowest, highest = columns["i2"].min(), columns["i2"].max()
     columns["i2"] = np.minimum(columns["i2"], lowest + 0.8 * (highest - lowest))
     limited = str(Recorded(columns).save(Path(limited)))
@@ -258,13 +253,9 @@ def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 def with_columns(path: str, signs: str, sign: float) -> str:
     """A run with columns whose names begin with one of ``signs`` times a ``sign``."""
-    names, *lines = Path(path).read_text().splitlines()
-    values = np.array([line.split(",") for line in lines], dtype=float).T
-    columns = {
-        name: sign * one if name[:-1] in signs.split() else one
-        for name, one in zip(names.split(","), values, strict=True)
-    }
-    return str(Recorded(columns).save(Path(path)))
+    run = Recorded.read(path)
+    other = {name: sign * values for name, values in run.columns.items() if name[:-1] in signs.split()}
+    return str(run.with_columns(**other).save(Path(path)))
 
 
 def test_another_sign_of_force_torque_or_current_makes_no_stiffness(tmp_path: Path) -> None:
@@ -282,10 +273,9 @@ def test_another_sign_of_force_torque_or_current_makes_no_stiffness(tmp_path: Pa
 
 def test_a_run_in_which_the_blocked_motor_rests_is_told(tmp_path: Path) -> None:
     one, resting = blocked(tmp_path / "a.csv"), blocked(tmp_path / "b.csv", 1)
-    names, *lines = Path(resting).read_text().splitlines()
-    values = dict(zip(names.split(","), np.array([line.split(",") for line in lines], dtype=float).T, strict=True))
-    still = np.full_like(values["t"], -1.5)
-    Recorded(values | {"q2": still, "tau2": 300.0 + values["tau3"]}).save(Path(resting))
+    run = Recorded.read(resting)
+    still = np.full_like(run.columns["t"], -1.5)
+    run.with_columns(q2=still, tau2=300.0 + run.columns["tau3"]).save(Path(resting))
     found = locked_output(ROBOT, 2, [one, resting])
     told = "b.csv: the motor of joint 2 hardly turns: this run tells nothing of k2"
     assert [note.endswith(told) for note in found.notes if "hardly" in note] == [True]
@@ -306,8 +296,7 @@ def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) 
 def test_a_motor_that_turns_one_way_does_not_tell_friction_from_offset(tmp_path: Path) -> None:
     """Refused by name with the reason, while the stiffness is told."""
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    columns = dict(Recorded.read(path).columns)
     x, w = columns["q2"] + 1.5, 2 * np.pi * 0.15
     ramp = 2.5e-3 * w * columns["t"]
     columns["q2"] += ramp
@@ -355,9 +344,7 @@ def test_poses_with_currents_and_with_torques_go_together(tmp_path: Path) -> Non
     """Torque constants are then those of the file."""
     currents = pressed(tmp_path / "straight.csv", STRAIGHT, 1, 1e-3)
     torques = pressed(tmp_path / "turned.csv", TURNED, 2, 1e-3, "xyz")
-    lines = Path(torques).read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(torques).columns)
     tau = N.T @ (KT[:, None] * np.stack([columns.pop(f"i{j}") for j in range(1, 7)]))
     Recorded(columns | {f"tau{j}": one for j, one in enumerate(tau, 1)}).save(Path(torques))
     found = force_steps(ROBOT, [currents, torques])

@@ -84,6 +84,12 @@ def recorded(
     return regressors, sources
 
 
+def rewritten(source: str, change: Callable[[Array, Array, Array], tuple[Array, Array, Array]]) -> None:
+    """The run file with other times [s], positions [rad] and torques [N m] (N each) of the arm."""
+    t, q, tau = change(*Recorded.read(source).columns.values())
+    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(source))
+
+
 def ready(source: str, regressors: Regressors) -> Prepared:
     """A run as a diagnosis looks at it."""
     robot = regressors.model.robot

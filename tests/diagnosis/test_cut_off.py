@@ -11,8 +11,7 @@ from generator.robot.readers import read
 from identification.dataset import load
 from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import NOTHING
-from tests.diagnosis.diagnosed_arm import TRUTH, recorded, torque
-from tests.recorded import Recorded
+from tests.diagnosis.diagnosed_arm import TRUTH, recorded, rewritten, torque
 
 
 @pytest.fixture(scope="module")
@@ -21,8 +20,7 @@ def clipped(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
     folder = tmp_path_factory.mktemp("clipped")
     _, sources = recorded(folder, [torque("")] * 3)
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": np.minimum(tau, np.quantile(tau, 0.93))}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, np.minimum(tau, np.quantile(tau, 0.93))))
     return folder / "arm.yaml", sources
 
 

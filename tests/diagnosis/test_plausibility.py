@@ -31,8 +31,8 @@ def diagnose(folder: Path, factors: list[float], prior: str | None = None, dry: 
     """Of runs whose torques are multiplied by ``factors``, with a set of the true parameters as ``prior``."""
     _, sources = recorded(folder, [torque("")] * len(factors), ARM + SET)
     for source, factor in zip(sources, factors, strict=True):
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": factor * tau}).save(Path(source))
+        run = Recorded.read(source)
+        run.with_columns(tau1=factor * run.columns["tau1"]).save(Path(source))
     path = folder / "arm.yaml"
     diagnosed(path, read(path), Request(sources, prior=prior, dry=dry), folder / "out", lambda *about: {})
 
