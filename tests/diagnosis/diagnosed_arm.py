@@ -15,6 +15,7 @@ from generator.robot.readers import read
 from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
+from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending.mended import Mended, mended
 from identification.diagnosis.runs.prepared import Prepared, prepared
@@ -102,6 +103,12 @@ def diagnosis_of(sources: Sequence[str], regressors: Regressors, known: str | No
     runs = [ready(source, regressors) for source in sources]
     prior = None if known is None else prior_of(regressors.model, known)
     return diagnose(regressors, runs, Roles(tuple(sources[:-1]), (sources[-1],), (), tuple(sources)), prior)
+
+
+def answered(path: Path, wanted: Request, out: Path) -> tuple[Diagnosis, Mended | None]:
+    """What the command finds of the robot file ``path``, and the mended robot, with files in ``out`` and no page."""
+    found, new, _ = diagnosed(path, read(path), wanted, out, lambda *about: {})
+    return found, new
 
 
 def torque(hidden: str) -> Hidden:

@@ -9,9 +9,9 @@ import pytest
 
 from generator.robot.readers import read
 from identification.dataset import load
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING
-from tests.diagnosis.diagnosed_arm import TRUTH, recorded, rewritten, torque
+from tests.diagnosis.diagnosed_arm import TRUTH, answered, recorded, rewritten, torque
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def test_cut_off_torques_neither_name_nor_shift_anything(
 ) -> None:
     path, sources = clipped
     fit, validate, test = sources[:1], sources[1:runs][:1], sources[2:runs]
-    found, new, _ = diagnosed(path, read(path), Request(fit, validate, test), tmp_path / "out", lambda *about: {})
+    found, new = answered(path, Request(fit, validate, test), tmp_path / "out")
     assert found.verdict == NOTHING
     assert sum("tau1 is cut off for" in note for note in found.notes) == runs
     assert new is not None

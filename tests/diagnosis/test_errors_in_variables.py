@@ -15,7 +15,7 @@ from identification.diagnosis.candidates import elasticity
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.columns.normal_equations import directions
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.noise.clear_directions import clear
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
@@ -24,7 +24,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
 from identification.resolution import steps
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, ready
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, answered, ready
 from tests.matrices import WHITE
 from tests.recorded import Recorded, fourier
 
@@ -186,5 +186,5 @@ def test_an_arm_with_an_ordinary_encoder_is_not_called_elastic(
 ) -> None:
     _, sources = recorded(tmp_path, 3, noise, sensor, slowest)
     path = tmp_path / "arm.yaml"
-    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, Request(sources), tmp_path / "out")
     assert (found.verdict, found.findings) == (NOTHING, ())

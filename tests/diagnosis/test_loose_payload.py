@@ -11,9 +11,10 @@ from generator.resources import find_robot
 from generator.robot.parameters import INERTIAL_STEMS
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.observation import Regressors
+from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import Recorded, fourier
 
 pytestmark = pytest.mark.long
@@ -46,7 +47,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
         tau = tau + NOISE * tau.std(axis=1, keepdims=True) * draw.normal(size=tau.shape)
         signals = {f"{stem}{k + 1}": rows[k] for stem, rows in (("q", motion.q), ("tau", tau)) for k in range(len(tau))}
         sources.append(str(Recorded({"t": t} | signals).save(folder / f"{seed}.csv")))
-    result, _, _ = diagnosed(path, robot, Request(sources, prior=SET), folder / "out", lambda *about: {})
+    result, _ = answered(path, Request(sources, prior=SET), folder / "out")
     return result
 
 

@@ -10,10 +10,10 @@ import pytest
 from scipy.signal import lfilter
 
 from generator.robot.readers import read
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
 from identification.observation import Regressors
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, answered
 from tests.recorded import Array, Recorded, fourier
 
 #: Frequency [Hz] of the slowest sine: runs of 40 s never repeat.
@@ -53,7 +53,7 @@ def diagnosis(folder: Path, hidden: Sequence[Hidden]) -> Diagnosis:
         tau = regressors.torques(TRUTH, motion)[0] + one(motion.q[0], motion.qd[0])
         tau += lfilter([1], [1, -0.5], NOISE * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
-    return diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})[0]
+    return answered(path, Request(sources), folder / "out")[0]
 
 
 @pytest.mark.parametrize("hidden", [bump, pytest.param(spot, marks=pytest.mark.long)])

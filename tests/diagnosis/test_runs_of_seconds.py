@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.mending.mended import Mended
 from identification.observation import Regressors
+from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
 
 #: Stiffness of a spring that the file does not know [N m/rad], step of the encoders [rad], noise in parts of a torque.
@@ -43,7 +44,7 @@ def diagnosis(
         q = STEP * np.round(motion.q / STEP)
         columns = {"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}
         sources.append(str(Recorded(columns).save(folder / f"{number}.csv")))
-    found, new, _ = diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})
+    found, new = answered(path, Request(sources), folder / "out")
     assert new is not None
     return found, new
 

@@ -11,13 +11,13 @@ import pytest
 from generator.robot.readers import read
 from identification.diagnosis.columns.hypothesis import LOAD
 from identification.diagnosis.columns.payload_body import STATED_MASS, beyond, corrected
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.sidecar import UNITS, Payload
-from tests.diagnosis.diagnosed_arm import diagnosis_of
+from tests.diagnosis.diagnosed_arm import answered, diagnosis_of
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
 from tests.recorded import UNITS as OF_LINKS
 
@@ -58,10 +58,10 @@ def recorded(
 
 
 def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [(MASS, STATED)] * 4)
+    _, sources = recorded(tmp_path, [(MASS, STATED)] * 4)
     path = tmp_path / "two_links.yaml"
     wanted = Request(sources[:3], test=sources[3:], prior="known")
-    found, new, _ = diagnosed(path, regressors.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    found, new = answered(path, wanted, tmp_path / "out")
     (one,) = found.findings
     assert (one.hypothesis.effect, one.hypothesis.kind, one.status) == ("stated_payload", LOAD, FIRM)
     mass = one.parameters["M_beyond"]
