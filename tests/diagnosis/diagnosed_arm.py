@@ -70,17 +70,29 @@ def case(folder: Path, hidden: str) -> Case:
 
 
 def recorded(
-    folder: Path, hidden: Sequence[Hidden], arm: str = ARM, truth: Mapping[str, float] = TRUTH, noise: float = NOISE
+    folder: Path,
+    hidden: Sequence[Hidden],
+    arm: str = ARM,
+    truth: Mapping[str, float] = TRUTH,
+    noise: float = NOISE,
+    *,
+    stays: float = STAYS,
+    draws: int = 1,
+    seconds: float = 40.0,
+    rate: float = 100.0,
+    slowest: float = 0.1,
 ) -> tuple[Regressors, list[str]]:
-    """The arm, and a run file for each torque that its file does not know."""
+    """The arm, and a run file for each torque that its file does not know, of so many ``seconds`` at a ``rate`` [Hz],
+    with sines from the ``slowest`` one [Hz] on; ``draws`` is the seed of the noise.
+    """
     (folder / "arm.yaml").write_text(arm)
     robot = read(folder / "arm.yaml")
-    regressors, draw = Regressors(robot), np.random.default_rng(1)
+    regressors, draw = Regressors(robot), np.random.default_rng(draws)
     sources = []
     for seed, one in enumerate(hidden, 1):
-        t, motion = fourier(robot, 40.0, 100.0, seed)
+        t, motion = fourier(robot, seconds, rate, seed, slowest)
         tau = regressors.torques(truth, motion)[0] + one(motion.q[0], motion.qd[0])
-        tau += lfilter([1], [1, -STAYS], noise * draw.normal(size=len(t)))
+        tau += lfilter([1], [1, -stays], noise * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
     return regressors, sources
 
