@@ -15,7 +15,7 @@ from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import answered
-from tests.recorded import Recorded, fourier
+from tests.recorded import as_recorded, fourier
 
 pytestmark = pytest.mark.long
 
@@ -45,8 +45,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
             [np.array([body[name] for name in INERTIAL_STEMS]) @ one for one in regressors.payload(motion)]
         )
         tau = tau + NOISE * tau.std(axis=1, keepdims=True) * draw.normal(size=tau.shape)
-        signals = {f"{stem}{k + 1}": rows[k] for stem, rows in (("q", motion.q), ("tau", tau)) for k in range(len(tau))}
-        sources.append(str(Recorded({"t": t} | signals).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
     result, _ = answered(path, Request(sources, prior=SET), folder / "out")
     return result
 

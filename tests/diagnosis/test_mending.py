@@ -28,7 +28,7 @@ from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
-from tests.recorded import TRUTH, Recorded, parameters_text, two_links
+from tests.recorded import TRUTH, as_recorded, parameters_text, two_links
 from tests.recorded import fourier as sines
 
 ARM = ROBOTS["three_axis"]
@@ -106,8 +106,7 @@ def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp
         q, qd, qdd = way.signals
         q[held], qd[held], qdd[held] = q[held, :1], 0.0, 0.0
         tau = of.torques(TRUTH, way) + 0.6 * np.random.default_rng(seed).normal(size=q.shape)
-        sources.append(str(tmp_path / f"{seed}.csv"))
-        Recorded({"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}).save(Path(sources[-1]))
+        sources.append(str(as_recorded(of, t, q, tau).save(tmp_path / f"{seed}.csv")))
     wanted = Request(sources[:2], (), sources[2:])
     _, new = answered(tmp_path / "two_links.yaml", wanted, tmp_path / "out")
     assert new is not None

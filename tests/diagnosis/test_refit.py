@@ -31,7 +31,7 @@ from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
 from identification.sidecar import UNITS, Payload
-from tests.recorded import TRUTH, Recorded, fourier, recorded, two_links
+from tests.recorded import TRUTH, as_recorded, fourier, recorded, two_links
 
 Array = NDArray[np.float64]
 
@@ -86,11 +86,7 @@ class Case:
         tau = self.regressors.torques(self.truth, Motion(made.q, made.qd, made.qdd, z[None, :-1:20]))
         tau += 1e-3 * np.ptp(tau, axis=1)[:, None] * np.random.default_rng(seed).normal(size=tau.shape)
         late = np.stack([np.interp(t - DELAY, t, row) for row in tau])
-        path = self.folder / f"run{seed}.csv"
-        n = len(made.q)
-        header = ",".join(["t", *(f"q{k + 1}" for k in range(n)), *(f"tau{k + 1}" for k in range(n))])
-        np.savetxt(path, np.column_stack([t, made.q.T, late.T]), delimiter=",", header=header, comments="")
-        return path
+        return as_recorded(self.regressors, t, made.q, late).save(self.folder / f"run{seed}.csv")
 
     def run(self, k: int, robot: Robot) -> Run:
         return load(str(self.runs[k]), robot)
@@ -224,8 +220,7 @@ def test_standard_deviations_are_those_of_the_noise_s_colour(time: float, known:
         t, way = fourier(of.model.robot, 60.0, rate, seed)
         drawn = np.random.default_rng(seed).normal(scale=0.7 * np.sqrt(1 - stays**2), size=(2, len(t) + 1000))
         tau = of.torques(TRUTH, way) + signal.lfilter([1], [1, -stays], drawn)[:, 1000:]
-        columns = {"t": t, "q1": way.q[0], "q2": way.q[1], "tau1": tau[0], "tau2": tau[1]}
-        run = load(str(Recorded(columns).save(tmp_path / f"{seed}.csv")), of.model.robot)
+        run = load(str(as_recorded(of, t, way.q, tau).save(tmp_path / f"{seed}.csv")), of.model.robot)
         fit = refit([prepared(run, recipes.recipe_of("two_links"), of).sampled], of, vague)
         away += [(fit.values[name] - TRUTH[name]) / fit.std[name] for name in of.names]
     assert 0.6 < np.sqrt(np.mean(np.square(away))) < 1.4

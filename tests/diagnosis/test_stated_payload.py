@@ -18,7 +18,7 @@ from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.sidecar import UNITS, Payload
 from tests.diagnosis.diagnosed_arm import answered, diagnosis_of
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.recorded import TRUTH, TWO_LINKS, as_recorded, fourier
 from tests.recorded import UNITS as OF_LINKS
 
 #: Mass that the arm carries at the tool frame's origin [kg], what sidecars state of it, the length of the first link
@@ -49,8 +49,7 @@ def recorded(
         t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
         true = regressors.torques(carrying(mass), motion) + draw.normal(size=motion.q.shape)
         tau = N.T @ np.diag(gains) @ np.linalg.solve(N.T, true)
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
         values = ["payload: none"] if not stated else ["payload:", f"  M: {stated} kg"]
         values += [f"  {stem}: 0 {unit}" for stem, unit in UNITS.items() if stated and stem != "M"]
         (folder / f"{seed}.yaml").write_text("\n".join(["robot: two_links", *values]) + "\n")
