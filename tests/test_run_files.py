@@ -15,11 +15,8 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.dataset import load
+from tests.elastic_links import KT, N
 from tests.recorded import Recorded, same, stacked
-
-N = np.array([[100.0, 0.0], [5.0, -80.0]])
-KT = np.array([0.5, 0.4])
-
 
 # -- formats ----------------------------------------------------------------------------------------------------------
 

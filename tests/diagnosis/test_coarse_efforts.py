@@ -16,15 +16,14 @@ from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion, Regressors
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, ready, recorded, rewritten, torque
+from tests.elastic_links import KT, N
 from tests.recorded import TRUTH as TWO
 from tests.recorded import Array, Recorded, fourier, stacked, two_links
 from tests.recorded import recorded as recorded_links
 
 STEP = 5.0
-#: Step of the currents [A] of two motors, their coupling and torque constants.
+#: Step of the currents [A] of two motors.
 CURRENT = 0.02
-N = np.array([[100.0, 0.0], [5.0, -80.0]])
-KT = np.array([0.5, 0.4])
 
 
 def coarse(sources: list[str], step: float) -> None:
