@@ -8,14 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.commands import PENDULUM, ROOT, command
-
-
-@pytest.fixture
-def pendulum(tmp_path: Path) -> Path:
-    path = tmp_path / "pendulum.yaml"
-    path.write_text(PENDULUM)
-    return path
+from tests.commands import ROOT, command
 
 
 @pytest.mark.parametrize("name", ["generate", "identify", "excite", "simulate", "gains"])

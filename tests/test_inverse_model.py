@@ -16,7 +16,7 @@ from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.sidecar import Payload
-from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_links
+from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
 TEN = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -25,11 +25,6 @@ TEN = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("runs")
-
-
-@pytest.fixture(scope="module")
-def links(folder: Path) -> Regressors:
-    return two_links(folder)
 
 
 @pytest.fixture(scope="module")

@@ -14,12 +14,7 @@ from identification.drive_train import constants, coupling
 from identification.inverse_model import identify
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import answered
-from tests.recorded import TRUTH, Recorded, recorded, two_links
-
-
-@pytest.fixture(scope="module")
-def links(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
-    return two_links(tmp_path_factory.mktemp("swapped"))
+from tests.recorded import TRUTH, Recorded, recorded
 
 
 @pytest.mark.parametrize("change", ["torques", "positions"])
