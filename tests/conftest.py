@@ -35,6 +35,9 @@ def _on_cores_of_its_own() -> None:
 
 _on_cores_of_its_own()
 
+# What these assert is told as what a test asserts.
+pytest.register_assert_rewrite("tests.core_quantities", "tests.regressor_rank")
+
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
 #: A robot with the structure of another, whose code is compiled by make test-long alone.

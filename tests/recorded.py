@@ -94,6 +94,11 @@ def parameters_text(sets: Mapping[str, Mapping[str, float]]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def twin_text() -> str:
+    """Of the two links' robot file, with the set ``twin``."""
+    return TWO_LINKS + parameters_text({"twin": TRUTH})
+
+
 @cache
 def two_links(folder: Path) -> Regressors:
     """The small robot, from a file in ``folder``."""

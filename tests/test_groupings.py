@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
 from random import Random
@@ -15,13 +15,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from generator.derivation import derive
-from generator.reference.arithmetic import decimals
 from generator.resources import find_robot
 from generator.robot.description import EffectUse, Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.chains import DRIVE_TRAIN, elastic_chain, on_all_joints, random_anthropomorphic, random_robot
-from tests.subject import Subject, Vector, subject
+from tests.regressor_rank import check_grouping, rank
+from tests.subject import Subject, subject
 
 #: Report section 5.1, KR270-2F, as printed.
 SECTION_5_1 = """
@@ -204,53 +204,6 @@ def test_counts_hold_for_any_lengths_of_the_reports_structure(draw: Random) -> N
 
 
 # -- rank -------------------------------------------------------------------------------------------------------------
-
-
-def rank(W: Vector) -> int:
-    """Number of independent columns, each first scaled to length one; the singular values must leave a gap."""
-    size = np.linalg.norm(W, axis=0)
-    shown = W[:, size > 1e-9 * max(size.max(initial=0.0), 1.0)]
-    if not shown.size:
-        return 0
-    values = np.linalg.svd(shown / np.linalg.norm(shown, axis=0), compute_uv=False)
-    independent = int((values > 1e-9 * values[0]).sum())
-    assert independent == len(values) or values[independent] < 1e-12 * values[0], "the rank is not clear"
-    return independent
-
-
-def states(arm: Subject, columns: int) -> Iterator[tuple[Vector, Vector, Vector]]:
-    """As many random states as show every column, and some."""
-    for seed in range(100, 110 + 2 * columns // arm.dof):
-        yield arm.state(seed)
-
-
-def observed(arm: Subject, names: Sequence[str]) -> Vector:
-    """The reference's regressor of the named standard parameters over random states."""
-    random = Random(1)
-    rows = []
-    for state in states(arm, len(names)):
-        beside = [[random.uniform(-1, 1) for _ in range(n)] for n in (len(arm.model.effect_states), arm.dof)]
-        robot = replace(arm.rigid, states=tuple(decimals(beside[0])), warmth=decimals(beside[1]))
-        rows.append(robot.regressor(names, *map(decimals, state)))
-    return np.concatenate(rows).astype(float)
-
-
-def check_grouping(arm: Subject) -> None:
-    """Rank, columns and groupings against the reference's standard regressor."""
-    W = observed(arm, arm.standard)
-    column = dict(zip(arm.standard, W.T, strict=True))
-    base = np.stack([column[head] for head in arm.heads], axis=1)
-    assert rank(W) == rank(base) == len(arm.heads) == len(arm.model.base_parameters)
-
-    tau = W @ [arm.values[name] for name in arm.standard]
-    assert np.abs(base @ list(arm.base_values.values()) - tau).max() <= 1e-10 * np.abs(tau).max()
-
-    eliminated = {one.name: one.into for one in arm.model.grouping.eliminated}
-    assert sorted([*eliminated, *arm.heads]) == sorted(arm.standard)
-    for name, into in eliminated.items():
-        uses = tuple(one.name for one in arm.model.grouping.base if any(t == name for _, t in one.terms))
-        assert into == uses
-        assert bool(into) == (np.abs(column[name]).max() > 1e-9), name
 
 
 def test_groupings_agree_with_the_reference(arm: Subject) -> None:

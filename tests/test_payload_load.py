@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from generator.robot.readers import read
 from identification.drive_gains import drive_gains
@@ -15,8 +14,6 @@ from identification.observation import Regressors
 from identification.sidecar import Payload
 from tests.elastic_links import N
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
-
-Array = NDArray[np.float64]
 
 #: Friction that is a fifth of the load, a payload of 20 kg in the tool frame, and true torque constants [N m/A].
 LOAD = {"Fl1": 0.2, "Fl2": 0.2}

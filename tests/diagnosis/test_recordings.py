@@ -15,7 +15,7 @@ from identification.diagnosis.runs.played import together
 from tests.at_hand import RECORDINGS
 from tests.commands import ROOT
 from tests.diagnosis.diagnosed_arm import answered
-from tests.test_real_runs import TEST, TRAIN, A, B, data
+from tests.real_recordings import TEST, TRAIN, A, B, data
 
 pytestmark = RECORDINGS.needed
 

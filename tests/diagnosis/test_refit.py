@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy import signal
 
 from generator.backends.review import groupings
@@ -32,8 +31,6 @@ from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
 from identification.sidecar import UNITS, Payload
 from tests.recorded import TRUTH, as_recorded, fourier, recorded, two_links
-
-Array = NDArray[np.float64]
 
 RATE, SECONDS, DELAY = 250.0, 20.0, 2.4e-3
 #: Hidden in the runs: friction with a state on the first joint, a delay, a payload-free robot otherwise.
