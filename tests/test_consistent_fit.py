@@ -15,6 +15,7 @@ from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
 from identification.observation import Regressors
 from identification.recipes import Recipe
+from tests.bodies import STEMS
 from tests.recorded import Recorded, recorded
 
 #: Two bars with rotors; what the base parameters are made of.
@@ -28,8 +29,7 @@ def ten(number: int, P: np.ndarray) -> dict[str, float]:
     S, half = P[:3, :3], np.trace(P[:3, :3])
     tensor = half * np.eye(3) - S
     values = [*tensor[np.triu_indices(3)], *P[:3, 3], P[3, 3]]
-    stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    return {f"{stem}{number}": float(value) for stem, value in zip(stems, values, strict=True)}
+    return {f"{stem}{number}": float(value) for stem, value in zip(STEMS, values, strict=True)}
 
 
 STANDARD = {**ten(1, BARS[1]), **ten(2, BARS[2]), **DRIVES}

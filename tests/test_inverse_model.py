@@ -16,10 +16,10 @@ from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.sidecar import Payload
+from tests.bodies import STEMS
 from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
-TEN = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 
 
 @pytest.fixture(scope="module")
@@ -248,7 +248,7 @@ def test_a_run_with_a_known_payload_is_tried_with_it(links: Regressors, folder: 
     path = recorded(links, TRUTH, seed=4, payload=LOAD).save(folder / "tried.csv")
     options = Options(recipe=Recipe(dynamics=4.0))
     units = ["kg m2"] * 6 + ["kg m"] * 3 + ["kg"]
-    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(TEN, LOAD, units, strict=True))
+    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(STEMS, LOAD, units, strict=True))
     (folder / "tried.yaml").write_text(f"payload: {{{given}}}\n")
     found = identify(links.model.robot, [clean], [path], options, links)
     assert found.full.test is not None

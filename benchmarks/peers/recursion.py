@@ -13,7 +13,8 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
-from benchmarks.peers.subject import DYNAMIC, Subject
+from benchmarks.peers.subject import Subject
+from tests.bodies import PINOCCHIO
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,7 @@ class Recursion:
         return ca.vertcat(*(self._given.get(f"Ia{link.number}", ca.SX(0)) for link in self._subject.links))
 
     def _body(self, number: int) -> Body:
-        mass, mx, my, mz, xx, xy, yy, xz, yz, zz = (self._given.get(f"{stem}{number}", ca.SX(0)) for stem in DYNAMIC)
+        mass, mx, my, mz, xx, xy, yy, xz, yz, zz = (self._given.get(f"{stem}{number}", ca.SX(0)) for stem in PINOCCHIO)
         tensor = ca.sparsify(ca.blockcat([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
         return Body(mass, ca.sparsify(ca.vertcat(mx, my, mz)), tensor)
 

@@ -30,6 +30,7 @@ from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
 from identification.sidecar import UNITS, Payload
+from tests.bodies import STEMS
 from tests.recorded import TRUTH, as_recorded, fourier, recorded, two_links
 
 RATE, SECONDS, DELAY = 250.0, 20.0, 2.4e-3
@@ -248,8 +249,7 @@ def test_a_payload_is_one_of_base_parameters(name: str) -> None:
     assert std.max() > 0.1
     along = motion(regressors.model.robot, 5).part(0, 50)
     ten = {"XX": 0.05, "XZ": -0.02, "YY": 0.04, "ZZ": 0.04, "M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5}
-    order = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    body = np.array([ten.get(stem, 0.0) for stem in order])
+    body = np.array([ten.get(stem, 0.0) for stem in STEMS])
     expected = np.stack([body @ columns for columns in regressors.payload(along)])
     found = regressors.torques(dict(zip(regressors.names, prior.mean.tolist(), strict=True)), along)
     np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())

@@ -9,6 +9,7 @@ import pytest
 
 from generator.robot.readers import read
 from identification.observation import Regressors
+from tests.bodies import ten_parameters
 from tests.diagnosis.diagnosed_arm import diagnosis_of
 from tests.recorded import as_recorded, fourier
 
@@ -47,8 +48,7 @@ def test_it_is_told_by_how_its_mass_is_spread(tmp_path: Path) -> None:
     (path := tmp_path / "true.yaml").write_text(POSITIONER)
     regressors, draw, sources = Regressors(read(path)), np.random.default_rng(3), []
     assert TRUTH.keys() == set(regressors.names)
-    inertia = MASS * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE)) + 0.1 * np.eye(3)
-    body = np.array([*inertia[np.triu_indices(3)], *MASS * CENTRE, MASS])
+    body = ten_parameters(MASS, CENTRE, 0.1 * np.eye(3))
     for seed in range(1, 4):
         t, motion = fourier(regressors.model.robot, 15.0, 200.0, seed)
         tau = regressors.torques(TRUTH, motion) + np.stack([body @ rows for rows in regressors.payload(motion)])
