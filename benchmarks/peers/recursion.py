@@ -13,7 +13,7 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
-from benchmarks.peers.subject import Subject
+from benchmarks.peers.subject import Chain
 from tests.bodies import PINOCCHIO
 
 
@@ -38,7 +38,7 @@ class Motion:
 class Recursion:
     """Expressions of a robot's dynamics in ``q``, ``qd``, ``qdd`` (or ``tau``) and ``parameters``, the base ones."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Chain) -> None:
         self._subject = subject
         self.q, self.qd, self.qdd, self.tau = (ca.SX.sym(name, subject.dof) for name in ("q", "qd", "qdd", "tau"))
         self.parameters = ca.SX.sym("parameters", len(subject.base))

@@ -46,7 +46,7 @@ class Link:
     position: Array
 
 
-class Subject:
+class Chain:
     """A serial chain of ``robots/`` reduced to bodies and rotors, its lengths numbers.
 
     ``model`` is that; ``whole`` has friction, offsets and balancers too. ``values`` are standard parameters by name.
