@@ -34,6 +34,7 @@ from identification.simulation.machine import compiled
 from identification.simulation.run_file import save
 from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
+from tests.extra.browser import COMMANDS
 
 ROBOT = "kr500"
 FOLDER = ROOT / "build" / "example_diagnosis"
@@ -49,7 +50,6 @@ SET = "machine"
 #: Two runs are fitted, one validates, one stays untouched; four periods of 5 s each.
 RUNS = ("A", "B", "C", "D")
 
-_BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 _WIDTH, _HEIGHT = 1100, 1500
 
 
@@ -132,7 +132,7 @@ def numbers(found: Diagnosis) -> str:
 
 def screenshot(report: Path, picture: Path) -> bool:
     """The report's first page as a picture; False without a browser."""
-    browser = next((path for name in _BROWSERS if (path := shutil.which(name))), None)
+    browser = next((path for name in COMMANDS if (path := shutil.which(name))), None)
     if browser is None:
         return False
     flags = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=10000")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from benchmarks.callgrind import collected
 from benchmarks.compiling import run
 from generator.backends import c
 from generator.derivation import derive
@@ -14,6 +14,7 @@ from generator.robot.description import ParameterValue, Robot
 from generator.symbolic.function import Function
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import parameter_vector
+from tests.compiled import write
 
 #: How the limits of this project count: fused multiply-add, four doubles in a register, nothing else special.
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=fast", "-march=haswell")
@@ -42,9 +43,7 @@ def instructions(
     Parameters are physical ones, the state is arbitrary: apart from the signs of speeds no branch depends on it.
     """
     model = derive(robot, functions, check=False)
-    build.mkdir(parents=True, exist_ok=True)
-    for name, text in c.library(model, ()).items():
-        (build / name).write_text(text if isinstance(text, str) else text.decode())
+    write(build, c.library(model, ()))
     library = build / "library.o"
     run([compiler, *flags, "-c", str(build / f"{robot.name}.c"), "-o", str(library)])
     return {name: _count(model, model.functions[name], library, compiler, flags) for name in functions}
@@ -57,19 +56,7 @@ def _count(model: Model, function: Function, library: Path, compiler: str, flags
     macros = [flag for flag in flags if flag.startswith("-D")]
     bind_at_start = "-Wl,-z,now"
     run([compiler, *macros, str(source), str(library), bind_at_start, "-o", str(program), "-lm"])
-    told = run(
-        [
-            "valgrind",
-            "--tool=callgrind",
-            f"--toggle-collect={prefix}_{function.name}",
-            "--callgrind-out-file=/dev/null",
-            str(program),
-        ],
-        errors_too=True,
-    )
-    collected = re.search(r"Collected : (\d+)", told)
-    assert collected, told
-    return int(collected[1]) // _CALLS
+    return collected(f"{prefix}_{function.name}", [program]) // _CALLS
 
 
 def _driver(model: Model, function: Function) -> str:

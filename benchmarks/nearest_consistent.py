@@ -26,7 +26,7 @@ _ACCURACY = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), _GAP) | di
 
 
 @dataclass(frozen=True)
-class Estimate:
+class BaseValues:
     """Base parameters by name: value and standard deviation, in the parameter's unit, the latter positive."""
 
     values: Mapping[str, float]
@@ -55,7 +55,7 @@ class Knowledge:
     given: Mapping[str, float] = field(default_factory=dict)
 
 
-def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str, float]:
+def nearest(model: Model, estimate: BaseValues, knowledge: Knowledge) -> dict[str, float]:
     """The standard parameters by name [SI] that minimise squared distance plus weighted divergence.
 
     A weight of 0 gives the smallest distance there is, by bodies that are one choice of many. The parameter of an
@@ -83,7 +83,7 @@ def nearest(model: Model, estimate: Estimate, knowledge: Knowledge) -> dict[str,
     return {name: float(variable.value) for name, variable in s.items()}
 
 
-def _silent(model: Model, estimate: Estimate, knowledge: Knowledge) -> list[str]:
+def _silent(model: Model, estimate: BaseValues, knowledge: Knowledge) -> list[str]:
     """Effects' parameters that nothing known involves."""
     groupings = model.grouping.numeric()
     known = {*estimate.values, *knowledge.given}

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from generator.backends import c
 from generator.derivation import derive
 from generator.robot.readers import read
+from tests.compiled import write
 
 Doubles = NDArray[np.float64]
 
@@ -58,13 +59,9 @@ class Reference:
 
 def sources(build: Path) -> Path:
     """Writes the library and its driver into ``build``."""
-    build.mkdir(parents=True, exist_ok=True)
-    (build / "wheel.yaml").write_text(_ROBOT)
+    write(build, {"wheel.yaml": _ROBOT, "driver.c": _DRIVER})
     model = derive(read(build / "wheel.yaml"), ["tool_transform"], check=False)
-    for name, text in c.library(model, ()).items():
-        (build / name).write_text(text if isinstance(text, str) else text.decode())
-    (build / "driver.c").write_text(_DRIVER)
-    return build
+    return write(build, c.library(model, ()))
 
 
 class SineCosine:

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from benchmarks.nearest_consistent import Estimate, Knowledge, nearest
+from benchmarks.nearest_consistent import BaseValues, Knowledge, nearest
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.robot.description import ParameterSet, ParameterValue, Robot
@@ -97,15 +97,15 @@ class Twin:
         return self.model.robot
 
     @cached_property
-    def printed(self) -> Estimate:
+    def printed(self) -> BaseValues:
         """The table, its misprints corrected; a corrected value keeps its relative standard deviation."""
         table = self.robot.parameter_sets[self.recipe.table].values
         values = {name: self.recipe.corrected.get(name, one.value) for name, one in table.items()}
         std = {name: abs(value) * (table[name].relative_std or 0.0) / 100 for name, value in values.items()}
-        return Estimate(values, std)
+        return BaseValues(values, std)
 
     @cached_property
-    def completed(self) -> Estimate:
+    def completed(self) -> BaseValues:
         """The table, and zero for what it leaves out as not essential, to the widest deviation printed in that unit."""
         units = {parameter.name: parameter.unit for parameter in self.model.base_parameters}
         widest: dict[str, float] = {}
@@ -113,7 +113,7 @@ class Twin:
             widest[units[name]] = max(std, widest.get(units[name], 0.0))
         settled = {*self.printed.values, *self.recipe.given}
         absent = {name: widest[unit] for name, unit in units.items() if name not in settled}
-        return Estimate({**self.printed.values, **dict.fromkeys(absent, 0.0)}, {**self.printed.std, **absent})
+        return BaseValues({**self.printed.values, **dict.fromkeys(absent, 0.0)}, {**self.printed.std, **absent})
 
     @cached_property
     def standard(self) -> dict[str, float]:

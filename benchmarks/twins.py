@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.documents import replaced
+from benchmarks.table import table
 from benchmarks.twin_recipes import RECIPES, WEIGHT, Twin, twin_of
 from generator.resources import find_robot
 from generator.symbolic.pseudo_inertia import Matrix, of_body
@@ -27,7 +29,7 @@ Rows = list[tuple[str, ...]]
 
 def rows(twin: Twin) -> Rows:
     """Head, then for each base parameter its name, unit, printed value and standard deviation, twin's value, shift."""
-    table: Rows = [("parameter", "unit", "printed", "std", "twin", "shift [std]")]
+    lines: Rows = [("parameter", "unit", "printed", "std", "twin", "shift [std]")]
     shifts = twin.printed.shifts(twin.base)
     for parameter in twin.model.base_parameters:
         name, value = parameter.name, f"{twin.base[parameter.name]:.4g}"
@@ -38,8 +40,8 @@ def rows(twin: Twin) -> Rows:
             shift = f"{shifts[name]:+z.2f}" + (_MARK if abs(shifts[name]) > LARGE else "")
         elif name in twin.recipe.given:
             printed = "assumed"
-        table.append((name, parameter.unit, printed, std, value, shift))
-    return table
+        lines.append((name, parameter.unit, printed, std, value, shift))
+    return lines
 
 
 def summary(twin: Twin) -> Iterator[str]:
@@ -67,24 +69,20 @@ def radii_of_gyration(P: Matrix) -> Matrix:
     return np.sqrt(np.linalg.eigvalsh(P[:3, :3] / P[3, 3] - np.outer(centre, centre)))
 
 
-def _terminal(table: Rows) -> str:
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in table)
+def _terminal(rows: Rows) -> str:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
     return "\n".join(line.rstrip() for line in lines)
 
 
-def _markdown(table: Rows) -> str:
-    head, *body = table
-    lines = [f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *body)]
-    return "\n".join(line.replace(_MARK, " **large**") for line in lines)
+def _markdown(rows: Rows) -> str:
+    head, *body = rows
+    return table([dict(zip(head, row, strict=True)) for row in body]).replace(_MARK, " **large**")
 
 
 def _documented(text: str, twin: Twin) -> str:
-    """The document with the robot's part, between its two comments, made anew."""
-    begin, end = f"<!-- twin of {twin.robot.name} -->\n", f"<!-- end of twin of {twin.robot.name} -->"
-    before, after = text.split(begin)
-    _, rest = after.split(end)
-    return before + begin + "\n" + "\n\n".join([*summary(twin), _markdown(rows(twin))]) + "\n\n" + end + rest
+    """The document with the robot's part made anew."""
+    return replaced(text, f"twin of {twin.robot.name}", "\n\n".join([*summary(twin), _markdown(rows(twin))]))
 
 
 def main() -> None:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cffi  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tests.bound import Bound, preprocessed
 from tests.compiled import run
 
 #: Numbers before and behind each array, and what they hold.
@@ -50,37 +50,36 @@ class Batch:
         include, shared = f"-I{folder / 'c'}", ("-shared", "-fPIC")
         if not library.exists():
             run([compiler, "-std=c99", *_WARNINGS, *shared, *flags, include, *sources, "-o", library, "-lm"])
-        self._ffi = cffi.FFI()
-        self._ffi.cdef(_declarations(folder, name, flags))
-        self._library = self._ffi.dlopen(str(library))
-        self._prepared = self._ffi.new(f"{name}_prepared *")
-        self.sizes = _sizes(folder, name)
+        header = folder / "batch" / f"{name}_batch.h"
+        self._c = Bound(name, library, header, [*flags, include])
+        self._prepared = self._c.new("prepared *")
+        self.sizes = _sizes(preprocessed(header, include, "-dM"), name)
 
     def prepare(self, parameters: ArrayLike) -> None:
         """Sets the values of the parameters."""
-        params = self._ffi.new(f"{self.name}_params *")
+        params = self._c.new("params *")
         params.value = [float(value) for value in np.ravel(parameters)]
-        self._call("prepare", params, self._prepared)
+        self._c.call("prepare", params, self._prepared)
 
     def kept(self, n: int, chosen: Filter | None) -> int:
         """Number of samples that a filter keeps of ``n``."""
         pointer, _alive = self._filter(chosen)
-        return int(self._call("filtered_count", pointer, n))
+        return int(self._c.call("filtered_count", pointer, n))
 
     def stride(self, size: int) -> int:
-        return int(self._call("observation_stride", size))
+        return int(self._c.call("observation_stride", size))
 
     def inverse_dynamics(self, q: Array, qd: Array, qdd: Array) -> Array:
         """Torques (n, NQ)."""
         out = self._guarded(q.size)
-        self._call("batch_inverse_dynamics", self._prepared, len(q), *self._given(q, qd, qdd), self._inside(out))
+        self._c.call("batch_inverse_dynamics", self._prepared, len(q), *self._given(q, qd, qdd), self._inside(out))
         return self._released(out).reshape(q.shape)
 
     def filtered(self, y: Array, chosen: Filter | None) -> Array:
         """Kept samples (N, NQ)."""
         pointer, _alive = self._filter(chosen)
         out = self._guarded(self.kept(len(y), chosen) * y.shape[1])
-        self._call("batch_filter", pointer, len(y), *self._given(y), self._inside(out))
+        self._c.call("batch_filter", pointer, len(y), *self._given(y), self._inside(out))
         return self._released(out).reshape(-1, y.shape[1])
 
     def rows(self, q: Array, qd: Array, qdd: Array, chosen: Filter | None = None, gap: int = 0) -> Array:
@@ -88,7 +87,7 @@ class Batch:
         pointer, _alive = self._filter(chosen)
         size, width = self.kept(len(q), chosen) * self.sizes["NQ"], self.sizes["NBASE"]
         out = self._guarded(size * (width + gap))
-        self._call(
+        self._c.call(
             "observation_matrix_rows",
             *(self._prepared, pointer, len(q), *self._given(q, qd, qdd), self._inside(out), width + gap),
         )
@@ -102,7 +101,7 @@ class Batch:
         kept, width = self.kept(len(q), chosen), self.sizes["NBASE"]
         size = kept * self.sizes["NQ"]
         out = self._guarded(width * (size + gap))
-        self._call(
+        self._c.call(
             "observation_matrix_columns",
             *(self._prepared, pointer, len(q), *self._given(q, qd, qdd), self._inside(out), size + gap),
         )
@@ -116,54 +115,36 @@ class Batch:
         shape = (self.sizes["NQ"], self.sizes["NBASE"] + 1, self.sizes["NBASE"] + 1)
         out, work = self._guarded(int(np.prod(shape))), self._guarded(self.sizes["OBSERVATION_WORK"])
         given = (self._prepared, pointer, len(signals[0]), *self._given(*signals))
-        self._call(function, *given, self._inside(out), self._inside(work))
+        self._c.call(function, *given, self._inside(out), self._inside(work))
         self._released(work)
         return self._released(out).reshape(shape)
 
-    def _call(self, function: str, *arguments: Any) -> Any:
-        return getattr(self._library, f"{self.name}_{function}")(*arguments)
-
     def _filter(self, chosen: Filter | None) -> tuple[Any, Any]:
         if chosen is None:
-            return self._ffi.NULL, None
-        taps = self._ffi.new(f"{self.name}_real[]", list(chosen.taps))
-        pointer = self._ffi.new(f"{self.name}_filter *", (taps, len(chosen.taps), chosen.decimation))
+            return self._c.ffi.NULL, None
+        taps = self._c.array(chosen.taps)
+        pointer = self._c.new("filter *", (taps, len(chosen.taps), chosen.decimation))
         return pointer, taps
 
     def _given(self, *arrays: Array) -> list[Any]:
         """Pointers to copies that begin at no multiple of 16 bytes, and end where their memory does."""
         self._alive = [np.concatenate([[0.0], array.ravel()]).astype(self.type) for array in arrays]
-        return [self._pointer(array[1:]) for array in self._alive]
+        return [self._c.pointer(array[1:]) for array in self._alive]
 
     def _guarded(self, size: int) -> Array:
         return np.full(size + 2 * _GUARD, _MARK, self.type)
 
     def _inside(self, guarded: Array) -> Any:
-        return self._pointer(guarded[_GUARD:])
+        return self._c.pointer(guarded[_GUARD:])
 
     def _released(self, guarded: Array) -> Array:
         assert (guarded[:_GUARD] == _MARK).all()
         assert (guarded[-_GUARD:] == _MARK).all()
         return guarded[_GUARD:-_GUARD].copy()
 
-    def _pointer(self, array: Array) -> Any:
-        return self._ffi.cast(f"{self.name}_real *", array.ctypes.data)
 
-
-def _header(folder: Path, name: str, *options: str) -> str:
-    include = f"-I{folder / 'c'}"
-    return run(["gcc", "-std=c99", "-E", "-P", *options, include, folder / "batch" / f"{name}_batch.h"])
-
-
-def _declarations(folder: Path, name: str, flags: Sequence[str]) -> str:
-    """The header as cffi reads it: preprocessed, from the robot's own types on, without assertions."""
-    text = _header(folder, name, *(flag for flag in flags if flag.startswith("-D")))
-    own = text[text.index(f"typedef {'float' if any('USE_FLOAT' in f for f in flags) else 'double'} {name}_real") :]
-    return "\n".join(line for line in own.splitlines() if not line.startswith("typedef char "))
-
-
-def _sizes(folder: Path, name: str) -> dict[str, int]:
+def _sizes(macros: str, name: str) -> dict[str, int]:
     """The numbers of the header's macros."""
     prefix = f"#define {name.upper()}_"
-    lines = [line.removeprefix(prefix).split() for line in _header(folder, name, "-dM").splitlines() if prefix in line]
+    lines = [line.removeprefix(prefix).split() for line in macros.splitlines() if prefix in line]
     return {words[0]: int(words[1]) for words in lines if len(words) == 2 and words[1].isdigit()}

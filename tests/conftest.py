@@ -14,8 +14,10 @@ from hypothesis import HealthCheck, settings
 from generator.resources import robots
 from generator.robot.description import Robot
 from generator.robot.readers import read
+from identification.observation import Regressors
 from identification.simulation.machine import Machine, compiled
 from tests.chains import every_effect, random_robot
+from tests.commands import PENDULUM
 from tests.diagnosis.diagnosed import Known, known
 from tests.elastic_links import robot_text
 from tests.plant.robots import ROBOTS
@@ -32,6 +34,9 @@ def _on_cores_of_its_own() -> None:
 
 
 _on_cores_of_its_own()
+
+# What these assert is told as what a test asserts.
+pytest.register_assert_rewrite("tests.core_quantities", "tests.regressor_rank")
 
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
@@ -89,16 +94,30 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@pytest.fixture(scope="session")
-def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    """Two links with drives, for modules without a ``robot`` of their own."""
-    return two_links(tmp_path_factory.mktemp("two_links")).model.robot
+@pytest.fixture
+def pendulum(tmp_path: Path) -> Path:
+    """The robot file of one link, for modules without a ``pendulum`` of their own."""
+    path = tmp_path / "pendulum.yaml"
+    path.write_text(PENDULUM)
+    return path
 
 
 @pytest.fixture(scope="session")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def links(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
+    """Two links with drives, for modules without ``links`` of their own."""
+    return two_links(tmp_path_factory.mktemp("two_links"))
+
+
+@pytest.fixture(scope="session")
+def robot(links: Regressors) -> Robot:
+    """What their file says, for modules without a ``robot`` of their own."""
+    return links.model.robot
+
+
+@pytest.fixture(scope="session")
+def good(links: Regressors) -> Recorded:
     """A run of theirs in which nothing is wrong."""
-    return recorded(two_links(tmp_path_factory.mktemp("two_links")), TRUTH, duration=8.0)
+    return recorded(links, TRUTH, duration=8.0)
 
 
 @pytest.fixture(scope="session")

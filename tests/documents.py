@@ -21,7 +21,8 @@ from dataclasses import dataclass
 from math import isclose
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from tests.commands import ROOT
+
 #: The documents that hold sessions, and whether they are played in a copy of the tree, which they change.
 SESSIONS = {
     "README.md": False,

@@ -10,9 +10,7 @@ import sympy
 from numpy.typing import NDArray
 
 from generator.robot.description import FIXED, REVOLUTE, Joint, Robot
-
-#: Pinocchio's order of a body's parameters; they are about the frame's origin, as ours are.
-_PINOCCHIO = ("M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ")
+from tests.bodies import PINOCCHIO, STEMS
 
 Vector = NDArray[np.float64]
 
@@ -51,8 +49,7 @@ class PinocchioArm:
     def add_payload(self, payload: Sequence[float]) -> None:
         """Attach ten inertial parameters in the tool frame, in the order XX XY XZ YY YZ ZZ MX MY MZ M."""
         frame = self.model.frames[self._frame(self.robot.tool.number)]
-        stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-        named = dict(zip((f"{stem}0" for stem in stems), payload, strict=True))
+        named = dict(zip((f"{stem}0" for stem in STEMS), payload, strict=True))
         self.model.appendBodyToJoint(frame.parentJoint, _inertia(0, named), frame.placement)
         self._data = self.model.createData()
 
@@ -102,7 +99,7 @@ class PinocchioArm:
         W = pin.computeJointTorqueRegressor(self.model, self._data, *map(self._sent, (q, qd, qdd)))
         W = W.reshape(len(q), -1)[self._at]
         names = [(joint.number, k, m) for joint, k in zip(self.robot.moving, self._at, strict=True) for m in range(10)]
-        return {f"{_PINOCCHIO[m]}{number}": W[:, 10 * k + m] for number, k, m in names}
+        return {f"{PINOCCHIO[m]}{number}": W[:, 10 * k + m] for number, k, m in names}
 
     def _frame(self, number: int) -> int:
         return int(self.model.getFrameId(f"frame {number}"))
@@ -147,7 +144,7 @@ def _at_rest(joint: Joint, lengths: Mapping[str, float]) -> pin.SE3:
 
 
 def _inertia(number: int, values: Mapping[str, float]) -> pin.Inertia:
-    parameters = np.array([values.get(f"{stem}{number}", 0.0) for stem in _PINOCCHIO])
+    parameters = np.array([values.get(f"{stem}{number}", 0.0) for stem in PINOCCHIO])
     if parameters[0]:
         return pin.Inertia.FromDynamicParameters(parameters)
     # Without mass there is no centre to convert to.

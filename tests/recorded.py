@@ -94,6 +94,11 @@ def parameters_text(sets: Mapping[str, Mapping[str, float]]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def twin_text() -> str:
+    """Of the two links' robot file, with the set ``twin``."""
+    return TWO_LINKS + parameters_text({"twin": TRUTH})
+
+
 @cache
 def two_links(folder: Path) -> Regressors:
     """The small robot, from a file in ``folder``."""
@@ -131,6 +136,13 @@ class Recorded:
     """Columns of a run by name (N each)."""
 
     columns: Mapping[str, Array]
+
+    @classmethod
+    def read(cls, path: Path | str) -> Recorded:
+        """From text with a line of names."""
+        with open(path, encoding="utf-8") as lines:
+            names = lines.readline().strip().split(",")
+            return cls(dict(zip(names, np.loadtxt(lines, delimiter=",").T, strict=True)))
 
     def with_columns(self, **columns: Array) -> Recorded:
         return Recorded({**self.columns, **columns})

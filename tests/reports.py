@@ -11,25 +11,21 @@ from typing import Any
 import numpy as np
 
 from generator.cli.main import main
-from generator.robot.description import Robot
-from generator.robot.readers import read
 from identification.comparison import compare
 from identification.consistent_fit import consistent_fit
 from identification.inverse_model import identify
 from identification.link_encoders import LinkEncoders, link_encoders
 from identification.locked_output import locked_output
-from identification.observation import Regressors
 from identification.parameter_source import Known, Parameters
 from identification.report.compare import report as compare_report
 from identification.report.gains import report as gains_report
 from identification.report.identify import report as identify_report
 from identification.report.identify.subject import Subject
 from identification.report.stiffness import report as stiffness_report
-from tests import test_gains_command as lifter
-from tests import test_stiffness_command as stiff
+from tests import stiff_arm
 from tests.diagnosis.diagnosed_arm import case
-from tests.recorded import TRUTH, recorded, two_links
-from tests.test_output_error import robot_text
+from tests.lifter import found, lifter
+from tests.recorded import TRUTH, recorded, twin_text, two_links
 
 #: The kinds of reports, and the sub-packages of identification.report that make them.
 KINDS = {
@@ -67,11 +63,11 @@ def pages(folder: Path) -> dict[str, bytes]:
     """A report of every one of ``KINDS`` by its name."""
     subject = identified(folder)
     links = lagging(folder)
-    steps, locked = stiff.steps(folder), locked_output(_robot(), 2, [stiff.blocked(folder / "blocked.csv")])
+    locked = locked_output(stiff_arm.ROBOT, 2, [stiff_arm.blocked(folder / "blocked.csv")])
     return {
         "identify": identify_report.report(subject.found, subject.consistent),
-        "gains": gains_report.report(lifter.found(_lifter(folder), folder)),
-        "steps": stiffness_report.report(steps),
+        "gains": gains_report.report(found(lifter(folder), folder)),
+        "steps": stiffness_report.report(stiff_arm.steps(folder)),
         "locked": stiffness_report.report(locked),
         "links": stiffness_report.report(links),
         "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
@@ -84,7 +80,7 @@ def _of_commands(folder: Path) -> dict[str, bytes]:
     """What excite and output-error leave of two simulated links."""
     folder.mkdir()
     robot, run = folder / "two_links.yaml", folder / "A.csv"
-    robot.write_text(robot_text())
+    robot.write_text(twin_text())
     few = ["--duration", "6", "--noise", "0.3", "--parameters", "twin"]
     made = {
         "excite": ["excite", robot, "--evaluations", "256", "--parameters", "twin"],
@@ -94,16 +90,6 @@ def _of_commands(folder: Path) -> dict[str, bytes]:
     for kind, words in made.items():
         assert main([*map(str, words), "--out", str(folder / kind)]) == 0
     return {kind: (folder / kind / "report.html").read_bytes() for kind in made}
-
-
-def _robot() -> Robot:
-    return stiff.ROBOT
-
-
-def _lifter(folder: Path) -> Regressors:
-    path = folder / "lifter.yaml"
-    path.write_text(lifter.ARM)
-    return Regressors(read(path))
 
 
 def _side(name: str, factor: float) -> Parameters:

@@ -9,7 +9,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import cffi  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -19,6 +18,7 @@ from generator.backends.printing.runge_kutta import METHODS, Method
 from generator.resources import find_robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
+from tests.bound import Bound
 from tests.compiled import run, write
 from tests.subject import Subject, subject
 
@@ -120,7 +120,7 @@ class Simulation:
     plant: str = "rigid"
     flags: Sequence[str] = ("-O2",)
     methods: Sequence[Method] = METHODS
-    _ffi: Any = field(init=False)
+    _c: Bound = field(init=False)
 
     def __post_init__(self) -> None:
         """Compiles and binds."""
@@ -133,31 +133,27 @@ class Simulation:
         library = self.folder / f"lib{self.name}{len(list(self.folder.iterdir()))}.so"
         include = f"-I{self.folder / 'c'}"
         run(["gcc", "-std=c99", "-shared", "-fPIC", *self.flags, include, *sources, "-o", library, "-lm"])
-        self._ffi = cffi.FFI()
         header = self.folder / "simulation" / f"{self.name}_simulation.h"
-        macros = [flag for flag in self.flags if flag.startswith("-D")]
-        text = run(["gcc", "-std=c99", "-E", "-P", "-D__STDC_HOSTED__=1", *macros, include, header])
-        self._ffi.cdef(_declarations(text, self.name))
-        self._library = self._ffi.dlopen(str(library))
+        self._c = Bound(self.name, library, header, ["-D__STDC_HOSTED__=1", *self.flags, include])
         self.real = np.dtype(np.float32 if any("USE_FLOAT" in flag for flag in self.flags) else np.float64)
-        self.prepared = self._new("prepared *")
-        params = self._new("params *")
+        self.prepared = self._c.new("prepared *")
+        params = self._c.new("params *")
         params.value = [float(value) for value in self.parameters]
-        self._call("prepare", params, self.prepared)
+        self._c.call("prepare", params, self.prepared)
 
     def start(self, q: ArrayLike, qd: ArrayLike) -> Any:
         """A new state."""
-        state = self._new(f"{self.plant}_state *")
-        self._call(f"{self.plant}_start", self.prepared, self._array(q), self._array(qd), state)
+        state = self._c.new(f"{self.plant}_state *")
+        self._c.call(f"{self.plant}_start", self.prepared, self._c.array(q), self._c.array(qd), state)
         return state
 
     def integration(self, method: str = "RK4", steps: int = 1, width: ArrayLike | None = None) -> Any:
         """How to integrate; without a width with sign friction."""
-        result = self._new("integration *")
-        result.method = getattr(self._library, f"{self.macro}_METHOD_{method}")
+        result = self._c.new("integration *")
+        result.method = getattr(self._c.library, f"{self.macro}_METHOD_{method}")
         result.steps = steps
         if width is not None:
-            self._kept = self._array(np.broadcast_to(np.asarray(width, float), self.size))
+            self._kept = self._c.array(np.broadcast_to(np.asarray(width, float), self.size))
             result.width = self._kept
         return result
 
@@ -165,19 +161,19 @@ class Simulation:
         self, state: Any, integration: Any, seconds: float, tau: ArrayLike, tau_ext: ArrayLike | None = None
     ) -> Any:
         """Moves ``state`` on and returns it."""
-        others = self._ffi.NULL if tau_ext is None else self._array(tau_ext)
-        self._call(f"{self.plant}_advance", self.prepared, integration, seconds, self._array(tau), others, state)
+        others = self._c.ffi.NULL if tau_ext is None else self._c.array(tau_ext)
+        self._c.call(f"{self.plant}_advance", self.prepared, integration, seconds, self._c.array(tau), others, state)
         return state
 
     def control(
         self, gains: Gains, z: ArrayLike, wanted: Sequence[ArrayLike | None], q: ArrayLike, qd: ArrayLike
     ) -> tuple[Vector, Vector]:
         """Torques and integrals after one sample; ``wanted`` is q_ref, qd_ref, tau_ref."""
-        memory, tau = self._new("controller_state *"), self._array(np.zeros(self.n))
+        memory, tau = self._c.new("controller_state *"), self._c.array(np.zeros(self.n))
         memory.z = list(map(float, np.asarray(z)))
-        given = [self._ffi.NULL if one is None else self._array(one) for one in wanted]
+        given = [self._c.ffi.NULL if one is None else self._c.array(one) for one in wanted]
         controller = self._controller(gains)
-        self._call("control", self.prepared, controller, *given, self._array(q), self._array(qd), memory, tau)
+        self._c.call("control", self.prepared, controller, *given, self._c.array(q), self._c.array(qd), memory, tau)
         return np.array(list(tau)), np.array(list(memory.z))
 
     def simulate(
@@ -185,21 +181,21 @@ class Simulation:
     ) -> Run:
         """The closed loop over all rows of ``reference`` (q, and qd, tau, tau_ext if given)."""
         rows = len(np.asarray(reference["q"]))
-        wanted = self._new("reference *")
+        wanted = self._c.new("reference *")
         arrays = {name: np.ascontiguousarray(value, self.real) for name, value in reference.items()}
         wanted.samples = rows
         for name, value in arrays.items():
-            setattr(wanted, name, self._pointer(value))
+            setattr(wanted, name, self._c.pointer(value))
         logs = {"q": self.size, "qd": self.size, "tau": self.n}
         written = {name: np.full((rows + 1, size), np.nan, self.real) for name, size in logs.items()}
-        target = self._new("run_log *")
+        target = self._c.new("run_log *")
         for name, value in written.items() if log else ():
-            setattr(target, name, self._pointer(value))
-        memory = self._new("controller_state *")
+            setattr(target, name, self._c.pointer(value))
+        memory = self._c.new("controller_state *")
         controller = self._controller(gains)
         start = time.process_time()
-        done = getattr(self._library, f"{self.name}_{self.plant}_simulate")(
-            self.prepared, controller, integration, wanted, memory, state, target
+        done = self._c.call(
+            f"{self.plant}_simulate", self.prepared, controller, integration, wanted, memory, state, target
         )
         elapsed = time.process_time() - start
         assert all(np.isnan(value[-1]).all() for value in written.values()), "a log was written past its end"
@@ -215,44 +211,24 @@ class Simulation:
         """d/dt of [q; qd] with torques held, by the library's model with smooth friction."""
         others = np.zeros(self.n) if tau_ext is None else np.asarray(tau_ext)
         flexible = self.plant == "flexible"
-        arrays = [self._array(tau), self._array(others)] if flexible else [self._array(np.asarray(tau) + others)]
+        arrays = [self._c.array(tau), self._c.array(others)] if flexible else [self._c.array(np.asarray(tau) + others)]
         prefix = "flexible_" if self.plant == "flexible" else ""
-        function = getattr(self._library, f"{self.name}_{prefix}direct_dynamics_smooth")
-        widths, qdd = self._array(np.full(self.size, width)), self._array(np.zeros(self.size))
+        function = getattr(self._c.library, f"{self.name}_{prefix}direct_dynamics_smooth")
+        widths, qdd = self._c.array(np.full(self.size, width)), self._c.array(np.zeros(self.size))
 
         def rate(_: float, x: Vector) -> Vector:
-            function(self.prepared, self._array(x[: self.size]), self._array(x[self.size :]), *arrays, widths, qdd)
+            function(self.prepared, self._c.array(x[: self.size]), self._c.array(x[self.size :]), *arrays, widths, qdd)
             return np.concatenate([x[self.size :], list(qdd)])
 
         return rate
 
     def constant(self, name: str) -> int:
         """A constant of the header's enumerations."""
-        return int(getattr(self._library, f"{self.macro}_{name}"))
+        return int(getattr(self._c.library, f"{self.macro}_{name}"))
 
     def _controller(self, gains: Gains) -> Any:
-        result = self._new("controller *")
+        result = self._c.new("controller *")
         result.period = gains.period
         for name in ("kp", "kv", "ki", "limit"):
             setattr(result, name, np.broadcast_to(np.asarray(getattr(gains, name), float), self.n).tolist())
         return result
-
-    def _call(self, name: str, *arguments: Any) -> None:
-        getattr(self._library, f"{self.name}_{name}")(*arguments)
-
-    def _pointer(self, array: NDArray[Any]) -> Any:
-        return self._ffi.cast(f"{self.name}_real *", array.ctypes.data)
-
-    def _array(self, values: ArrayLike) -> Any:
-        return self._new("real[]", [float(value) for value in np.ravel(values)])
-
-    def _new(self, kind: str, *initial: Any) -> Any:
-        return self._ffi.new(f"{self.name}_{kind}", *initial)
-
-
-def _declarations(text: str, name: str) -> str:
-    """What the two headers declare: from the library's first type on, without the assertions and the system's."""
-    start = min(
-        place for place in (text.find(f"typedef {kind} {name}_real") for kind in ("float", "double")) if place >= 0
-    )
-    return "\n".join(line for line in text[start:].splitlines() if not line.startswith("typedef char "))

@@ -19,7 +19,8 @@ from generator.backends import casadi as casadi_backend
 from generator.backends import numpy as numpy_backend
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.parameter_sets import parameter_vector
-from tests.compiled import CLibrary, Results, module, run, write
+from tests.c_library import CLibrary, Results
+from tests.compiled import module, run, write
 from tests.conftest import EVERY, FILES
 from tests.subject import Subject
 

@@ -25,13 +25,12 @@ from generator.c_selftest import WARNINGS
 from generator.selftest import Case
 from generator.symbolic.function import PARAMETERS
 from generator.symbolic.statements import Program
-from tests.compiled import CLibrary, module, run, write
+from tests.c_library import CLibrary
+from tests.commands import ROOT
+from tests.compiled import module, run, write
+from tests.misra import checked, documented_rules
 from tests.toy import VALUES, Inputs, function, interpreted, programs, toy, uncertainty
 from tests.toy_example import assert_close, example, expected, reference_cases, states
-
-ROOT = Path(__file__).resolve().parent.parent
-#: Python packages put their programs beside the interpreter.
-_PATH = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
 
 
 @pytest.fixture(scope="module")
@@ -255,12 +254,9 @@ def test_a_sine_of_ones_own(library: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("macros", [(), ("-DTOY_USE_FLOAT",)], ids=["double", "float"])
 def test_misra_deviations_are_the_documented_ones(library: Path, macros: tuple[str, ...]) -> None:
-    options = ["--addon=misra", "--enable=all", "--std=c99", "--suppress=missingIncludeSystem", "--quiet"]
-    report = run(
-        [shutil.which("cppcheck", path=_PATH) or "cppcheck", *options, "-DTOY_LANES=1", *macros, library / "toy.c"]
-    )
+    report = checked(library / "toy.c", "-DTOY_LANES=1", *macros)
     found = set(re.findall(r"\[([\w.-]+)\]$", report, re.MULTILINE)) - {"unusedFunction", "checkersReport"}
-    documented = re.findall(r"^\| (\d+\.\d+) \|", (ROOT / "docs/misra.md").read_text(), re.MULTILINE)
+    documented = documented_rules()
     assert found == {f"misra-c2012-{rule}" for rule in documented}
 
 

@@ -20,7 +20,7 @@ from benchmarks.documents import README, RESULTS, documented
 from benchmarks.example_diagnosis import PAGE
 from benchmarks.peers import casadi_recursion, ours
 from benchmarks.peers.measuring import disagreement, measure
-from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Subject, write
+from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Chain, write
 from benchmarks.study import VOID, measured, shown, status
 from benchmarks.summary import bars, summary
 from benchmarks.table import table
@@ -150,7 +150,7 @@ def test_an_unknown_study_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
 
 @pytest.mark.parametrize("robot", ["kr270", pytest.param("stanford", marks=pytest.mark.long)])
 def test_libraries_agree_and_other_parameters_do_not(robot: str, tmp_path: Path) -> None:
-    subject = Subject(robot)
+    subject = Chain(robot)
     libraries = [*ours.build(subject, tmp_path / "a"), *casadi_recursion.build(subject, tmp_path / "a")]
     reduced = [library for library in libraries if not library.whole]
     changed = write(1.001 * subject.parameters(subject.model), tmp_path / "changed.bin")
@@ -166,7 +166,7 @@ def test_libraries_agree_and_other_parameters_do_not(robot: str, tmp_path: Path)
 
 
 def test_the_whole_robot_is_that_of_the_independent_implementation(tmp_path: Path) -> None:
-    subject = Subject("kr500")
+    subject = Chain("kr500")
     whole = [library for library in ours.build(subject, tmp_path / "a") if library.whole]
     for one in measure(subject, whole, tmp_path / "a", rounds=0):
         assert one.function in WHOLE_FUNCTIONS

@@ -13,9 +13,9 @@ from generator.derivation import derive
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, REVOLUTE, Length, Robot
 from tests.chains import joint, robot
+from tests.core_quantities import CORE, check_core
+from tests.regressor_rank import check_grouping
 from tests.subject import subject
-from tests.test_dynamics import CORE, check_core
-from tests.test_groupings import check_grouping
 
 
 def degrees(text: str) -> sympy.Expr:

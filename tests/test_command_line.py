@@ -10,10 +10,7 @@ from pathlib import Path
 import pytest
 
 from generator.cli.main import Command, commands, main
-from generator.robot.readers import read
-from identification.observation import Regressors
-from tests import test_gains_command as lifter
-from tests import test_stiffness_command as stiff
+from tests import lifter, stiff_arm
 from tests.commands import PENDULUM, ROOT, command
 
 #: Words beside ``--out`` with which a command comes as far as writing, in the folder that ``at_hand`` makes.
@@ -61,10 +58,9 @@ def at_hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for seed, run in enumerate(("a.csv", "b.csv")):
         words = f"--parameters light --duration 6 --noise 0.01 --log-rate 200 --seed {seed}".split()
         assert main(["simulate", str(folder / "pendulum.yaml"), *words, "--out", str(folder / run)]) == 0
-    (folder / "lifter.yaml").write_text(lifter.ARM)
     (folder / "lifted").mkdir()
-    lifter.found(Regressors(read(folder / "lifter.yaml")), folder / "lifted")
-    stiff.blocked(folder / "blocked.csv")
+    lifter.found(lifter.lifter(folder), folder / "lifted")
+    stiff_arm.blocked(folder / "blocked.csv")
     return folder
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from benchmarks.nearest_consistent import Estimate, Knowledge, nearest
+from benchmarks.nearest_consistent import BaseValues, Knowledge, nearest
 from benchmarks.twins import radii_of_gyration
 from generator.derivation import derive
 from generator.errors import InputError
@@ -87,7 +87,7 @@ def test_possible_parameters_are_their_own_nearest(seed: int) -> None:
     drawn = sample.physical_parameters(model.robot, seed)
     truth = {parameter.name: drawn[parameter.name] for parameter in model.standard_parameters}
     base = grouped(model, truth)
-    estimate = Estimate(base, {name: 0.01 * max(abs(value), 0.1) for name, value in base.items()})
+    estimate = BaseValues(base, {name: 0.01 * max(abs(value), 0.1) for name, value in base.items()})
     bodies = {body.number: of_body(body.number, truth) for body in model.robot.bodies}
     found = nearest(model, estimate, Knowledge(bodies, 1.0))
     assert estimate.distance(grouped(model, found)) < 1e-4
@@ -97,7 +97,7 @@ def test_possible_parameters_are_their_own_nearest(seed: int) -> None:
 
 def test_impossible_estimate_moves_to_the_edge_of_the_possible(pendulum: Model) -> None:
     assert list(pendulum.grouping.numeric()) == ["ZZ1R", "MX1", "MY1", "Fv1", "Fc1"]
-    estimate = Estimate(
+    estimate = BaseValues(
         {"ZZ1R": -4.0, "MX1": 3.0, "MY1": 0.0, "Fv1": -1.0, "Fc1": 2.0},
         {"ZZ1R": 2.0, "MX1": 0.1, "MY1": 0.1, "Fv1": 0.5, "Fc1": 0.5},
     )
@@ -114,7 +114,7 @@ def test_impossible_estimate_moves_to_the_edge_of_the_possible(pendulum: Model) 
 
 
 def test_weight_draws_towards_the_known_body(pendulum: Model) -> None:
-    estimate = Estimate({"ZZ1R": 5.0, "MX1": 2.0}, {"ZZ1R": 1.0, "MX1": 1.0})
+    estimate = BaseValues({"ZZ1R": 5.0, "MX1": 2.0}, {"ZZ1R": 1.0, "MX1": 1.0})
     light, heavy = (nearest(pendulum, estimate, Knowledge(BALL, weight)) for weight in (1e-3, 1e3))
     assert estimate.distance(grouped(pendulum, light)) < 0.01
     assert np.allclose(of_body(1, heavy), BALL[1], atol=0.02)
@@ -125,7 +125,7 @@ def test_weight_draws_towards_the_known_body(pendulum: Model) -> None:
 
 
 def test_given_values_are_exact_or_refused(pendulum: Model) -> None:
-    estimate = Estimate({"ZZ1R": 5.0, "MX1": 2.0}, {"ZZ1R": 1.0, "MX1": 1.0})
+    estimate = BaseValues({"ZZ1R": 5.0, "MX1": 2.0}, {"ZZ1R": 1.0, "MX1": 1.0})
     found = nearest(pendulum, estimate, Knowledge(BALL, 1.0, {"MX1": 1.5, "Ia1": 0.25}))
     assert [found["MX1"], found["Ia1"]] == pytest.approx([1.5, 0.25], rel=1e-9)
     with pytest.raises(ValueError, match=r"no physically consistent parameters with \{'M1': -1.0\}"):

@@ -15,7 +15,8 @@ from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
 from identification.observation import Regressors
 from identification.recipes import Recipe
-from tests.recorded import Recorded, recorded, two_links
+from tests.bodies import STEMS
+from tests.recorded import Recorded, recorded
 
 #: Two bars with rotors; what the base parameters are made of.
 BARS = {1: uniform_bar(20.0, (0, 0, 0), (0.5, 0, 0), 0.1), 2: uniform_bar(6.0, (0, 0, 0), (0.4, 0.05, 0), 0.08)}
@@ -28,8 +29,7 @@ def ten(number: int, P: np.ndarray) -> dict[str, float]:
     S, half = P[:3, :3], np.trace(P[:3, :3])
     tensor = half * np.eye(3) - S
     values = [*tensor[np.triu_indices(3)], *P[:3, 3], P[3, 3]]
-    stems = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    return {f"{stem}{number}": float(value) for stem, value in zip(stems, values, strict=True)}
+    return {f"{stem}{number}": float(value) for stem, value in zip(STEMS, values, strict=True)}
 
 
 STANDARD = {**ten(1, BARS[1]), **ten(2, BARS[2]), **DRIVES}
@@ -38,11 +38,6 @@ STANDARD = {**ten(1, BARS[1]), **ten(2, BARS[2]), **DRIVES}
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("runs")
-
-
-@pytest.fixture(scope="module")
-def links(folder: Path) -> Regressors:
-    return two_links(folder)
 
 
 def found(links: Regressors, run: Recorded, path: Path, **options: object) -> Identification:

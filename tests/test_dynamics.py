@@ -12,21 +12,18 @@ from hypothesis import strategies as st
 from generator.derivation import quantities
 from generator.reference.quantities import NAMES
 from generator.reference.sample import payload
+from tests.bodies import STEMS
 from tests.chains import random_anthropomorphic, random_robot
+from tests.core_quantities import CORE, check_core, conditioning
 from tests.newton_euler import Arm
 from tests.pinocchio_model import PinocchioArm
-from tests.subject import LOSSES, SPRINGS, Subject, Vector, close, subject
+from tests.subject import LOSSES, SPRINGS, Subject, close, subject
 
 SEEDS = (1, 2, pytest.param(3, marks=pytest.mark.long))
 #: Quantities that tell weight and balancers from each other and from offsets, where the groupings let them.
 FORCES_APART = {"gravity", "potential_energy", "dynamics", "balancer"}
 #: Quantities that are checked through others: packed entries, and the groupings as a function.
 THROUGH_OTHERS = {"regressor_packed", "regressor_standard_packed", "base_parameters"}
-
-
-def conditioning(arm: Subject, q: Vector) -> float:
-    """How far M(q) magnifies rounding in the direct model."""
-    return float(np.linalg.cond(arm.expected("inertia_matrix", {"q": q[: arm.dof]})["M"]))
 
 
 def test_the_reference_knows_every_quantity() -> None:
@@ -82,7 +79,7 @@ def test_bodies_equal_the_textbook_recursion(arm: Subject, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bodies_and_rotors_equal_pinocchio(arm: Subject, seed: int) -> None:
-    ours = arm.only("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia")
+    ours = arm.only(*STEMS, "Ia")
     theirs = PinocchioArm(arm.robot, arm.values)
     q, qd, qdd = arm.state(seed)
     tau = ours.output("inverse_dynamics", q=q, qd=qd, qdd=qdd)
@@ -145,20 +142,3 @@ def test_any_lengths_of_the_reports_structure_equal_the_textbook_recursion(draw:
     arm = subject(random_anthropomorphic(draw), seed, CORE)
     assert len(arm.model.base_parameters) == 58
     check_core(arm, seed)
-
-
-CORE = ("inverse_dynamics", "regressor", "inertia_matrix", "gravity", "direct_dynamics")
-
-
-def check_core(arm: Subject, seed: int) -> None:
-    """The core of the model: inverse, M, gravity, regressor, direct."""
-    q, qd, qdd = arm.state(seed)
-    textbook, bodies = Arm(arm.robot, arm.values), arm.bodies_alone
-    assert close(bodies.output("inverse_dynamics", q=q, qd=qd, qdd=qdd), textbook.torques(q, qd, qdd))
-    assert close(bodies.output("inertia_matrix", q=q), textbook.inertia_matrix(q))
-    assert close(bodies.output("gravity", q=q), textbook.gravity(q))
-    tau = arm.output("inverse_dynamics", q=q, qd=qd, qdd=qdd)
-    assert close(tau, arm.kept.expected("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd})["tau"])
-    W = arm.output("regressor", q=q, qd=qd, qdd=qdd)
-    assert close(W @ list(arm.base_values.values()), tau)
-    assert close(arm.output("direct_dynamics", q=q, qd=qd, tau=tau), qdd, 1e-11 * max(100.0, conditioning(arm, q)))

@@ -20,13 +20,6 @@ from tests.commands import PENDULUM, command, process
 STATE = ("--q", "0.3", "--qd", "-2", "--qdd", "1.5")
 
 
-@pytest.fixture
-def pendulum(tmp_path: Path) -> Path:
-    path = tmp_path / "pendulum.yaml"
-    path.write_text(PENDULUM)
-    return path
-
-
 def printed(*arguments: str | Path, capsys: pytest.CaptureFixture[str]) -> Any:
     done = command("evaluate", *arguments, capsys=capsys)
     assert (done.status, done.err) == (0, "")

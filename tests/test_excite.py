@@ -35,6 +35,7 @@ from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import PENDULUM, ROOT, command
 from tests.documents import blocks
+from tests.elastic_links import N
 from tests.recorded import TRUTH, TWO_LINKS, fourier, parameters_text, regressors
 from tests.scattering import squares
 
@@ -327,7 +328,6 @@ def test_positions_are_written_as_the_controller_counts_them(
     )
     with compiled(read(path)) as made:
         log = simulate(made, settings).columns
-    N = np.array([[100.0, 0.0], [5.0, -80.0]])
     logged = np.linalg.solve(N, np.stack([log["qm1"], log["qm2"]])) + offset
     count = len(log["t"][::5])
     for k, name in enumerate(("qr1", "qr2")):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
 from random import Random
@@ -15,88 +14,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from generator.derivation import derive
-from generator.reference.arithmetic import decimals
 from generator.resources import find_robot
 from generator.robot.description import EffectUse, Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.chains import DRIVE_TRAIN, elastic_chain, on_all_joints, random_anthropomorphic, random_robot
-from tests.subject import Subject, Vector, subject
+from tests.printed_groupings import SECTION_5_1, SECTION_6_1, SYMBOLIC, in_symbols, printed
+from tests.regressor_rank import check_grouping, rank
+from tests.subject import Subject, subject
 
-#: Report section 5.1, KR270-2F, as printed.
-SECTION_5_1 = """
-ZZ1R = ZZ1 + Ia1 + YY2 + 0.12241 M2 + YY3 + 1.685 M3 + 1.6881 M4 + 1.6881 M5 + 1.6881 M6
-XX2R = XX2 - YY2 - 1.5626 M3 - 1.5626 M4 - 1.5626 M5 - 1.5626 M6
-XZ2R = XZ2 - 1.25 MZ3
-ZZ2R = ZZ2 + Ia2 + 1.5626 M3 + 1.5626 M4 + 1.5626 M5 + 1.5626 M6
-MX2R = MX2 + 1.25 M3 + 1.25 M4 + 1.25 M5 + 1.25 M6
-XX3R = XX3 - YY3 + YY4 - 2.2 MZ4 + 1.207 M4 + 1.207 M5 + 1.207 M6
-XY3R = XY3 - 0.055187 MZ4 + 0.060706 M4 + 0.060706 M5 + 0.060706 M6
-ZZ3R = ZZ3 + YY4 - 2.2 MZ4 + 1.213 M4 + 1.213 M5 + 1.213 M6
-MX3R = MX3 + 0.055187 M4 + 0.055187 M5 + 0.055187 M6
-MY3R = MY3 + MZ4 - 1.1 M4 - 1.1 M5 - 1.1 M6
-XX4R = XX4 - YY4 + YY5
-ZZ4R = ZZ4 + YY5
-MY4R = MY4 - MZ5
-XX5R = XX5 - YY5 + YY6 - 0.46 MZ6 + 0.0529 M6
-ZZ5R = ZZ5 + YY6 - 0.46 MZ6 + 0.0529 M6
-MY5R = MY5 + MZ6 - 0.23 M6
-XX6R = XX6 - YY6
-"""
-
-#: Report section 6.1, KR500-2MT; ZZ3R's one coefficient 1.05365 is printed there rounded both ways.
-SECTION_6_1 = """
-ZZ1R = ZZ1 + Ia1 + YY2 + 0.25 M2 + YY3 + 1.94 M3 + 1.943 M4 + 1.943 M5 + 1.943 M6
-XX2R = XX2 - YY2 - 1.69 M3 - 1.69 M4 - 1.69 M5 - 1.69 M6
-XZ2R = XZ2 - 1.3 MZ3
-ZZ2R = ZZ2 + Ia2 + 1.69 M3 + 1.69 M4 + 1.69 M5 + 1.69 M6
-MX2R = MX2 + 1.3 M3 + 1.3 M4 + 1.3 M5 + 1.3 M6
-XX3R = XX3 - YY3 + YY4 - 2.05 MZ4 + 1.0476 M4 + 1.0476 M5 + 1.0476 M6
-XY3R = XY3 + 0.055 MZ4 - 0.056375 M4 - 0.056375 M5 - 0.056375 M6
-ZZ3R = ZZ3 + YY4 - 2.05 MZ4 + 1.05365 M4 + 1.05365 M5 + 1.05365 M6
-MX3R = MX3 - 0.055 M4 - 0.055 M5 - 0.055 M6
-MY3R = MY3 + MZ4 - 1.025 M4 - 1.025 M5 - 1.025 M6
-XX4R = XX4 - YY4 + YY5
-ZZ4R = ZZ4 + YY5
-MY4R = MY4 - MZ5
-XX5R = XX5 - YY5 + YY6 - 0.58 MZ6 + 0.0841 M6
-ZZ5R = ZZ5 + YY6 - 0.58 MZ6 + 0.0841 M6
-MY5R = MY5 + MZ6 - 0.29 M6
-XX6R = XX6 - YY6
-"""
-
-#: The same 17 groupings in the lengths of Table 4.
-IN_SYMBOLS = {
-    "ZZ1R": {"Ia1": "1", "YY2": "1", "M2": "d2**2", "YY3": "1", "M3": "d2**2 + d3**2"}
-    | dict.fromkeys(("M4", "M5", "M6"), "d2**2 + d3**2 + d4**2"),
-    "XX2R": {"YY2": "-1"} | dict.fromkeys(("M3", "M4", "M5", "M6"), "-d3**2"),
-    "XZ2R": {"MZ3": "-d3"},
-    "ZZ2R": {"Ia2": "1"} | dict.fromkeys(("M3", "M4", "M5", "M6"), "d3**2"),
-    "MX2R": dict.fromkeys(("M3", "M4", "M5", "M6"), "d3"),
-    "XX3R": {"YY3": "-1", "YY4": "1", "MZ4": "2*rl4"} | dict.fromkeys(("M4", "M5", "M6"), "rl4**2 - d4**2"),
-    "XY3R": {"MZ4": "-d4"} | dict.fromkeys(("M4", "M5", "M6"), "-d4*rl4"),
-    "ZZ3R": {"YY4": "1", "MZ4": "2*rl4"} | dict.fromkeys(("M4", "M5", "M6"), "d4**2 + rl4**2"),
-    "MX3R": dict.fromkeys(("M4", "M5", "M6"), "d4"),
-    "MY3R": {"MZ4": "1"} | dict.fromkeys(("M4", "M5", "M6"), "rl4"),
-    "XX4R": {"YY4": "-1", "YY5": "1"},
-    "ZZ4R": {"YY5": "1"},
-    "MY4R": {"MZ5": "-1"},
-    "XX5R": {"YY5": "-1", "YY6": "1", "MZ6": "2*rl6", "M6": "rl6**2"},
-    "ZZ5R": {"YY6": "1", "MZ6": "2*rl6", "M6": "rl6**2"},
-    "MY5R": {"MZ6": "1", "M6": "rl6"},
-    "XX6R": {"YY6": "-1"},
-}
-
-_TERM = re.compile(r"([+-]) (?:(\d[\d.]*) )?([A-Za-z]+\d)")
-
-
-def printed(text: str) -> dict[str, dict[str, Decimal]]:
-    """Groupings as they are printed: {name: {standard parameter: coefficient}}."""
-    result = {}
-    for line in text.strip().splitlines():
-        name, terms = line.split(" = ")
-        result[name] = {found[2]: Decimal(found[0] + (found[1] or "1")) for found in _TERM.findall(f"+ {terms}")}
-    return result
+IN_SYMBOLS = in_symbols(SYMBOLIC)
 
 
 def grouped(model: Model) -> dict[str, dict[str, float]]:
@@ -204,53 +131,6 @@ def test_counts_hold_for_any_lengths_of_the_reports_structure(draw: Random) -> N
 
 
 # -- rank -------------------------------------------------------------------------------------------------------------
-
-
-def rank(W: Vector) -> int:
-    """Number of independent columns, each first scaled to length one; the singular values must leave a gap."""
-    size = np.linalg.norm(W, axis=0)
-    shown = W[:, size > 1e-9 * max(size.max(initial=0.0), 1.0)]
-    if not shown.size:
-        return 0
-    values = np.linalg.svd(shown / np.linalg.norm(shown, axis=0), compute_uv=False)
-    independent = int((values > 1e-9 * values[0]).sum())
-    assert independent == len(values) or values[independent] < 1e-12 * values[0], "the rank is not clear"
-    return independent
-
-
-def states(arm: Subject, columns: int) -> Iterator[tuple[Vector, Vector, Vector]]:
-    """As many random states as show every column, and some."""
-    for seed in range(100, 110 + 2 * columns // arm.dof):
-        yield arm.state(seed)
-
-
-def observed(arm: Subject, names: Sequence[str]) -> Vector:
-    """The reference's regressor of the named standard parameters over random states."""
-    random = Random(1)
-    rows = []
-    for state in states(arm, len(names)):
-        beside = [[random.uniform(-1, 1) for _ in range(n)] for n in (len(arm.model.effect_states), arm.dof)]
-        robot = replace(arm.rigid, states=tuple(decimals(beside[0])), warmth=decimals(beside[1]))
-        rows.append(robot.regressor(names, *map(decimals, state)))
-    return np.concatenate(rows).astype(float)
-
-
-def check_grouping(arm: Subject) -> None:
-    """Rank, columns and groupings against the reference's standard regressor."""
-    W = observed(arm, arm.standard)
-    column = dict(zip(arm.standard, W.T, strict=True))
-    base = np.stack([column[head] for head in arm.heads], axis=1)
-    assert rank(W) == rank(base) == len(arm.heads) == len(arm.model.base_parameters)
-
-    tau = W @ [arm.values[name] for name in arm.standard]
-    assert np.abs(base @ list(arm.base_values.values()) - tau).max() <= 1e-10 * np.abs(tau).max()
-
-    eliminated = {one.name: one.into for one in arm.model.grouping.eliminated}
-    assert sorted([*eliminated, *arm.heads]) == sorted(arm.standard)
-    for name, into in eliminated.items():
-        uses = tuple(one.name for one in arm.model.grouping.base if any(t == name for _, t in one.terms))
-        assert into == uses
-        assert bool(into) == (np.abs(column[name]).max() > 1e-9), name
 
 
 def test_groupings_agree_with_the_reference(arm: Subject) -> None:

@@ -19,6 +19,7 @@ from generator.symbolic.parameter_sets import resolved_sets
 from identification.effect_states import beginning, integrated
 from identification.inverse_model import identify
 from identification.observation import Motion, Regressors
+from tests.recorded import as_recorded
 
 Array = NDArray[np.float64]
 
@@ -123,9 +124,7 @@ def recorded(
         motion = Motion(motion.q, motion.qd, motion.qdd, None, np.tile(1 - np.exp(-t / warm), (6, 1)))
     tau = regressors.torques(truth, _remembering(path.read_text(), motion))
     tau = tau + noise * np.random.default_rng(seed).normal(size=tau.shape) * np.abs(tau).max(axis=1)[:, None] * 1e-3
-    names = [*(f"q{k}" for k in range(1, 7)), *(f"tau{k}" for k in range(1, 7))]
-    np.savetxt(out, np.column_stack([t, motion.q.T, tau.T]), delimiter=",", header=",".join(["t", *names]), comments="")
-    return out
+    return as_recorded(regressors, t, motion.q, tau).save(out)
 
 
 def _remembering(text: str, motion: Motion) -> Motion:

@@ -29,7 +29,6 @@ from tests.recorded import (
     parameters_text,
     recorded,
     regressors,
-    two_links,
 )
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
@@ -48,11 +47,6 @@ effects:
 """
 GANTRY_TRUTH = {"M1": 80.0, "M2R": 30.0, "ZZ3": 2.0, "Fv1": 100.0, "Fc1": 50.0, "Fv2": 60.0, "Fc2": 20.0}
 GANTRY_TRUTH |= {"Fv3": 5.0, "Fc3": 2.0}
-
-
-@pytest.fixture
-def links(tmp_path: Path) -> Regressors:
-    return two_links(tmp_path)
 
 
 def gantry(folder: Path, slow: float = 1.0) -> tuple[Regressors, Path]:

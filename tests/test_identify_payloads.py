@@ -16,18 +16,13 @@ from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
 from identification.results import document
 from identification.sidecar import UNITS, Payload
-from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded, two_links
+from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded
 
 PLAIN = Recipe(dynamics=4.0)
 #: Ten parameters of a point mass in the tool frame [SI], by its mass.
 POINT = {mass: [0.0] * 9 + [mass] for mass in (0.0, 0.5, 2.5)}
 #: Those of half a kilogram as a sidecar tells them.
 POINT_OF_HALF = dict.fromkeys(UNITS, 0.0) | {"M": 0.5}
-
-
-@pytest.fixture
-def links(tmp_path: Path) -> Regressors:
-    return two_links(tmp_path)
 
 
 def carrying(links: Regressors, mass: float, path: Path, says: str) -> Path:

@@ -16,20 +16,15 @@ from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
 from identification.sampling import rows_of, sampled
 from identification.sidecar import Payload
-from tests.recorded import TRUTH, Recorded, fourier, recorded, two_links
+from tests.bodies import STEMS
+from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded
 
 PLAIN = Recipe(dynamics=4.0, standstill=0.0)
-TEN = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("runs")
-
-
-@pytest.fixture(scope="module")
-def links(folder: Path) -> Regressors:
-    return two_links(folder)
 
 
 @pytest.fixture(scope="module")
@@ -182,7 +177,7 @@ def test_standing_joints_leave_parameters_unknown(links: Regressors, folder: Pat
     tau = links.torques(TRUTH, held)
     tau += 0.01 * np.random.default_rng(1).normal(size=tau.shape)
     q = held.q + np.random.default_rng(2).normal(size=tau.shape) * np.array([[0.0], [1e-6]])
-    path = Recorded({"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}).save(folder / "still.csv")
+    path = as_recorded(links, t, q, tau).save(folder / "still.csv")
     found = identify(links.model.robot, [path], options=Options(recipe=Recipe(dynamics=4.0)), regressors=links)
     solution = found.full.solution
     assert {"Fv2", "Ia2", "Fc2"} <= set(solution.hidden)
@@ -208,8 +203,7 @@ def test_a_joint_that_sticks_tells_nothing(links: Regressors, folder: Path) -> N
         held = Motion(motion.q * moving + 0.3 * (1 - moving), motion.qd * moving, motion.qdd * moving)
         tau = links.torques(TRUTH, held) + 0.01 * np.random.default_rng(number).normal(size=moving.shape)
         tau += 0.8 * TRUTH["Fc2"] * (1 - moving)
-        columns = {"t": t, "q1": held.q[0], "q2": held.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(Recorded(columns).save(folder / f"sticks{number}.csv"))
+        sources.append(as_recorded(links, t, held.q, tau).save(folder / f"sticks{number}.csv"))
     solution = identify(links.model.robot, sources, options=Options(recipe=PLAIN), regressors=links).full.solution
     for name in ("Off2", "MX2", "Fc2", "ZZ2"):
         assert solution.values[name] == pytest.approx(TRUTH[name], abs=5 * solution.std(name) + 1e-3)
@@ -254,7 +248,7 @@ def test_a_run_with_a_known_payload_is_tried_with_it(links: Regressors, folder: 
     path = recorded(links, TRUTH, seed=4, payload=LOAD).save(folder / "tried.csv")
     options = Options(recipe=Recipe(dynamics=4.0))
     units = ["kg m2"] * 6 + ["kg m"] * 3 + ["kg"]
-    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(TEN, LOAD, units, strict=True))
+    given = ", ".join(f"{stem}: {value} {unit}" for stem, value, unit in zip(STEMS, LOAD, units, strict=True))
     (folder / "tried.yaml").write_text(f"payload: {{{given}}}\n")
     found = identify(links.model.robot, [clean], [path], options, links)
     assert found.full.test is not None

@@ -77,9 +77,8 @@ def test_an_encoder_that_does_not_follow_its_motor_is_refused(
     machine: Machine, tmp_path: Path, wrong: Callable[[np.ndarray], np.ndarray]
 ) -> None:
     path = Path(recorded(machine, RUN, tmp_path / "a.csv"))
-    names, *lines = path.read_text().splitlines()
-    columns = dict(zip(names.split(","), np.array([one.split(",") for one in lines], dtype=float).T, strict=True))
-    Recorded(columns | {"qs2": wrong(columns["qs2"])}).save(path)
+    good = Recorded.read(path)
+    good.with_columns(qs2=wrong(good.columns["qs2"])).save(path)
     with pytest.raises(InputError, match=r"a.csv:1:1: qs2 differs from the motor's position by \d+ % of how far"):
         link_encoders(machine.robot, [str(path)])
     run = load(str(path), machine.robot)

@@ -24,9 +24,8 @@ from identification.results import document
 from identification.sensitivity import Variation
 from identification.trajectories import trajectories
 from identification.trajectory import Setting
-from tests.recorded import TRUTH, recorded, two_links
+from tests.recorded import TRUTH, recorded, twin_text, two_links
 from tests.test_docs import rows, section
-from tests.test_output_error import robot_text
 
 _CODE = re.compile(r"`([^`]+)`")
 #: A key of a record, not the name of a parameter or the number of a joint.
@@ -98,7 +97,7 @@ def documents(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     found = identify(links.model.robot, runs, regressors=links)
     consistent = consistent_fit(found, None, 0.03)
     path = folder / "arm.yaml"
-    path.write_text(robot_text())
+    path.write_text(twin_text())
     return {
         "docs/identification.md": document(found, consistent, [Variation("cutoff", 1.0, "Fv1", 0.1)]),
         "docs/excite.md": excitation_results.document(excite(read(path), Request(evaluations=256, parameters="twin"))),

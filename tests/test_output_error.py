@@ -31,7 +31,7 @@ from identification.simulation.run_file import save
 from identification.simulation.settings import Settings as Simulation
 from identification.simulation.simulate import simulate
 from tests.newton_euler import Arm
-from tests.recorded import TRUTH, TWO_LINKS, parameters_text
+from tests.recorded import TRUTH, twin_text
 
 Array = NDArray[np.float64]
 
@@ -39,14 +39,10 @@ Array = NDArray[np.float64]
 WIDE = Recipe(cutoff=100.0)
 
 
-def robot_text() -> str:
-    return TWO_LINKS + parameters_text({"twin": TRUTH})
-
-
 @pytest.fixture(scope="module")
 def machine(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Machine]:
     path = tmp_path_factory.mktemp("output_error") / "two_links.yaml"
-    path.write_text(robot_text())
+    path.write_text(twin_text())
     with compiled(read(path)) as made:
         yield made
 

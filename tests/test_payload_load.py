@@ -6,21 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from generator.robot.readers import read
 from identification.drive_gains import drive_gains
 from identification.inverse_model import Options, identify
 from identification.observation import Regressors
 from identification.sidecar import Payload
+from tests.elastic_links import N
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
-
-Array = NDArray[np.float64]
 
 #: Friction that is a fifth of the load, a payload of 20 kg in the tool frame, and true torque constants [N m/A].
 LOAD = {"Fl1": 0.2, "Fl2": 0.2}
 BODY = {"XX": 0.3, "YY": 0.5, "ZZ": 0.6, "MX": 1.5, "MY": -0.8, "MZ": 0.4, "M": 20.0}
-N, KT = np.array([[100.0, 0.0], [5.0, -80.0]]), np.array([0.53, 0.44])
+KT = np.array([0.53, 0.44])
 NOISE = 0.01
 
 

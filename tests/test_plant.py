@@ -11,6 +11,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from tests.bodies import PINOCCHIO, pseudo_inertia
 from tests.commands import ROOT
 from tests.plant.effect import Effect
 from tests.plant.library import LAWS, TORQUES
@@ -105,9 +106,8 @@ def in_pinocchio(robot: Robot) -> pin.Model:
             place = place * pin.SE3(pin.utils.rotate(axis, angle), np.array(shift, dtype=float))
         kind = pin.JointModelPZ() if joint.prismatic else pin.JointModelRZ()
         model.addJoint(j, kind, place, f"joint {j}")
-        order = ("M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ")
         numbers = dict(zip(BODY, joint.body, strict=True))
-        inertia = pin.Inertia.FromDynamicParameters(np.array([numbers[name] for name in order], dtype=float))
+        inertia = pin.Inertia.FromDynamicParameters(np.array([numbers[name] for name in PINOCCHIO], dtype=float))
         model.appendBodyToJoint(j + 1, inertia, pin.SE3.Identity())
         place = pin.SE3.Identity()
     model.gravity.linear = np.array(FREE_FALL)
@@ -148,13 +148,7 @@ def test_payload_and_lean_against_pinocchio(robot: Robot) -> None:
 
 def test_bodies_can_exist(robot: Robot) -> None:
     for joint in robot.chain:
-        xx, xy, xz, yy, yz, zz, mx, my, mz, m = joint.body
-        I = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])  # noqa: E741
-        pseudo = np.empty((4, 4))
-        pseudo[:3, :3] = 0.5 * np.trace(I) * np.eye(3) - I
-        pseudo[3, :3] = pseudo[:3, 3] = mx, my, mz
-        pseudo[3, 3] = m
-        assert np.min(np.linalg.eigvalsh(pseudo)) > 0
+        assert np.min(np.linalg.eigvalsh(pseudo_inertia(joint.body))) > 0
 
 
 def resting(q: Array | float, duration: float, speed: Array | float = 0.0) -> Trajectory:

@@ -15,13 +15,10 @@ from identification.inverse_model import Estimate, Identification, Options, iden
 from identification.observation import Regressors
 from identification.sidecar import Payload
 from tests.at_hand import RECORDINGS
+from tests.real_recordings import TEST, TRAIN, A, B, data
 from tests.recorded import regressors
 
 pytestmark = RECORDINGS.needed
-
-
-def data(*names: str) -> list[str]:
-    return [f"{RECORDINGS.path}/{name}" for name in names]
 
 
 def left(estimate: Estimate) -> tuple[float, list[float]]:
@@ -31,8 +28,6 @@ def left(estimate: Estimate) -> tuple[float, list[float]]:
 
 
 # -- KR300: a heavy arm with a gas balancer ---------------------------------------------------------------------------
-
-A, B = "kr300_r2500/A.csv", "kr300_r2500/B.csv"
 
 
 def held_at_the_prior(of: Regressors, payload: dict[str, float]) -> Options:
@@ -85,8 +80,6 @@ def test_bodies_that_can_be_carry_over_without_being_known(heavy: Regressors, tr
 
 
 # -- TX40: two coupled axes in the wrist ------------------------------------------------------------------------------
-
-TRAIN, TEST = "tx40/run.csv@3.6:9", "tx40/run.csv@0:3.6"
 
 
 def on_tx40(of: Regressors) -> Identification:

@@ -15,8 +15,9 @@ from scipy.spatial.transform import Rotation
 from generator.effects.library import library
 from generator.resources import find_robot, robots, templates
 from generator.robot.description import FIXED, PRISMATIC, REVOLUTE, Robot
-from generator.robot.parameters import INERTIAL, inertial_parameters
+from generator.robot.parameters import inertial_parameters
 from generator.robot.readers import read
+from tests.bodies import STEMS, pseudo_inertia
 
 NAMES = [path.stem for path in robots()]
 
@@ -234,24 +235,13 @@ def test_parameter_sets_of_the_report(kr500: Robot, kr270: Robot) -> None:
     assert kr270.parameter_sets["report_table_10"].other_values["Offk2"].value == 2.94e6
 
 
-def _pseudo_inertia(robot: Robot, name: str, joint: int) -> np.ndarray:
-    """4 x 4 pseudo-inertia of a body (Wensing, Kim, Slotine 2018); a body is possible where it is positive definite."""
-    values = robot.parameter_sets[name].values
-    xx, xy, xz, yy, yz, zz, mx, my, mz, m = (values[f"{stem}{joint}"].value for stem, _, _ in INERTIAL)
-    J = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    pseudo = np.empty((4, 4))
-    pseudo[:3, :3] = np.trace(J) / 2 * np.eye(3) - J
-    pseudo[:3, 3] = pseudo[3, :3] = mx, my, mz
-    pseudo[3, 3] = m
-    return pseudo
-
-
 @pytest.mark.parametrize("name", [name for name in NAMES if "example" in read(find_robot(name)).parameter_sets])
 def test_example_sets_are_complete_and_possible(name: str) -> None:
     robot = read(find_robot(name))
-    for joint in robot.bodies:
-        assert np.linalg.eigvalsh(_pseudo_inertia(robot, "example", joint.number)).min() > 0
     values = robot.parameter_sets["example"].values
+    for joint in robot.bodies:
+        ten = [values[f"{stem}{joint.number}"].value for stem in STEMS]
+        assert np.linalg.eigvalsh(pseudo_inertia(ten)).min() > 0
     for joint in robot.bodies:
         for parameter in inertial_parameters(joint):
             assert values[parameter.name].unit == parameter.unit

@@ -18,11 +18,8 @@ from generator.robot.readers import read
 from identification import readers
 from identification.dataset import load
 from identification.readers import csv
+from tests.elastic_links import KT, N
 from tests.recorded import Recorded, same, stacked
-
-N = np.array([[100.0, 0.0], [5.0, -80.0]])
-KT = np.array([0.5, 0.4])
-
 
 # -- formats ----------------------------------------------------------------------------------------------------------
 

@@ -16,75 +16,71 @@ from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification.dataset import load
 from tests.commands import PENDULUM
-from tests.recorded import TRUTH, Recorded, recorded, stacked, two_links
+from tests.recorded import Recorded, stacked
 
 
-def test_a_column_without_a_number_is_left_out_and_told(tmp_path: Path) -> None:
-    regressors = two_links(tmp_path)
-    good = recorded(regressors, TRUTH, duration=8.0)
+def test_a_column_without_a_number_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     header, *rows = good.save(tmp_path / "a.csv").read_text().splitlines()
     words = [f"{header},mode", f"{rows[0]},", *(f"{row},AUT" for row in rows[1:])]
     (tmp_path / "b.csv").write_text("\n".join(words) + "\n")
-    run = load(str(tmp_path / "b.csv"), regressors.model.robot)
+    run = load(str(tmp_path / "b.csv"), robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
     (note,) = run.notes
     assert note.endswith("b.csv: mode held no number and is left out")
 
 
 @pytest.mark.parametrize(("spelt", "near"), [(str.upper, "Q1"), (lambda name: f"{name[:-1]}_{name[-1]}", "q_1")])
-def test_columns_of_another_spelling_are_hinted_at(spelt: Callable[[str], str], near: str, tmp_path: Path) -> None:
-    regressors = two_links(tmp_path)
-    good = recorded(regressors, TRUTH, duration=8.0)
+def test_columns_of_another_spelling_are_hinted_at(
+    spelt: Callable[[str], str], near: str, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
     other = {name if name == "t" else spelt(name): values for name, values in good.columns.items()}
     with pytest.raises(
         InputError, match=f"no columns of positions, expected .*; perhaps {near} is meant, which a sidecar"
     ):
-        load(str(Recorded(other).save(tmp_path / "a.csv")), regressors.model.robot)
+        load(str(Recorded(other).save(tmp_path / "a.csv")), robot)
 
 
-def test_a_mat_file_has_each_column_once(tmp_path: Path) -> None:
+def test_a_mat_file_has_each_column_once(robot: Robot, tmp_path: Path) -> None:
     path = tmp_path / "a.mat"
     t, q = np.arange(100) * 0.01, np.ones((100, 2))
     scipy.io.savemat(path, {"t": t, "q1": q[:, 0], "q": q, "tau": q})
     with pytest.raises(InputError, match=r"a.mat:1:1: column q1 is there twice, expected each column once"):
-        load(str(path), two_links(tmp_path).model.robot)
+        load(str(path), robot)
 
 
-def test_a_date_has_points_beside_decimal_commas(tmp_path: Path) -> None:
-    regressors = two_links(tmp_path)
-    good = recorded(regressors, TRUTH, duration=8.0)
+def test_a_date_has_points_beside_decimal_commas(good: Recorded, robot: Robot, tmp_path: Path) -> None:
     header, *rows = good.save(tmp_path / "a.csv").read_text().splitlines()
     lines = [f"{header},date", *(f"{row},01.02.2020" for row in rows)]
     comma = [line.replace(",", ";").replace(".", ",").replace("01,02,2020", "01.02.2020") for line in lines[1:]]
     (tmp_path / "b.csv").write_text("\n".join([lines[0].replace(",", ";"), *comma]) + "\n")
-    run = load(str(tmp_path / "b.csv"), regressors.model.robot)
+    run = load(str(tmp_path / "b.csv"), robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
     (note,) = run.notes
     assert note.endswith("b.csv: date held no number and is left out")
 
 
-def test_words_in_a_parquet_file_are_left_out_and_a_name_is_there_once(tmp_path: Path) -> None:
-    regressors = two_links(tmp_path)
-    good = recorded(regressors, TRUTH, duration=8.0)
+def test_words_in_a_parquet_file_are_left_out_and_a_name_is_there_once(
+    good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
     columns = dict(good.columns)
     count = len(columns["t"])
     words = {"mode": ["AUT"] * count, "digits": ["12"] * count, "on": [True] * count}
     parquet.write_table(pyarrow.table({**columns, **words}), tmp_path / "a.parquet")
-    run = load(str(tmp_path / "a.parquet"), regressors.model.robot)
+    run = load(str(tmp_path / "a.parquet"), robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
     assert [note.partition(": ")[2] for note in run.notes] == ["mode, digits and on held no number and are left out"]
     spans = pyarrow.array((1e9 * columns["t"]).astype("timedelta64[ns]"))
     parquet.write_table(pyarrow.table({**columns, "t": spans}), tmp_path / "spans.parquet")
-    run = load(str(tmp_path / "spans.parquet"), regressors.model.robot)
+    run = load(str(tmp_path / "spans.parquet"), robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
     exact = pyarrow.array(columns["q1"].round(6)).cast(pyarrow.decimal128(12, 6))
     parquet.write_table(pyarrow.table({**columns, "q1": exact}), tmp_path / "exact.parquet")
-    run = load(str(tmp_path / "exact.parquet"), regressors.model.robot)
+    run = load(str(tmp_path / "exact.parquet"), robot)
     assert np.allclose(run.q, stacked(good, "q"), atol=1e-6)
     twice = pyarrow.table([*columns.values(), columns["q1"]], names=[*columns, "q1"])
     parquet.write_table(twice, tmp_path / "b.parquet")
     with pytest.raises(InputError, match=r"b.parquet:1:\d+: column q1 is there twice, expected each column once"):
-        load(str(tmp_path / "b.parquet"), regressors.model.robot)
+        load(str(tmp_path / "b.parquet"), robot)
 
 
 def test_vectors_of_a_mat_file_are_those_of_the_only_joint(tmp_path: Path) -> None:

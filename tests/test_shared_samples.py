@@ -10,18 +10,14 @@ import pytest
 from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.dataset import load
+from identification.observation import Regressors
 from identification.shared_samples import fitted_too, unshared
-from tests.recorded import TRUTH, Recorded, recorded, two_links
+from tests.recorded import TRUTH, Recorded, recorded
 
 
 @pytest.fixture(scope="module")
-def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    return two_links(tmp_path_factory.mktemp("robot")).model.robot
-
-
-@pytest.fixture(scope="module")
-def noisy(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
-    return recorded(two_links(tmp_path_factory.mktemp("runs")), TRUTH, duration=8.0, noise=0.1)
+def noisy(links: Regressors) -> Recorded:
+    return recorded(links, TRUTH, duration=8.0, noise=0.1)
 
 
 def test_a_copy_with_other_line_ends_and_digits_shares_samples(noisy: Recorded, robot: Robot, tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from generator.errors import InputError
 from generator.resources import find_robot
@@ -25,21 +24,9 @@ from identification.simulation.simulate import Simulated, simulate
 from identification.trajectories import trajectories
 from identification.trajectory import Reference, Task, Unplanned
 from tests.commands import command
-from tests.elastic_links import KT, MOTORS, N
+from tests.elastic_links import MOTORS
 from tests.recorded import TRUTH, Recorded
-
-Array = NDArray[np.float64]
-
-
-def columns(run: Simulated, stem: str) -> Array:
-    """Columns of all joints (N x n)."""
-    return np.stack([run.columns[f"{stem}{k}"] for k in range(1, 1 + sum(n.startswith("qm") for n in run.columns))], 1)
-
-
-def motors(run: Simulated, coupling: Array = N, constants: Array = KT) -> tuple[Array, Array]:
-    """Positions and torques of the motors on the joint side (N x n each), by report eq. 14 and 75."""
-    return columns(run, "qm") @ np.linalg.inv(coupling).T, (columns(run, "i") * constants) @ coupling
-
+from tests.simulated_runs import SHORT, columns, motors
 
 # -- identification ---------------------------------------------------------------------------------------------------
 
@@ -77,8 +64,6 @@ def test_a_run_goes_from_command_to_command(file: Path, tmp_path: Path, capsys: 
 
 
 # -- what is logged ---------------------------------------------------------------------------------------------------
-
-SHORT = Settings(duration=4.0, further=("qr", "qs"))
 
 
 def test_the_motors_obey_their_equations(machine: Machine) -> None:

@@ -21,7 +21,7 @@ from identification.simulation.settings import Settings
 from identification.simulation.simulate import simulate
 from tests.commands import command
 from tests.recorded import TRUTH
-from tests.test_simulate import columns, motors
+from tests.simulated_runs import columns, motors
 
 SHORT = Settings(duration=4.0)
 

@@ -15,7 +15,8 @@ from identification.simulation.machine import Machine, compiled
 from identification.simulation.run_file import save
 from identification.simulation.simulate import simulate
 from tests.commands import command
-from tests.test_simulate import SHORT, Array
+from tests.recorded import Array
+from tests.simulated_runs import SHORT
 
 
 def test_files_are_read_back_as_they_were(machine: Machine, tmp_path: Path) -> None:

@@ -10,8 +10,8 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
+from tests.core_quantities import CORE, check_core
 from tests.subject import subject
-from tests.test_dynamics import CORE, check_core
 
 ARM = """\
 name: arm

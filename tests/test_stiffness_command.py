@@ -7,54 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from generator.errors import InputError
-from generator.resources import find_robot
 from generator.robot.readers import read
-from identification.force_steps import ForceSteps, force_steps
+from identification.force_steps import force_steps
 from identification.locked_output import LockedOutput, locked_output
 from identification.stiffness_results import document
 from tests.commands import command
-from tests.newton_euler import Arm
 from tests.recorded import Recorded
-
-Array = NDArray[np.float64]
-
-RATE = 100.0
-ROBOT = read(find_robot("kr500"))
-N = np.array([[float(x) for x in row] for row in ROBOT.drives.coupling]) if ROBOT.drives else np.eye(6)
-K = np.array([6.2e6, 6.7e6, 3.9e6, 1.1e6, 0.9e6, 0.5e6])
-KT = np.array([1.6, 1.5, 1.4, 1.2, 1.1, 1.05])
-IA = np.array([4000.0, 4000.0, 3500.0, 300.0, 500.0, 200.0])
-
+from tests.stiff_arm import IA, KT, LOCKED, RATE, ROBOT, STRAIGHT, TURNED, K, N, blocked, pressed, steps
 
 # -- blocked output -----------------------------------------------------------------------------------------------
-
-#: tau = Iam qdd + Fvm qd + Fcm sign(qd) + k q + Offk + balancer, about q2 = -1.5 rad.
-LOCKED = {"Iam2": 900.0, "Fvm2": 8.0e3, "Fcm2": 60.0, "k2": 1.9e6, "Offk2": 2.85e6 + 300.0}
-
-
-def blocked(
-    path: Path, seed: int = 0, noise: float = 40.0, balancer: float = 0.0, colour: float = 0.0, second: float = 0.8e-3
-) -> str:
-    """A motor that goes slowly to and fro by a few mrad, up to some kN m; the other joints stand and hum.
-
-    Of noise that is coloured, each sample has so much of the one before. A ``second`` wave is slower [rad].
-    """
-    draw = np.random.default_rng(seed)
-    t = np.arange(round(60 * RATE)) / RATE
-    w = 2 * np.pi * 0.15
-    x = 1.5e-3 * np.sin(w * t) + second * np.sin(0.4 * w * t)
-    v = 1.5e-3 * w * np.cos(w * t) + 0.4 * second * w * np.cos(0.4 * w * t)
-    a = -1.5e-3 * w * w * np.sin(w * t) - 0.16 * second * w * w * np.sin(0.4 * w * t)
-    q, tau = np.zeros((6, len(t))), draw.normal(scale=5.0, size=(6, len(t)))
-    q[1] = -1.5 + x
-    tau[1] = 900 * a + 8e3 * v + 60 * np.sign(v) + 1.9e6 * q[1] + LOCKED["Offk2"] + balancer
-    tau[1] += lfilter([1.0], [1.0, -colour], draw.normal(scale=noise, size=len(t)))
-    columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"tau{j + 1}": tau[j] for j in range(6)}
-    return str(Recorded(columns).save(path))
 
 
 def test_blocked_output_without_noise(tmp_path: Path) -> None:
@@ -68,9 +31,7 @@ def test_blocked_output_without_noise(tmp_path: Path) -> None:
 
 def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -> None:
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(path).columns)
     columns["tau2"] = np.minimum(columns["tau2"], np.quantile(columns["tau2"], 0.9))
     found = locked_output(ROBOT, 2, [str(Recorded(columns).save(path))])
     assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
@@ -80,8 +41,7 @@ def test_a_torque_at_its_limit_is_left_out_of_a_blocked_output(tmp_path: Path) -
 def test_a_motor_slower_than_a_fifth_of_its_largest_speed_tells_nothing(tmp_path: Path) -> None:
     """Friction that sticks there, a quarter of what winds the drive train up, leaves the stiffness as it is."""
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    columns = dict(Recorded.read(path).columns)
     speed = np.gradient(columns["q2"], columns["t"])
     sticks = np.abs(speed) < 0.18 * np.abs(speed).max()
     columns["tau2"] += np.where(sticks, 1000 * np.sign(columns["q2"] + 1.5), 0.0)
@@ -125,59 +85,6 @@ def test_the_balancer_is_subtracted_where_the_link_stands(tmp_path: Path) -> Non
 
 # -- steps of force -----------------------------------------------------------------------------------------------
 
-#: Poses in which a force along the tool's z turns axes 2 and 3 alone, or 1 to 3. It goes through the wrist's centre.
-STRAIGHT = (0.2, -1.2, 0.9, 0.0, 0.0, 0.0)
-TURNED = (0.1, -1.3, 1.1, 0.9, 1.1, 0.3)
-
-
-def torques_of_force(q: tuple[float, ...]) -> Array:
-    """Joint torques (6 x 3) [N m/N] that press with 1 N along the tool's x, y, z, by the tests' Newton-Euler."""
-    still, arm = np.zeros(6), Arm(ROBOT, {})
-    unit = np.eye(6)[:3]
-    return np.stack([arm.torques(q, still, still, weight=False, wrench=tuple(one)) for one in unit], axis=1)
-
-
-def pressed(
-    path: Path,
-    q0: tuple[float, ...],
-    seed: int = 0,
-    noise: float = 1.0,
-    axes: str = "z",
-    orient: bool = False,
-    resolution: float = 0.0,
-) -> str:
-    """Steps of force with finite slopes: motors twist by tau / k; where ``orient``, q5 is moved by q2 + q3 besides."""
-    draw = np.random.default_rng(seed)
-    t = np.arange(round(40 * RATE)) / RATE
-    slope = np.hanning(41) / np.hanning(41).sum()
-    force = np.zeros((3, len(t)))
-    for axis in axes:
-        level = 1500 + 1200 * np.sign(np.sin(2 * np.pi * {"x": 0.1, "y": 0.075, "z": 0.125}[axis] * t))
-        force["xyz".index(axis)] = np.convolve(np.pad(level, 20, mode="edge"), slope, mode="valid")
-    held = torques_of_force(q0) @ force
-    twist = held / K[:, None]
-    if orient:
-        twist[4] += twist[1] + twist[2]
-    qdd = np.gradient(np.gradient(twist, t, axis=1), t, axis=1)
-    gravity = np.array([50.0, -900.0, 700.0, 30.0, -40.0, 10.0])
-    i = np.linalg.solve(N.T, held + gravity[:, None] + IA[:, None] * qdd) / KT[:, None]
-    q = np.array(q0)[:, None] + twist + noise * 2e-6 * draw.normal(size=twist.shape)
-    if resolution:
-        q = np.round(q / resolution) * resolution
-    i = i + noise * 0.02 * draw.normal(size=i.shape)
-    columns = {"t": t} | {f"q{j + 1}": q[j] for j in range(6)} | {f"i{j + 1}": i[j] for j in range(6)}
-    force = force + noise * 5 * draw.normal(size=force.shape)
-    return str(Recorded(columns | {f"f{axis}": force["xyz".index(axis)] for axis in axes}).save(path))
-
-
-def steps(folder: Path, seed: int = 0, noise: float = 1.0) -> ForceSteps:
-    runs = [
-        pressed(folder / "straight.csv", STRAIGHT, 2 * seed, noise, orient=True),
-        pressed(folder / "turned.csv", TURNED, 2 * seed + 1, noise, "xyz"),
-    ]
-    inertias = {f"Ia{j}": value for j, value in enumerate(IA, 1)}
-    return force_steps(ROBOT, runs, inertias)
-
 
 def test_force_steps_without_noise(tmp_path: Path) -> None:
     """All but axis 6, though in the first pose the control moves axis 5 without any torque on it."""
@@ -192,9 +99,7 @@ def test_force_steps_without_noise(tmp_path: Path) -> None:
 
 def test_currents_at_their_limit_are_left_out_of_torque_constants(tmp_path: Path) -> None:
     limited = pressed(tmp_path / "straight.csv", STRAIGHT, noise=1e-3, orient=True)
-    lines = Path(limited).read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(limited).columns)
     lowest, highest = columns["i2"].min(), columns["i2"].max()
     columns["i2"] = np.minimum(columns["i2"], lowest + 0.8 * (highest - lowest))
     limited = str(Recorded(columns).save(Path(limited)))
@@ -258,13 +163,9 @@ def test_results_and_robot_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 def with_columns(path: str, signs: str, sign: float) -> str:
     """A run with columns whose names begin with one of ``signs`` times a ``sign``."""
-    names, *lines = Path(path).read_text().splitlines()
-    values = np.array([line.split(",") for line in lines], dtype=float).T
-    columns = {
-        name: sign * one if name[:-1] in signs.split() else one
-        for name, one in zip(names.split(","), values, strict=True)
-    }
-    return str(Recorded(columns).save(Path(path)))
+    run = Recorded.read(path)
+    other = {name: sign * values for name, values in run.columns.items() if name[:-1] in signs.split()}
+    return str(run.with_columns(**other).save(Path(path)))
 
 
 def test_another_sign_of_force_torque_or_current_makes_no_stiffness(tmp_path: Path) -> None:
@@ -282,10 +183,9 @@ def test_another_sign_of_force_torque_or_current_makes_no_stiffness(tmp_path: Pa
 
 def test_a_run_in_which_the_blocked_motor_rests_is_told(tmp_path: Path) -> None:
     one, resting = blocked(tmp_path / "a.csv"), blocked(tmp_path / "b.csv", 1)
-    names, *lines = Path(resting).read_text().splitlines()
-    values = dict(zip(names.split(","), np.array([line.split(",") for line in lines], dtype=float).T, strict=True))
-    still = np.full_like(values["t"], -1.5)
-    Recorded(values | {"q2": still, "tau2": 300.0 + values["tau3"]}).save(Path(resting))
+    run = Recorded.read(resting)
+    still = np.full_like(run.columns["t"], -1.5)
+    run.with_columns(q2=still, tau2=300.0 + run.columns["tau3"]).save(Path(resting))
     found = locked_output(ROBOT, 2, [one, resting])
     told = "b.csv: the motor of joint 2 hardly turns: this run tells nothing of k2"
     assert [note.endswith(told) for note in found.notes if "hardly" in note] == [True]
@@ -306,8 +206,7 @@ def test_what_a_blocked_output_does_not_tell_is_refused_by_name(tmp_path: Path) 
 def test_a_motor_that_turns_one_way_does_not_tell_friction_from_offset(tmp_path: Path) -> None:
     """Refused by name with the reason, while the stiffness is told."""
     path = Path(blocked(tmp_path / "a.csv", noise=0.0))
-    lines = path.read_text().splitlines()
-    columns = dict(zip(lines[0].split(","), np.array([line.split(",") for line in lines[1:]], float).T, strict=True))
+    columns = dict(Recorded.read(path).columns)
     x, w = columns["q2"] + 1.5, 2 * np.pi * 0.15
     ramp = 2.5e-3 * w * columns["t"]
     columns["q2"] += ramp
@@ -355,9 +254,7 @@ def test_poses_with_currents_and_with_torques_go_together(tmp_path: Path) -> Non
     """Torque constants are then those of the file."""
     currents = pressed(tmp_path / "straight.csv", STRAIGHT, 1, 1e-3)
     torques = pressed(tmp_path / "turned.csv", TURNED, 2, 1e-3, "xyz")
-    lines = Path(torques).read_text().splitlines()
-    names, values = lines[0].split(","), np.array([line.split(",") for line in lines[1:]], dtype=float).T
-    columns = dict(zip(names, values, strict=True))
+    columns = dict(Recorded.read(torques).columns)
     tau = N.T @ (KT[:, None] * np.stack([columns.pop(f"i{j}") for j in range(1, 7)]))
     Recorded(columns | {f"tau{j}": one for j, one in enumerate(tau, 1)}).save(Path(torques))
     found = force_steps(ROBOT, [currents, torques])

@@ -9,16 +9,12 @@ import numpy as np
 import pytest
 
 from generator.errors import InputError
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.drive_train import constants, coupling
 from identification.inverse_model import identify
 from identification.observation import Regressors
-from tests.recorded import TRUTH, Recorded, recorded, two_links
-
-
-@pytest.fixture(scope="module")
-def links(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
-    return two_links(tmp_path_factory.mktemp("swapped"))
+from tests.diagnosis.diagnosed_arm import answered
+from tests.recorded import TRUTH, Recorded, recorded
 
 
 @pytest.mark.parametrize("change", ["torques", "positions"])
@@ -41,7 +37,7 @@ def test_those_of_a_run_that_tests_are_found_out(links: Regressors, tmp_path: Pa
     file = Path(links.model.robot.place.file)
     wanted = Request([str(paths[0])], test=[str(paths[1])])
     with pytest.raises(InputError, match=message):
-        diagnosed(file, links.model.robot, wanted, tmp_path / "out", lambda *about: {})
+        answered(file, wanted, tmp_path / "out")
 
 
 def test_a_diagnosis_refuses_them_before_it_looks_for_anything(
@@ -52,7 +48,7 @@ def test_a_diagnosis_refuses_them_before_it_looks_for_anything(
     paths = [run.save(tmp_path / f"{name}.csv") for name, run in (("right", runs[0]), ("wrong", swapped))]
     file = Path(links.model.robot.place.file)
     with pytest.raises(InputError, match=r"wrong.csv:1:1: the positions of joints 1 and 2 look swapped"):
-        diagnosed(file, links.model.robot, Request(paths), tmp_path / "out", lambda *about: {})
+        answered(file, Request(paths), tmp_path / "out")
     assert "columns of every candidate" not in capsys.readouterr().err
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tests.commands import command
@@ -30,8 +29,8 @@ def test_an_effect_without_a_real_value_is_named(
     words: str, effects: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _, (source,) = recorded(tmp_path, [torque("")])
-    t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-    Recorded({"t": t, "q1": 0.1 * q, "tau1": tau}).save(tmp_path / "near.csv")
+    run = Recorded.read(source)
+    run.with_columns(q1=0.1 * run.columns["q1"]).save(tmp_path / "near.csv")
     unlimited = ARM.replace(", limits: [-160 deg, 160 deg]", "")
     (tmp_path / "arm.yaml").write_text(unlimited + effects)
     monkeypatch.chdir(tmp_path)

@@ -8,7 +8,7 @@ from benchmarks.compiling import CPP, SHARED, C, Compiler, compiled, compilers, 
 from benchmarks.peers.casadi_code import wrapper
 from benchmarks.peers.library import SOURCES, Library
 from benchmarks.peers.pinocchio import includes, numbers
-from benchmarks.peers.subject import Subject, write
+from benchmarks.peers.subject import Chain, write
 
 NAME = "CasADi, from Pinocchio"
 
@@ -21,7 +21,7 @@ _ARGUMENTS = {
 }
 
 
-def build(subject: Subject, folder: Path) -> list[Library]:
+def build(subject: Chain, folder: Path) -> list[Library]:
     """By each compiler, from C that a program in C++ writes."""
     model, nothing = write(numbers(subject), folder / "pinocchio.bin"), write([], folder / "nothing.bin")
     run([_generator(folder.parent), model, folder])

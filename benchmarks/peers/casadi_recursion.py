@@ -11,12 +11,12 @@ from benchmarks.compiling import FLAGS, SHARED, C, compiled, compilers
 from benchmarks.peers.casadi_code import wrapper
 from benchmarks.peers.library import SOURCES, Library
 from benchmarks.peers.recursion import Recursion
-from benchmarks.peers.subject import Subject, write
+from benchmarks.peers.subject import Chain, write
 
 NAME = "CasADi, by hand"
 
 
-def build(subject: Subject, folder: Path, flags: Sequence[str] = FLAGS) -> list[Library]:
+def build(subject: Chain, folder: Path, flags: Sequence[str] = FLAGS) -> list[Library]:
     """By each compiler."""
     sources = generated(subject, folder)
     data = write(subject.parameters(subject.model), folder / "casadi_recursion.bin")
@@ -28,7 +28,7 @@ def build(subject: Subject, folder: Path, flags: Sequence[str] = FLAGS) -> list[
     return result
 
 
-def generated(subject: Subject, folder: Path) -> list[Path]:
+def generated(subject: Chain, folder: Path) -> list[Path]:
     """CasADi's C of every function, and what makes it a library of the comparison."""
     folder.mkdir(parents=True, exist_ok=True)
     code = ca.CodeGenerator("casadi_recursion.c", {"with_header": True})

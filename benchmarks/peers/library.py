@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.peers.subject import FUNCTIONS, Array, Subject
+from benchmarks.peers.subject import FUNCTIONS, Array, Chain
 
 #: Where the sources that the libraries share are.
 SOURCES = Path(__file__).parent
@@ -32,18 +32,18 @@ class Library:
     standard: bool = False
     whole: bool = False
 
-    def size(self, function: str, subject: Subject) -> int:
+    def size(self, function: str, subject: Chain) -> int:
         """Numbers that a function returns."""
         return int(np.prod(self._shape(function, subject)))
 
-    def results(self, function: str, subject: Subject, outputs: Array) -> Array:
+    def results(self, function: str, subject: Chain, outputs: Array) -> Array:
         """Outputs (states x size) as arrays (states x shape)."""
         shape = self._shape(function, subject)
         if self.by_columns and len(shape) == 2:
             return outputs.reshape(-1, *reversed(shape)).transpose(0, 2, 1)
         return outputs.reshape(-1, *shape)
 
-    def _shape(self, function: str, subject: Subject) -> tuple[int, ...]:
+    def _shape(self, function: str, subject: Chain) -> tuple[int, ...]:
         columns = {
             "inertia_matrix": (subject.dof,),
             "regressor": (len(subject.standard if self.standard else subject.base),),

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.callgrind import collected
 from benchmarks.compiling import C, compiled, compilers, run
 from benchmarks.peers.library import SOURCES, Library
-from benchmarks.peers.subject import FUNCTIONS, STATES, Array, Subject, write
+from benchmarks.peers.subject import FUNCTIONS, STATES, Array, Chain, write
 
 #: Each function is timed so often, in turn with all others; a time is that of a pass over all states.
 ROUNDS = 1000
@@ -30,7 +30,7 @@ class Timed:
     results: Array
 
 
-def measure(subject: Subject, libraries: Sequence[Library], folder: Path, rounds: int = ROUNDS) -> list[Timed]:
+def measure(subject: Chain, libraries: Sequence[Library], folder: Path, rounds: int = ROUNDS) -> list[Timed]:
     """Every function of every library, interleaved. Without rounds nothing is timed, and times are NaN."""
     entries = [(library, function) for library in libraries for function in FUNCTIONS if function in library.functions]
     printed = run(_called(subject, entries, folder, rounds))
@@ -42,17 +42,12 @@ def measure(subject: Subject, libraries: Sequence[Library], folder: Path, rounds
     ]
 
 
-def instructions(subject: Subject, library: Library, function: str, folder: Path) -> float:
+def instructions(subject: Chain, library: Library, function: str, folder: Path) -> float:
     """Instructions of a call by callgrind, what it calls included, mean of all states; raises Missing without it."""
-    callgrind = ["valgrind", "--tool=callgrind", f"--toggle-collect={function}", "--callgrind-out-file=/dev/null"]
-    told = run([*callgrind, *_called(subject, [(library, function)], folder, rounds=0)], True)
-    collected = re.search(r"Collected : (\d+)", told)
-    if not collected:
-        raise RuntimeError(f"callgrind collected nothing\n{told}")
-    return int(collected[1]) / STATES
+    return collected(function, _called(subject, [(library, function)], folder, rounds=0)) / STATES
 
 
-def disagreement(subject: Subject, a: Timed, b: Timed) -> float:
+def disagreement(subject: Chain, a: Timed, b: Timed) -> float:
     """The largest difference of two results, relative to the largest entry at the same state.
 
     A regressor in base parameters becomes one of the bodies' standard parameters where the other is one.
@@ -66,7 +61,7 @@ def disagreement(subject: Subject, a: Timed, b: Timed) -> float:
     return float(np.nan_to_num(worst, nan=np.inf).max())
 
 
-def _split(numbers: Array, subject: Subject, entries: Sequence[tuple[Library, str]]) -> Iterator[Array]:
+def _split(numbers: Array, subject: Chain, entries: Sequence[tuple[Library, str]]) -> Iterator[Array]:
     begin = 0
     for library, function in entries:
         end = begin + STATES * library.size(function, subject)
@@ -74,9 +69,7 @@ def _split(numbers: Array, subject: Subject, entries: Sequence[tuple[Library, st
         begin = end
 
 
-def _called(
-    subject: Subject, entries: Sequence[tuple[Library, str]], folder: Path, rounds: int
-) -> Sequence[str | Path]:
+def _called(subject: Chain, entries: Sequence[tuple[Library, str]], folder: Path, rounds: int) -> Sequence[str | Path]:
     """The harness' command for functions of libraries; its files go to ``folder``."""
     lines = (
         f"{function}\t{library.size(function, subject)}\t{library.path.resolve()}\t{library.data.resolve()}\n"

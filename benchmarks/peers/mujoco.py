@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.compiling import SHARED, C, Missing, compiled, compilers, package
 from benchmarks.peers.library import SOURCES, Library
-from benchmarks.peers.subject import Array, Link, Subject
+from benchmarks.peers.subject import Array, Chain, Link
 
 NAME = "MuJoCo"
 
@@ -20,7 +20,7 @@ _OFF = (
 )
 
 
-def build(subject: Subject, folder: Path) -> list[Library]:
+def build(subject: Chain, folder: Path) -> list[Library]:
     """The wheel's library behind a few lines of our own."""
     place = package("mujoco", "mujoco")
     library = next(iter(sorted(place.glob("libmujoco.*"))), None)
@@ -33,7 +33,7 @@ def build(subject: Subject, folder: Path) -> list[Library]:
     return [Library(NAME, "as in its wheel", path, data, ("inverse_dynamics", "direct_dynamics"))]
 
 
-def _model(subject: Subject) -> Iterable[str]:
+def _model(subject: Chain) -> Iterable[str]:
     gravity = _words([float(g) for g in subject.robot.gravity])
     yield '<mujoco><compiler angle="radian" autolimits="false"/>'
     off = " ".join(f'{name}="disable"' for name in _OFF)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from benchmarks.compiling import FLAGS, SHARED, C, compiled, compilers
 from benchmarks.peers.library import SOURCES, Library
-from benchmarks.peers.subject import Array, Subject, write
+from benchmarks.peers.subject import Array, Chain, write
 from generator.backends import c
 from generator.symbolic.model import Model
 
@@ -41,7 +41,7 @@ void {function}(const double *q, const double *qd, const double *third, double *
 """
 
 
-def build(subject: Subject, folder: Path) -> list[Library]:
+def build(subject: Chain, folder: Path) -> list[Library]:
     """By each compiler, with each sine; the whole robot too."""
     reduced = libraries(subject.model, subject.parameters(subject.model), folder / "ours")
     whole = libraries(subject.whole, subject.parameters(subject.whole), folder / "ours_whole")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from benchmarks.compiling import CPP, SHARED, Compiler, Missing, compiled, compilers, package
 from benchmarks.peers.library import SOURCES, Library
-from benchmarks.peers.subject import Subject, write
+from benchmarks.peers.subject import Chain, write
 
 NAME = "Pinocchio"
 
@@ -20,7 +20,7 @@ _LIMITS = (
 )
 
 
-def build(subject: Subject, folder: Path) -> list[Library]:
+def build(subject: Chain, folder: Path) -> list[Library]:
     """By each C++ compiler; the library is the same for every robot."""
     data = write(numbers(subject), folder / "pinocchio.bin")
     built = libraries(folder.parent).items()
@@ -48,7 +48,7 @@ def includes() -> list[str]:
     return [*_LIMITS, "-isystem", str(pinocchio), "-isystem", str(eigen)]
 
 
-def numbers(subject: Subject) -> list[float]:
+def numbers(subject: Chain) -> list[float]:
     """The robot as pinocchio_model.hpp reads it."""
     result = [float(g) for g in subject.robot.gravity]
     for link in subject.links:

@@ -13,7 +13,8 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
-from benchmarks.peers.subject import DYNAMIC, Subject
+from benchmarks.peers.subject import Chain
+from tests.bodies import PINOCCHIO
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class Motion:
 class Recursion:
     """Expressions of a robot's dynamics in ``q``, ``qd``, ``qdd`` (or ``tau``) and ``parameters``, the base ones."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Chain) -> None:
         self._subject = subject
         self.q, self.qd, self.qdd, self.tau = (ca.SX.sym(name, subject.dof) for name in ("q", "qd", "qdd", "tau"))
         self.parameters = ca.SX.sym("parameters", len(subject.base))
@@ -135,7 +136,7 @@ class Recursion:
         return ca.vertcat(*(self._given.get(f"Ia{link.number}", ca.SX(0)) for link in self._subject.links))
 
     def _body(self, number: int) -> Body:
-        mass, mx, my, mz, xx, xy, yy, xz, yz, zz = (self._given.get(f"{stem}{number}", ca.SX(0)) for stem in DYNAMIC)
+        mass, mx, my, mz, xx, xy, yy, xz, yz, zz = (self._given.get(f"{stem}{number}", ca.SX(0)) for stem in PINOCCHIO)
         tensor = ca.sparsify(ca.blockcat([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
         return Body(mass, ca.sparsify(ca.vertcat(mx, my, mz)), tensor)
 

@@ -19,13 +19,12 @@ from generator.robot.description import FIXED, ParameterValue, Robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import parameter_vector
+from tests.bodies import PINOCCHIO
 
 #: The functions that are compared, by the names of the generated ones.
 FUNCTIONS = ("inverse_dynamics", "inertia_matrix", "direct_dynamics", "regressor", "gravity")
 #: Those of the robot with all its effects that are timed for scale.
 WHOLE_FUNCTIONS = ("inverse_dynamics", "direct_dynamics")
-#: The order of a body's parameters in Pinocchio.
-DYNAMIC = ("M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ")
 
 #: States, all of which fit into the first cache with their results.
 STATES = 64
@@ -47,7 +46,7 @@ class Link:
     position: Array
 
 
-class Subject:
+class Chain:
     """A serial chain of ``robots/`` reduced to bodies and rotors, its lengths numbers.
 
     ``model`` is that; ``whole`` has friction, offsets and balancers too. ``values`` are standard parameters by name.
@@ -78,7 +77,7 @@ class Subject:
     @property
     def standard(self) -> tuple[str, ...]:
         """Names of the bodies' standard parameters: columns of Pinocchio's regressor."""
-        return tuple(f"{stem}{link.number}" for link in self.links for stem in DYNAMIC)
+        return tuple(f"{stem}{link.number}" for link in self.links for stem in PINOCCHIO)
 
     def parameters(self, model: Model) -> Array:
         """The parameter vector of ``model``, the reduced one or the whole robot's."""
@@ -111,8 +110,8 @@ class Subject:
         return states
 
     def body(self, link: Link) -> list[float]:
-        """The dynamic parameters of a link's body, in the order of ``DYNAMIC``."""
-        return [self.values[f"{stem}{link.number}"] for stem in DYNAMIC]
+        """The dynamic parameters of a link's body, in Pinocchio's order."""
+        return [self.values[f"{stem}{link.number}"] for stem in PINOCCHIO]
 
     def rotor(self, link: Link) -> float:
         """Inertia of a joint's rotor, on the joint side [kg m2]."""

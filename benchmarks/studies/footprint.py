@@ -12,6 +12,7 @@ from generator.backends import c
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.robot.readers import read
+from tests.compiled import write
 
 TITLE = "Code size and stack use on a Cortex-M7"
 
@@ -24,9 +25,7 @@ PRECISIONS: Mapping[str, tuple[str, ...]] = {"double": (), "float": (f"-D{ROBOT.
 
 def run(build: Path) -> dict[str, object]:
     """A row for each function: bytes of code and of stack, in both precisions; last the totals."""
-    build.mkdir(parents=True, exist_ok=True)
-    for name, text in c.library(derive(read(find_robot(ROBOT)), check=False), ()).items():
-        (build / name).write_text(text if isinstance(text, str) else text.decode())
+    write(build, c.library(derive(read(find_robot(ROBOT)), check=False), ()))
     measured = {precision: _measured(build, precision) for precision in PRECISIONS}
     rows: list[dict[str, object]] = []
     for function in measured["double"]:

@@ -25,6 +25,7 @@ from benchmarks.loops.chunks import (
 from benchmarks.study import VOID, alone
 from benchmarks.variants import variant
 from generator.reference.matter import INERTIAL
+from tests.bodies import PINOCCHIO
 from tests.pinocchio_model import PinocchioArm
 from tests.subject import Subject, subject
 
@@ -39,7 +40,6 @@ _FUNCTIONS = {_DYNAMICS: (f"{ROBOT}_batch_inverse_dynamics",), _MATRIX: ("regres
 _THREADS = (1, 2)
 _ROUNDS = 5
 _SHORT = 2000
-_PINOCCHIO = ("M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ")
 #: FIGAROH's blocks of columns behind the bodies'.
 _FRICTION = ("Fv", "Fc", "Ia", "Off")
 
@@ -167,7 +167,7 @@ def _pinocchio(
         W, tau = np.empty((200, one.arm.dof, 10 * one.arm.dof)), np.empty((200, one.arm.dof))
         matrix, _ = one.found(200)
         torques = one.module.Robot(bodies.parameters).inverse_dynamics(*few)
-        kept = _columns(one, {stem: k for k, stem in enumerate(_PINOCCHIO)})
+        kept = _columns(one, {stem: k for k, stem in enumerate(PINOCCHIO)})
         for each in loops:
             each("regressor", few, W)
             each("inverse_dynamics", few, tau)
@@ -194,7 +194,7 @@ def _figaroh(one: Measured, build: Path) -> tuple[str, float, float, bool]:
     first, n = [x[:_SHORT] for x in one.signals], one.arm.dof
     found = peers.figaroh(PinocchioArm(one.arm.robot, one.arm.values).model, first, build)
     names = {f"{stem}{j + 1}": (10 + k) * n + j for j in range(n) for k, stem in enumerate(_FRICTION)}
-    kept = _columns(one, {stem: k for k, stem in enumerate(_PINOCCHIO)})
+    kept = _columns(one, {stem: k for k, stem in enumerate(PINOCCHIO)})
     kept += [(c, names[head]) for c, head in enumerate(one.arm.heads) if head in names]
     W = one.module.Robot(one.arm.parameters).observation_matrix(*first, layout="columns")
     same = agree(W[:, [c for c, _ in kept]], found["W"][:, [c for _, c in kept]])

@@ -20,7 +20,7 @@ from benchmarks.compiling import Missing
 from benchmarks.peers import casadi_pinocchio, casadi_recursion, mujoco, ours, pinocchio
 from benchmarks.peers.library import Library
 from benchmarks.peers.measuring import Timed, disagreement, measure
-from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Subject
+from benchmarks.peers.subject import FUNCTIONS, WHOLE_FUNCTIONS, Chain
 from benchmarks.study import VOID, alone
 from generator.discovery import modules
 
@@ -46,7 +46,7 @@ def run(build: Path) -> dict[str, object]:
     best: list[Timed] = []
     errors: dict[str, float] = defaultdict(float)
     for robot in ROBOTS:
-        subject = Subject(robot)
+        subject = Chain(robot)
         timed = _measured(subject, build / robot, absent)
         for title, group in _groups(timed):
             found = [_error(subject, group[0], one) for one in group]
@@ -58,7 +58,7 @@ def run(build: Path) -> dict[str, object]:
     return {"rows": rows, "notes": list(_notes(best, errors, absent))}
 
 
-def _measured(subject: Subject, folder: Path, absent: dict[str, str]) -> list[Timed]:
+def _measured(subject: Chain, folder: Path, absent: dict[str, str]) -> list[Timed]:
     """Every peer's libraries, ours first; ``absent`` takes up what is missing."""
     folder.mkdir(parents=True, exist_ok=True)
 
@@ -90,7 +90,7 @@ def _groups(timed: Sequence[Timed]) -> Iterable[tuple[str, list[Timed]]]:
             yield title, [one for one in timed if one.function == function and one.library.whole == whole]
 
 
-def _error(subject: Subject, first: Timed, one: Timed) -> float:
+def _error(subject: Chain, first: Timed, one: Timed) -> float:
     """Of the whole robot against the independent implementation, else against the row's first library."""
     if not one.library.whole:
         return disagreement(subject, first, one)

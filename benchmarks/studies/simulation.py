@@ -20,6 +20,7 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.candidates import CANDIDATES
 from benchmarks.closed_loop import ClosedLoop, Vector, closed_loop, control, folder
+from benchmarks.compiling import FLAGS
 from benchmarks.study import alone
 from generator.backends import casadi as casadi_backend
 from generator.backends.printing.runge_kutta import METHODS, Method
@@ -33,7 +34,6 @@ ROBOT, SET = "kr500", "twin_flexible"
 WIDTH = 0.01  # [rad/s]
 PERIODS = (1e-3, 250e-6)
 TARGETS = (1e-6, 1e-9, 1e-12)
-FLAGS = ("-O2", "-march=native", "-ffp-contract=fast")
 _REPEATS = 5
 #: Steps a sample that are tried.
 _STEPS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16)

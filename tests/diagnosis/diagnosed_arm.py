@@ -15,6 +15,7 @@ from generator.robot.readers import read
 from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
+from identification.diagnosis.command import Request, diagnosed
 from identification.diagnosis.diagnosis import Diagnosis, diagnose
 from identification.diagnosis.mending.mended import Mended, mended
 from identification.diagnosis.runs.prepared import Prepared, prepared
@@ -69,19 +70,37 @@ def case(folder: Path, hidden: str) -> Case:
 
 
 def recorded(
-    folder: Path, hidden: Sequence[Hidden], arm: str = ARM, truth: Mapping[str, float] = TRUTH, noise: float = NOISE
+    folder: Path,
+    hidden: Sequence[Hidden],
+    arm: str = ARM,
+    truth: Mapping[str, float] = TRUTH,
+    noise: float = NOISE,
+    *,
+    stays: float = STAYS,
+    draws: int = 1,
+    seconds: float = 40.0,
+    rate: float = 100.0,
+    slowest: float = 0.1,
 ) -> tuple[Regressors, list[str]]:
-    """The arm, and a run file for each torque that its file does not know."""
+    """The arm, and a run file for each torque that its file does not know, of so many ``seconds`` at a ``rate`` [Hz],
+    with sines from the ``slowest`` one [Hz] on; ``draws`` is the seed of the noise.
+    """
     (folder / "arm.yaml").write_text(arm)
     robot = read(folder / "arm.yaml")
-    regressors, draw = Regressors(robot), np.random.default_rng(1)
+    regressors, draw = Regressors(robot), np.random.default_rng(draws)
     sources = []
     for seed, one in enumerate(hidden, 1):
-        t, motion = fourier(robot, 40.0, 100.0, seed)
+        t, motion = fourier(robot, seconds, rate, seed, slowest)
         tau = regressors.torques(truth, motion)[0] + one(motion.q[0], motion.qd[0])
-        tau += lfilter([1], [1, -STAYS], noise * draw.normal(size=len(t)))
+        tau += lfilter([1], [1, -stays], noise * draw.normal(size=len(t)))
         sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
     return regressors, sources
+
+
+def rewritten(source: str, change: Callable[[Array, Array, Array], tuple[Array, Array, Array]]) -> None:
+    """The run file with other times [s], positions [rad] and torques [N m] (N each) of the arm."""
+    t, q, tau = change(*Recorded.read(source).columns.values())
+    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(source))
 
 
 def ready(source: str, regressors: Regressors) -> Prepared:
@@ -96,6 +115,12 @@ def diagnosis_of(sources: Sequence[str], regressors: Regressors, known: str | No
     runs = [ready(source, regressors) for source in sources]
     prior = None if known is None else prior_of(regressors.model, known)
     return diagnose(regressors, runs, Roles(tuple(sources[:-1]), (sources[-1],), (), tuple(sources)), prior)
+
+
+def answered(path: Path, wanted: Request, out: Path) -> tuple[Diagnosis, Mended | None]:
+    """What the command finds of the robot file ``path``, and the mended robot, with files in ``out`` and no page."""
+    found, new, _ = diagnosed(path, read(path), wanted, out, lambda *about: {})
+    return found, new
 
 
 def torque(hidden: str) -> Hidden:

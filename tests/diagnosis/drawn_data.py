@@ -48,3 +48,7 @@ def fixed(name: str, column: Array, bounds: tuple[float | None, float | None] = 
 
 def search(one: Bank) -> list[Choice]:
     return Selection(Weighing(one, TRAIN, VALIDATE, None)).search()
+
+
+def names(found: Sequence[Choice]) -> set[str]:
+    return {one.evidence.variant.hypothesis.effect for one in found}

@@ -14,7 +14,7 @@ from identification.diagnosis.noise import noise_floor
 from identification.diagnosis.verdict.alternatives import OTHER_TORQUE
 from identification.diagnosis.verdict.finding import TENTATIVE
 from identification.observation import Regressors
-from tests.diagnosis.diagnosed_arm import ARM, NOISE, STAYS, TRUTH, diagnosis_of, recorded, torque
+from tests.diagnosis.diagnosed_arm import ARM, NOISE, STAYS, TRUTH, diagnosis_of, recorded, rewritten, torque
 from tests.recorded import Array, Recorded, fourier
 
 
@@ -76,9 +76,7 @@ def test_much_that_counts_as_noise_is_told(tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 2)
     assert noise_floor.notes(diagnosis_of(sources, regressors).search.bank) == []
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        slosh = 25.0 * np.sin(2 * np.pi * 1.337 * t + 1.0)
-        Recorded({"t": t, "q1": q, "tau1": tau + slosh}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, tau + 25.0 * np.sin(2 * np.pi * 1.337 * t + 1.0)))
     (note,) = noise_floor.notes(diagnosis_of(sources, regressors).search.bank)
     assert "of the torques' spread counts as noise" in note
     assert "% on joint 1" in note

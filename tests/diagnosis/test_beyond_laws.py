@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 
 from identification.diagnosis.search.beyond_laws import BeyondLaws
-from tests.diagnosis.drawn_data import Data, fixed
+from tests.diagnosis.drawn_data import Data, fixed, names
 from tests.diagnosis.drawn_data import search as searched
-from tests.diagnosis.test_imperfect_laws import variant
-from tests.diagnosis.test_selection import names
+from tests.diagnosis.laws import variant
 
 
 @pytest.mark.parametrize(("beside", "found"), [(0.0, {"large", "small"}), (2.0, {"large"})])

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from generator.robot.readers import read
@@ -16,25 +15,21 @@ from identification.diagnosis.noise.effort_rounding import _between, effort_roun
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion, Regressors
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, ready, recorded, torque
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, ready, recorded, rewritten, torque
+from tests.elastic_links import KT, N
 from tests.recorded import TRUTH as TWO
-from tests.recorded import Recorded, fourier, stacked, two_links
+from tests.recorded import Array, Recorded, fourier, stacked, two_links
 from tests.recorded import recorded as recorded_links
 
-Array = NDArray[np.float64]
-
 STEP = 5.0
-#: Step of the currents [A] of two motors, their coupling and torque constants.
+#: Step of the currents [A] of two motors.
 CURRENT = 0.02
-N = np.array([[100.0, 0.0], [5.0, -80.0]])
-KT = np.array([0.5, 0.4])
 
 
 def coarse(sources: list[str], step: float) -> None:
     """Rounds the torques of recorded runs."""
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": step * np.round(tau / step)}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, step * np.round(tau / step)))
 
 
 def of_periods(run: Prepared, x: Array) -> Array:
@@ -110,12 +105,14 @@ def test_coarse_torques_lack_nothing_and_are_told(tmp_path: Path) -> None:
 
 
 def test_lost_samples_and_a_beginning_of_its_own_hide_no_steps(tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [torque("")] * 3)
-    for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
+    def lossy(t: Array, q: Array, tau: Array) -> tuple[Array, Array, Array]:
         tau = STEP * np.round((tau + 60.0 * np.exp(-t / 0.3)) / STEP)
         there = np.arange(len(t)) % 700 != 350
-        Recorded({"t": t[there], "q1": q[there], "tau1": tau[there]}).save(Path(source))
+        return t[there], q[there], tau[there]
+
+    regressors, sources = recorded(tmp_path, [torque("")] * 3)
+    for source in sources:
+        rewritten(source, lossy)
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NOTHING
     assert told(found.search.bank) == pytest.approx({0: STEP}, rel=1e-6)

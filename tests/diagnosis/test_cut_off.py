@@ -9,10 +9,9 @@ import pytest
 
 from generator.robot.readers import read
 from identification.dataset import load
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING
-from tests.diagnosis.diagnosed_arm import TRUTH, recorded, torque
-from tests.recorded import Recorded
+from tests.diagnosis.diagnosed_arm import TRUTH, answered, recorded, rewritten, torque
 
 
 @pytest.fixture(scope="module")
@@ -21,8 +20,7 @@ def clipped(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
     folder = tmp_path_factory.mktemp("clipped")
     _, sources = recorded(folder, [torque("")] * 3)
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": np.minimum(tau, np.quantile(tau, 0.93))}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, np.minimum(tau, np.quantile(tau, 0.93))))
     return folder / "arm.yaml", sources
 
 
@@ -41,7 +39,7 @@ def test_cut_off_torques_neither_name_nor_shift_anything(
 ) -> None:
     path, sources = clipped
     fit, validate, test = sources[:1], sources[1:runs][:1], sources[2:runs]
-    found, new, _ = diagnosed(path, read(path), Request(fit, validate, test), tmp_path / "out", lambda *about: {})
+    found, new = answered(path, Request(fit, validate, test), tmp_path / "out")
     assert found.verdict == NOTHING
     assert sum("tau1 is cut off for" in note for note in found.notes) == runs
     assert new is not None

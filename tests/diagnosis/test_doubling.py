@@ -6,11 +6,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, torque
-from tests.recorded import Recorded
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, diagnosis_of, recorded, rewritten, torque
 
 #: What is known, wrong by about what is said of it.
 KNOWN = """\
@@ -41,8 +39,7 @@ parameters:
 def test_a_gain_is_found_beside_what_is_known(error: float, noise: float, tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [torque("")] * 3, ARM + KNOWN, noise=noise)
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": (1 + error) * tau}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, (1 + error) * tau))
     found = diagnosis_of(sources, regressors, "known")
     (gain,) = found.findings
     assert gain.hypothesis.effect == "torque_gain"

@@ -25,7 +25,7 @@ from identification.diagnosis.verdict.alternatives import OTHER_BODY
 from identification.diagnosis.verdict.doubts import beside_drive_trains, beside_warming, doubted
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
 from identification.outcome import Value
-from tests.diagnosis.test_selection import RUNS, Data, fixed, names, search
+from tests.diagnosis.drawn_data import RUNS, Data, fixed, names, search
 from tests.matrices import Array
 
 

@@ -15,8 +15,8 @@ from identification.diagnosis.verdict.drifting import _Means
 from identification.diagnosis.verdict.lack_of_fit import CHANCE
 from identification.diagnosis.verdict.tones import lines
 from identification.observation import Regressors
-from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, torque
-from tests.recorded import Array, Recorded
+from tests.diagnosis.diagnosed_arm import diagnosis_of, recorded, rewritten, torque
+from tests.recorded import Array
 
 Added = Callable[[Array], Array]
 
@@ -29,8 +29,7 @@ def diagnosed(folder: Path, added: Added) -> Diagnosis:
 
 def with_more(regressors: Regressors, sources: list[str], added: Added) -> Diagnosis:
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": tau + added(t)}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, q, tau + added(t)))
     return diagnosis_of(sources, regressors)
 
 

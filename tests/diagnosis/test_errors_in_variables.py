@@ -10,55 +10,23 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from generator.robot.readers import read
 from identification.diagnosis.candidates import elasticity
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
 from identification.diagnosis.columns.normal_equations import directions
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.noise.clear_directions import clear
 from identification.diagnosis.noise.errors_in_variables import Pretence, Redrawn, redrawn
 from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.weighing import Weighing
-from identification.observation import Regressors
 from identification.resolution import steps
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, ready
+from tests.diagnosis.diagnosed_arm import TRUTH, answered, ready
+from tests.diagnosis.sensed_arm import FINE, STEP, noisy, rounded, sensed
 from tests.matrices import WHITE
-from tests.recorded import Recorded, fourier
 
 Array = NDArray[np.float64]
-
-#: One of 4096 steps of a motor behind a gear of 60.
-STEP, FINE = 2 * np.pi / 4096 / 60, 1e-13
-RATE = 500.0
-
-
-def recorded(
-    folder: Path, count: int, noise: float, sensor: Callable[[Array], Array], slowest: float = 0.2
-) -> tuple[Regressors, list[str]]:
-    """Runs of the arm with the torques of its true motion, and positions as a sensor tells them."""
-    path = folder / "arm.yaml"
-    path.write_text(ARM)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(5), []
-    for seed in range(1, count + 1):
-        t, motion = fourier(robot, 20.0, RATE, seed, slowest)
-        tau = regressors.torques(TRUTH, motion)[0] + noise * draw.normal(size=len(t))
-        sources.append(str(Recorded({"t": t, "q1": sensor(motion.q[0]), "tau1": tau}).save(folder / f"{seed}.csv")))
-    return regressors, sources
-
-
-def rounded(step: float) -> Callable[[Array], Array]:
-    """A sensor in steps."""
-    return lambda q: step * np.round(q / step)
-
-
-def noisy(deviation: float) -> Callable[[Array], Array]:
-    """A sensor with white noise."""
-    draw = np.random.default_rng(8)
-    return lambda q: q + deviation * draw.normal(size=q.shape)
 
 
 def test_steps_are_found_where_the_smallest_difference_is_of_several() -> None:
@@ -68,7 +36,7 @@ def test_steps_are_found_where_the_smallest_difference_is_of_several() -> None:
 
 def alone(folder: Path, step: float, count: int = 1) -> Bank:
     """Runs without noise, beside the true model."""
-    regressors, sources = recorded(folder, count, 0.0, rounded(step))
+    regressors, sources = sensed(folder, count, 0.0, rounded(step))
     runs = [ready(source, regressors) for source in sources]
     return Bank(runs, [Scene(run.sampled, regressors, TRUTH) for run in runs])
 
@@ -141,7 +109,7 @@ class Drowned:
 
 def test_what_drowns_a_direction_does_not_swell_the_noise(tmp_path: Path) -> None:
     noise = 0.4
-    regressors, (source,) = recorded(tmp_path, 1, noise, rounded(FINE))
+    regressors, (source,) = sensed(tmp_path, 1, noise, rounded(FINE))
     run = ready(source, regressors)
     bank = Bank([run], [Scene(run.sampled, regressors, TRUTH)])
     ((exact,),) = colours(bank)
@@ -152,7 +120,7 @@ def test_what_drowns_a_direction_does_not_swell_the_noise(tmp_path: Path) -> Non
 
 @pytest.mark.parametrize(("deviation", "told"), [(0.01, True), (1.0, False)])
 def test_what_drowns_a_direction_pretends_no_parameter(deviation: float, told: bool, tmp_path: Path) -> None:
-    regressors, (source,) = recorded(tmp_path, 1, 0.4, rounded(FINE))
+    regressors, (source,) = sensed(tmp_path, 1, 0.4, rounded(FINE))
     run = ready(source, regressors)
     bank = Bank([run], [Scene(run.sampled, regressors, TRUTH)])
     bank.whiten([[WHITE]])
@@ -184,7 +152,7 @@ def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
 def test_an_arm_with_an_ordinary_encoder_is_not_called_elastic(
     sensor: Callable[[Array], Array], noise: float, slowest: float, tmp_path: Path
 ) -> None:
-    _, sources = recorded(tmp_path, 3, noise, sensor, slowest)
+    _, sources = sensed(tmp_path, 3, noise, sensor, slowest)
     path = tmp_path / "arm.yaml"
-    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, Request(sources), tmp_path / "out")
     assert (found.verdict, found.findings) == (NOTHING, ())

@@ -16,7 +16,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.selection import Selection
 from identification.diagnosis.search.weighing import Weighing
 from identification.recipes import Recipe
-from tests.diagnosis.test_selection import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
+from tests.diagnosis.drawn_data import RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 from tests.matrices import WHITE, hypothesis
 from tests.recorded import TRUTH, Array, recorded, two_links
 

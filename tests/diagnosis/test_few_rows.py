@@ -10,7 +10,7 @@ import pytest
 from identification.diagnosis.search.few_rows import small
 from identification.diagnosis.verdict import few_rows
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
-from tests.diagnosis.test_swinging import finding
+from tests.diagnosis.findings import finding
 
 ROBOT: Any = SimpleNamespace(numbers=(1, 2, 3))
 #: Coordinate 1, which is joint 2, has few rows.

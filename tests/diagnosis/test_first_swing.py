@@ -12,7 +12,7 @@ from identification.diagnosis.runs.first_swing import FirstSwings
 from identification.diagnosis.runs.link_side import LinkSide, Train, link_side
 from identification.diagnosis.runs.scene import Scene
 from tests.diagnosis.diagnosed import CLEAN, known
-from tests.diagnosis.test_link_side import COMPLIANCE, NAME, ROTOR
+from tests.diagnosis.soft_arm import COMPLIANCE, NAME, ROTOR
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.run import Run

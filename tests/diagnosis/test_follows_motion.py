@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import lfilter
 
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
+from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
 #: Seconds of a run: too few rows for all maps of the motion. Frequency [Hz] of its slowest sine.
@@ -27,7 +28,7 @@ def diagnosis(folder: Path, drag: float) -> Diagnosis:
         tau += lfilter([1], [1, -0.5], NOISE * draw.normal(size=tau.shape))
         sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
     request = Request(sources[:2], test=sources[2:])
-    return diagnosed(folder / "two_links.yaml", regressors.model.robot, request, folder / "out", lambda *about: {})[0]
+    return answered(folder / "two_links.yaml", request, folder / "out")[0]
 
 
 def test_drag_by_another_joint_is_unexplained_and_told(tmp_path: Path) -> None:

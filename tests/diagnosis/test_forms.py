@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
-from tests.diagnosis.test_selection import COUNT, RUNS, Data, search
+from tests.diagnosis.drawn_data import COUNT, RUNS, Data, search
 from tests.matrices import Array
 
 

@@ -2,37 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from identification.diagnosis.columns.hypothesis import EFFECT, VALUE
+from identification.diagnosis.columns.hypothesis import VALUE
 from identification.diagnosis.search.imperfect_laws import lacking
 from identification.outcome import Value
-
-
-def variant(
-    effect: str,
-    joints: tuple[int, ...],
-    variable: str = "qd",
-    preset: Mapping[str, Value] | None = None,
-    joint: int | None = None,
-    kind: str = EFFECT,
-) -> Any:
-    joint = joints[0] + 1 if joint is None else joint
-    hypothesis = SimpleNamespace(
-        effect=effect,
-        joint=joint,
-        kind=kind,
-        stated=False,
-        variable=variable,
-        preset=preset or {},
-        beyond=(),
-        shapes=(),
-    )
-    return SimpleNamespace(hypothesis=hypothesis, coordinates=joints, coefficients=(), used=(), key=(effect, joint))
+from tests.diagnosis.laws import variant
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.recipes import Recipe
 from identification.sidecar import Payload
+from tests.bodies import STEMS, ten_parameters
 from tests.diagnosis.diagnosed import CLEAN, Known, known
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
@@ -29,10 +30,8 @@ ROBOT = ROBOTS["kr500_like"]
 
 def sidecar() -> Payload:
     """The body of the simulated robot, in its tool's frame."""
-    inertia = MASS * ((RADIUS**2 + CENTRE @ CENTRE) * np.eye(3) - np.outer(CENTRE, CENTRE))
-    names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    values = [*inertia[np.triu_indices(3)], *(MASS * CENTRE), MASS]
-    return Payload("L", dict(zip(names, map(float, values), strict=True)))
+    ten = ten_parameters(MASS, CENTRE, MASS * RADIUS**2 * np.eye(3))
+    return Payload("L", dict(zip(STEMS, ten.tolist(), strict=True)))
 
 
 @pytest.fixture(scope="module")

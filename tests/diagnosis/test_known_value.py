@@ -24,7 +24,7 @@ from identification.observation import Regressors
 from identification.outcome import Value
 from tests.diagnosis.diagnosed_arm import ARM, TRUTH, Hidden, diagnosis_of, recorded, torque
 from tests.recorded import TRUTH as LINKS
-from tests.recorded import TWO_LINKS, Array, Recorded, fourier, parameters_text
+from tests.recorded import TWO_LINKS, Array, as_recorded, fourier, parameters_text
 
 #: What the offset is beyond the known one [N m], which a set tells to a part of the little that it is.
 MORE = -12.0
@@ -91,8 +91,7 @@ def with_rotor(folder: Path, known: float) -> tuple[Regressors, list[str]]:
     for seed in range(1, 4):
         t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
         tau = regressors.torques(LINKS, motion) + draw.normal(size=motion.q.shape)
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
     return regressors, sources
 
 

@@ -28,6 +28,7 @@ from identification.diagnosis.search.weighing import Weighing
 from identification.observation import Regressors
 from identification.recipes import Recipe
 from tests.diagnosis.diagnosed import CLEAN, Found, Known, known, with_robot
+from tests.diagnosis.soft_arm import COMPLIANCE, NAME, ROTOR
 from tests.plant.effect import Effect
 from tests.plant.robots import ROBOTS
 from tests.plant.simulate import make_run
@@ -35,9 +36,7 @@ from tests.plant.trajectories.fourier import fourier
 from tests.recorded import TRUTH as LINKS
 from tests.recorded import TWO_LINKS
 
-NAME, GAP = "scara_like", 4e-4
-COMPLIANCE = Effect("joint_flexibility", 1).amount(ROBOTS["scara_like"])
-ROTOR = ROBOTS[NAME].chain[0].rotor
+GAP = 4e-4
 
 
 @pytest.fixture(scope="module")

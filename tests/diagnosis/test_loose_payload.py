@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from generator.resources import find_robot
-from generator.robot.parameters import INERTIAL_STEMS
 from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.observation import Regressors
-from tests.recorded import Recorded, fourier
+from tests.bodies import ten_parameters
+from tests.diagnosis.diagnosed_arm import answered
+from tests.recorded import as_recorded, fourier
 
 pytestmark = pytest.mark.long
 
@@ -34,19 +35,15 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     given = robot.parameter_sets[SET].values
     true = {name: replace(one, value=one.value * (1 + OFF * draw.normal())) for name, one in given.items()}
     values = resolved(regressors.model, true)
-    inertia = MASS * ((RADIUS**2 + CENTRE @ CENTRE) * np.eye(3) - np.outer(CENTRE, CENTRE))
-    body = dict(zip(INERTIAL_STEMS, [*inertia[np.triu_indices(3)], *(MASS * CENTRE), MASS], strict=True))
+    body = ten_parameters(MASS, CENTRE, MASS * RADIUS**2 * np.eye(3))
     sources = []
     for seed in (1, 2):
         t, motion = fourier(robot, 20.0, 200.0, seed)
         tau = regressors.torques(values, motion)
-        tau = tau + np.stack(
-            [np.array([body[name] for name in INERTIAL_STEMS]) @ one for one in regressors.payload(motion)]
-        )
+        tau = tau + np.stack([body @ one for one in regressors.payload(motion)])
         tau = tau + NOISE * tau.std(axis=1, keepdims=True) * draw.normal(size=tau.shape)
-        signals = {f"{stem}{k + 1}": rows[k] for stem, rows in (("q", motion.q), ("tau", tau)) for k in range(len(tau))}
-        sources.append(str(Recorded({"t": t} | signals).save(folder / f"{seed}.csv")))
-    result, _, _ = diagnosed(path, robot, Request(sources, prior=SET), folder / "out", lambda *about: {})
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
+    result, _ = answered(path, Request(sources, prior=SET), folder / "out")
     return result
 
 

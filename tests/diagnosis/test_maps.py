@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
 
-from generator.robot.readers import read
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
-from identification.observation import Regressors
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH
-from tests.recorded import Array, Recorded, fourier
+from tests.diagnosis.diagnosed_arm import Hidden, answered, recorded
+from tests.recorded import Array
 
 #: Frequency [Hz] of the slowest sine: runs of 40 s never repeat.
 SLOWEST = 0.017
 #: Of the noise [N m].
 NOISE = 0.6
-
-Hidden = Callable[[Array, Array], Array]
 
 
 def bump(q: Array, qd: Array) -> Array:
@@ -44,16 +39,8 @@ def load(q: Array, qd: Array) -> Array:
 
 def diagnosis(folder: Path, hidden: Sequence[Hidden]) -> Diagnosis:
     """Of as many runs, the last of which tests."""
-    path = folder / "arm.yaml"
-    path.write_text(ARM)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(7), []
-    for seed, one in enumerate(hidden, 1):
-        t, motion = fourier(robot, 40.0, 100.0, seed, SLOWEST)
-        tau = regressors.torques(TRUTH, motion)[0] + one(motion.q[0], motion.qd[0])
-        tau += lfilter([1], [1, -0.5], NOISE * draw.normal(size=len(t)))
-        sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
-    return diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})[0]
+    _, sources = recorded(folder, hidden, noise=NOISE, stays=0.5, draws=7, slowest=SLOWEST)
+    return answered(folder / "arm.yaml", Request(sources), folder / "out")[0]
 
 
 @pytest.mark.parametrize("hidden", [bump, pytest.param(spot, marks=pytest.mark.long)])

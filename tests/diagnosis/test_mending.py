@@ -13,7 +13,7 @@ from generator.robot.readers import read
 from generator.symbolic.parameter_sets import resolved_sets
 from identification import recipes
 from identification.dataset import load
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, diagnose
 from identification.diagnosis.mending.mended import Mended, _gain, mended
 from identification.diagnosis.runs.played import Player, play
@@ -21,13 +21,14 @@ from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
 from identification.observation import Regressors
 from tests.diagnosis import diagnosed_arm
+from tests.diagnosis.diagnosed_arm import answered
 from tests.plant.effect import Effect
 from tests.plant.robot_file import robot_file
 from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
-from tests.recorded import TRUTH, Recorded, parameters_text, two_links
+from tests.recorded import TRUTH, as_recorded, parameters_text, two_links
 from tests.recorded import fourier as sines
 
 ARM = ROBOTS["three_axis"]
@@ -92,7 +93,7 @@ def test_the_flexible_set_has_the_stiffness_of_the_prior(prior: str | None, stif
     _, (source,) = diagnosed_arm.recorded(tmp_path, [diagnosed_arm.torque("")])
     path, out = tmp_path / "arm.yaml", tmp_path / "out"
     path.write_text(f"{diagnosed_arm.ARM}flexible: [1]\n{parameters_text(sets)}")
-    diagnosed(path, read(path), Request([source], prior=prior), out, lambda *about: {})
+    answered(path, Request([source], prior=prior), out)
     assert read(out / "arm.yaml").parameter_sets["diagnosed_flexible"].values["k1"].value == stiffness
 
 
@@ -105,10 +106,9 @@ def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp
         q, qd, qdd = way.signals
         q[held], qd[held], qdd[held] = q[held, :1], 0.0, 0.0
         tau = of.torques(TRUTH, way) + 0.6 * np.random.default_rng(seed).normal(size=q.shape)
-        sources.append(str(tmp_path / f"{seed}.csv"))
-        Recorded({"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}).save(Path(sources[-1]))
+        sources.append(str(as_recorded(of, t, q, tau).save(tmp_path / f"{seed}.csv")))
     wanted = Request(sources[:2], (), sources[2:])
-    _, new, _ = diagnosed(tmp_path / "two_links.yaml", of.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    _, new = answered(tmp_path / "two_links.yaml", wanted, tmp_path / "out")
     assert new is not None
     assert any("the runs do not show ZZ1R ZZ2 Ia2" in note for note in new.notes)
     written = Regressors(read(tmp_path / "out" / "two_links.yaml"))

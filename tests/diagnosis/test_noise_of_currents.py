@@ -18,7 +18,7 @@ from tests.plant.effect import Effect
 from tests.plant.measurement import Sensors
 from tests.plant.robots import ROBOTS
 from tests.plant.trajectories.fourier import fourier
-from tests.recorded import TRUTH, TWO_LINKS, Recorded
+from tests.recorded import TRUTH, TWO_LINKS, as_recorded
 from tests.recorded import fourier as fourier_of
 
 LONG = fourier(1, period=10.0, periods=2, before=2.0)
@@ -49,8 +49,7 @@ def test_slow_noise_is_no_saturation(memory: float, seed: int, tmp_path: Path) -
         stays = np.exp(-1 / RATE / memory)
         noise = lfilter([NOISE * np.sqrt(1 - stays**2)], [1, -stays], draw.normal(size=(2, len(t) + 2000)))[:, 2000:]
         tau = regressors.torques(TRUTH, motion) + noise
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(tmp_path / f"{number}.csv")))
     found = diagnosis_of(sources, regressors)
     assert "current_limit" not in [one.hypothesis.effect for one in found.findings]
 

@@ -21,7 +21,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.weighing import Weighing
 from tests.diagnosis.diagnosed import with_robot
 from tests.diagnosis.diagnosed_arm import TRUTH, ready
-from tests.diagnosis.test_errors_in_variables import RATE, STEP, noisy, recorded
+from tests.diagnosis.sensed_arm import RATE, STEP, noisy, sensed
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def banks(
     torques: float = NOISE,
 ) -> tuple[Bank, dict[int, Redrawn]]:
     """Two runs of the arm, beside the true model, whose file may call its drive train elastic, not yet white."""
-    regressors, sources = recorded(folder, 2, torques, sensor, slowest)
+    regressors, sources = sensed(folder, 2, torques, sensor, slowest)
     runs = [ready(source, regressors) for source in sources]
     scenes = [Scene(run.sampled, regressors, TRUTH) for run in runs]
     if stiffness is not None:

@@ -60,13 +60,11 @@ def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:
 def test_the_speed_that_one_run_alone_reaches_is_told_of_both_directions(tmp_path: Path) -> None:
     """It is played half as fast again, and slips there."""
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
-    t, q, _ = np.loadtxt(sources[0], delimiter=",", skiprows=1).T
-    t = t / 1.5
-    motion = fourier(regressors.model.robot, 40.0, 100.0, 1)[1]
+    t, motion = fourier(regressors.model.robot, 40.0, 100.0, 1)
     qd, qdd = 1.5 * motion.qd, 1.5**2 * motion.qdd
-    tau = regressors.torques(TRUTH, Motion(q[None], qd, qdd))[0] + NOISE * np.random.default_rng(5).normal(size=len(t))
+    tau = regressors.torques(TRUTH, Motion(motion.q, qd, qdd))[0] + NOISE * np.random.default_rng(5).normal(size=len(t))
     tau -= 40.0 * np.sign(qd[0]) * np.clip(np.abs(qd[0]) - 0.65, 0.0, None)
-    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(sources[0]))
+    Recorded({"t": t / 1.5, "q1": motion.q[0], "tau1": tau}).save(Path(sources[0]))
     found = diagnosis_of(sources, regressors)
     (note,) = (note for note in found.notes if "agree" in note)
     told = (

@@ -15,7 +15,7 @@ from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.hypothesis import LENGTH
 from identification.diagnosis.columns.lengths import hypotheses
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, diagnose
 from identification.diagnosis.mending.addition import Addition
 from identification.diagnosis.mending.repair import repaired
@@ -24,7 +24,7 @@ from identification.diagnosis.runs.roles import roles
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion, Regressors
 from identification.residuals import rms
-from tests.diagnosis.diagnosed_arm import ready
+from tests.diagnosis.diagnosed_arm import answered, ready
 from tests.plant.effect import Effect
 from tests.plant.machine import Machine
 from tests.plant.robot import Robot
@@ -87,7 +87,7 @@ def test_another_length_is_found_and_written(
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(longer(true, joint, field, by)), encoding="utf-8")
     wanted = Request(sources[:2], [], sources[2:3], prior)
-    found, new, _ = diagnosed(path, read(path), wanted, tmp_path / "out", lambda *about: {})
+    found, new = answered(path, wanted, tmp_path / "out")
     assert new is not None
     assert found.verdict == NAMED
     assert [(one.hypothesis.kind, one.hypothesis.key) for one in found.findings] == [

@@ -16,7 +16,7 @@ from identification.diagnosis.mending.repair import repaired
 from identification.diagnosis.verdict.finding import FIRM
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import diagnosis_of
-from tests.recorded import TRUTH, TWO_LINKS, Array, Recorded, fourier, parameters_text
+from tests.recorded import TRUTH, TWO_LINKS, Array, as_recorded, fourier, parameters_text
 
 #: Torque [N m] of joint 2 over its position and speed.
 Law = Callable[[Array, Array], Array]
@@ -64,8 +64,7 @@ def diagnosed(folder: Path, law: Law, effects: str, known: dict[str, float] | No
         t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
         tau = regressors.torques(TRUTH, motion) + 0.4 * draw.normal(size=motion.q.shape)
         tau[1] += law(motion.q[1], motion.qd[1])
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
     text = stating(effects, known or {})
     path = folder / "two_links.yaml"
     path.write_text(text)

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
 from identification.diagnosis.verdict.overlooked import untested, untold
 from identification.diagnosis.verdict.trial import along
 from identification.diagnosis.verdict.unexplained import unexplained
 from identification.observation import Motion
-from tests.diagnosis.diagnosed_arm import ready
+from tests.diagnosis.diagnosed_arm import answered, ready
 from tests.matrices import bank, run
 from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
@@ -46,7 +46,7 @@ def diagnosis(
         tau += NOISE * draw.normal(size=tau.shape)
         sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{number}.csv")))
     request = Request(sources[:3], test=sources[3:])
-    return diagnosed(folder / "two_links.yaml", regressors.model.robot, request, folder / "out", lambda *about: {})[0]
+    return answered(folder / "two_links.yaml", request, folder / "out")[0]
 
 
 def slowing(t: Array, motion: Motion) -> Motion:

@@ -17,7 +17,7 @@ from identification.diagnosis.noise.passing import Passing, passing
 from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.search.loop import first_values
 from identification.diagnosis.verdict.finding import FIRM
-from tests.diagnosis.diagnosed_arm import TRUTH, diagnosis_of, ready, recorded, torque
+from tests.diagnosis.diagnosed_arm import TRUTH, diagnosis_of, ready, recorded, rewritten, torque
 from tests.recorded import Array, Recorded
 
 #: A torque [N m] over the time [s], the position [rad] and the speed [rad/s].
@@ -38,8 +38,7 @@ def diagnosed(folder: Path, added: Added, hidden: str = "") -> Diagnosis:
 
 
 def with_more(source: str, added: Added) -> None:
-    t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-    Recorded({"t": t, "q1": q, "tau1": tau + added(t, q, np.gradient(q, t))}).save(Path(source))
+    rewritten(source, lambda t, q, tau: (t, q, tau + added(t, q, np.gradient(q, t))))
 
 
 def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -> None:
@@ -78,8 +77,7 @@ def of_two_periods(folder: Path, added: Added) -> tuple[Passing, ...]:
     """What passes by in two runs of two periods, with something on top of the second."""
     regressors, sources = recorded(folder, [torque("")] * 2)
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T[:, :2001]
-        Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(source))
+        Recorded.read(source).rows(0, 2001).save(Path(source))
     with_more(sources[1], added)
     return diagnosis_of(sources, regressors).search.passing
 

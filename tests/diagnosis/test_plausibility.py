@@ -11,13 +11,13 @@ from generator.errors import InputError
 from generator.robot.readers import read
 from identification.dataset import load
 from identification.diagnosis.columns.normal_equations import Prior
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.plausibility import of_one_sign
 from identification.diagnosis.runs.prepared import prepared
 from identification.inverse_model import identify
 from identification.recipes import Recipe
 from identification.suspicion import misread
-from tests.diagnosis.diagnosed_arm import ARM, TRUTH, recorded, torque
+from tests.diagnosis.diagnosed_arm import ARM, TRUTH, answered, recorded, torque
 from tests.recorded import TRUTH as LINKS
 from tests.recorded import Recorded, as_recorded, fourier, two_links
 
@@ -31,10 +31,10 @@ def diagnose(folder: Path, factors: list[float], prior: str | None = None, dry: 
     """Of runs whose torques are multiplied by ``factors``, with a set of the true parameters as ``prior``."""
     _, sources = recorded(folder, [torque("")] * len(factors), ARM + SET)
     for source, factor in zip(sources, factors, strict=True):
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": q, "tau1": factor * tau}).save(Path(source))
+        run = Recorded.read(source)
+        run.with_columns(tau1=factor * run.columns["tau1"]).save(Path(source))
     path = folder / "arm.yaml"
-    diagnosed(path, read(path), Request(sources, prior=prior, dry=dry), folder / "out", lambda *about: {})
+    answered(path, Request(sources, prior=prior, dry=dry), folder / "out")
 
 
 def test_a_run_with_torques_of_another_sign_is_refused(tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_torques_of_one_joint_that_have_the_other_sign_are_refused(tmp_path: Pat
         sources.append(str(as_recorded(regressors, t, motion.q, turned).save(tmp_path / f"{seed}.csv")))
     message = "1.csv:1:1: all friction and inertia that the torques of joint 2 show alone is negative"
     with pytest.raises(InputError, match=message):
-        diagnosed(tmp_path / "two_links.yaml", robot, Request(sources), tmp_path / "out", lambda *about: {})
+        answered(tmp_path / "two_links.yaml", Request(sources), tmp_path / "out")
     with pytest.raises(InputError, match=message):
         identify(robot, [Path(one) for one in sources])
 

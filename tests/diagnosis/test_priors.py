@@ -12,12 +12,12 @@ from generator.errors import InputError
 from generator.robot.readers import read
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.columns.priors import notes_of, prior_of
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NOTHING
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.observation import Motion, Regressors
 from tests.diagnosis import diagnosed_arm
-from tests.diagnosis.diagnosed_arm import TRUTH, torque
+from tests.diagnosis.diagnosed_arm import TRUTH, answered, torque
 from tests.newton_euler import Arm
 from tests.recorded import TWO_LINKS, UNITS, parameters_text, recorded
 
@@ -106,7 +106,7 @@ def test_nothing_is_named_in_the_place_of_rotors_and_friction_that_a_set_leaves_
     truth = {base: sum(c * whole.get(one, 0.0) for one, c in terms.items()) for base, terms in sums.items()}
     runs = [str(recorded(of, truth, 40.0, 100.0, k, 0.02).save(tmp_path / f"{k}.csv")) for k in (1, 2, 3)]
     wanted = Request(runs[:1], runs[1:2], runs[2:], "cad")
-    found, _, _ = diagnosed(path, of.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, wanted, tmp_path / "out")
     assert (found.verdict, found.findings) == (NOTHING, ())
     assert "the set cad does not tell Ia1 in ZZ1R: taken as unknown" in found.notes
 
@@ -228,7 +228,7 @@ def test_the_prior_tells_what_no_base_parameter_holds_before_other_sets(
     path = tmp_path / "arm.yaml"
     path.write_text(text)
     wanted = Request([source], prior=prior, dry=True)
-    found, _, _ = diagnosed(path, read(path), wanted, tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, wanted, tmp_path / "out")
     assert {one.stiffness for scene in found.search.bank.scenes for one in stated(scene.robot)} == {stiffness}
 
 

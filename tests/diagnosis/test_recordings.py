@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from generator.resources import find_robot
-from generator.robot.readers import read
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, Diagnosis
 from identification.diagnosis.mending.mended import Mended
 from identification.diagnosis.runs.played import together
 from tests.at_hand import RECORDINGS
 from tests.commands import ROOT
-from tests.test_real_runs import TEST, TRAIN, A, B, data
+from tests.diagnosis.diagnosed_arm import answered
+from tests.real_recordings import TEST, TRAIN, A, B, data
 
 pytestmark = RECORDINGS.needed
 
@@ -33,7 +33,7 @@ def without(robot: str, folder: Path, *effects: str) -> Path:
 
 
 def diagnosis(path: Path, wanted: Request) -> tuple[Diagnosis, Mended | None]:
-    found, new, _ = diagnosed(path, read(path), wanted, path.parent / "out", lambda *about: {})
+    found, new = answered(path, wanted, path.parent / "out")
     return found, new
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy import signal
 
 from generator.backends.review import groupings
@@ -31,9 +30,8 @@ from identification.robot_file import with_parameter_set
 from identification.robot_text import robot_of
 from identification.sampling import Sampled, sampled
 from identification.sidecar import UNITS, Payload
-from tests.recorded import TRUTH, Recorded, fourier, recorded, two_links
-
-Array = NDArray[np.float64]
+from tests.bodies import STEMS
+from tests.recorded import TRUTH, as_recorded, fourier, recorded, two_links
 
 RATE, SECONDS, DELAY = 250.0, 20.0, 2.4e-3
 #: Hidden in the runs: friction with a state on the first joint, a delay, a payload-free robot otherwise.
@@ -86,11 +84,7 @@ class Case:
         tau = self.regressors.torques(self.truth, Motion(made.q, made.qd, made.qdd, z[None, :-1:20]))
         tau += 1e-3 * np.ptp(tau, axis=1)[:, None] * np.random.default_rng(seed).normal(size=tau.shape)
         late = np.stack([np.interp(t - DELAY, t, row) for row in tau])
-        path = self.folder / f"run{seed}.csv"
-        n = len(made.q)
-        header = ",".join(["t", *(f"q{k + 1}" for k in range(n)), *(f"tau{k + 1}" for k in range(n))])
-        np.savetxt(path, np.column_stack([t, made.q.T, late.T]), delimiter=",", header=header, comments="")
-        return path
+        return as_recorded(self.regressors, t, made.q, late).save(self.folder / f"run{seed}.csv")
 
     def run(self, k: int, robot: Robot) -> Run:
         return load(str(self.runs[k]), robot)
@@ -224,8 +218,7 @@ def test_standard_deviations_are_those_of_the_noise_s_colour(time: float, known:
         t, way = fourier(of.model.robot, 60.0, rate, seed)
         drawn = np.random.default_rng(seed).normal(scale=0.7 * np.sqrt(1 - stays**2), size=(2, len(t) + 1000))
         tau = of.torques(TRUTH, way) + signal.lfilter([1], [1, -stays], drawn)[:, 1000:]
-        columns = {"t": t, "q1": way.q[0], "q2": way.q[1], "tau1": tau[0], "tau2": tau[1]}
-        run = load(str(Recorded(columns).save(tmp_path / f"{seed}.csv")), of.model.robot)
+        run = load(str(as_recorded(of, t, way.q, tau).save(tmp_path / f"{seed}.csv")), of.model.robot)
         fit = refit([prepared(run, recipes.recipe_of("two_links"), of).sampled], of, vague)
         away += [(fit.values[name] - TRUTH[name]) / fit.std[name] for name in of.names]
     assert 0.6 < np.sqrt(np.mean(np.square(away))) < 1.4
@@ -256,8 +249,7 @@ def test_a_payload_is_one_of_base_parameters(name: str) -> None:
     assert std.max() > 0.1
     along = motion(regressors.model.robot, 5).part(0, 50)
     ten = {"XX": 0.05, "XZ": -0.02, "YY": 0.04, "ZZ": 0.04, "M": 3.0, "MX": 0.2, "MY": -0.1, "MZ": 0.5}
-    order = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    body = np.array([ten.get(stem, 0.0) for stem in order])
+    body = np.array([ten.get(stem, 0.0) for stem in STEMS])
     expected = np.stack([body @ columns for columns in regressors.payload(along)])
     found = regressors.torques(dict(zip(regressors.names, prior.mean.tolist(), strict=True)), along)
     np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())

@@ -6,13 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
 
-from generator.robot.readers import read
 from identification.diagnosis.diagnosis import NOTHING, UNEXPLAINED, Diagnosis
-from identification.observation import Regressors
-from tests.diagnosis.diagnosed_arm import NOISE, STAYS, Hidden, diagnosis_of
-from tests.recorded import Array, Recorded, fourier
+from tests.diagnosis.diagnosed_arm import Hidden, diagnosis_of, recorded
+from tests.recorded import Array
 
 #: A slide that knows no drive.
 SLIDE = """\
@@ -31,15 +28,7 @@ SECONDS, SLOWEST, LENGTH = 20.0, 0.045, 0.0113
 
 
 def diagnosis(folder: Path, hidden: Hidden) -> Diagnosis:
-    path = folder / "slide.yaml"
-    path.write_text(SLIDE)
-    robot = read(path)
-    regressors, draw, sources = Regressors(robot), np.random.default_rng(1), []
-    for seed in (1, 2, 3):
-        t, motion = fourier(robot, SECONDS, 250.0, seed, SLOWEST)
-        tau = regressors.torques(TRUTH, motion)[0] + hidden(motion.q[0], motion.qd[0])
-        tau += lfilter([1], [1, -STAYS], NOISE * draw.normal(size=len(t)))
-        sources.append(str(Recorded({"t": t, "q1": motion.q[0], "tau1": tau}).save(folder / f"{seed}.csv")))
+    regressors, sources = recorded(folder, [hidden] * 3, SLIDE, TRUTH, seconds=SECONDS, rate=250.0, slowest=SLOWEST)
     return diagnosis_of(sources, regressors)
 
 

@@ -11,7 +11,7 @@ from generator.robot.readers import read
 from identification import recipes
 from identification.dataset import load
 from identification.diagnosis.columns.priors import prior_of
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis, diagnose
 from identification.diagnosis.mending.mended import Mended
 from identification.diagnosis.mending.untouched import untouched
@@ -19,6 +19,7 @@ from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.roles import roles
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed import Known
+from tests.diagnosis.diagnosed_arm import answered
 from tests.plant.effect import Effect
 from tests.plant.robot_file import PRIOR, robot_file
 from tests.plant.robots import ROBOTS
@@ -41,7 +42,7 @@ def there_and_back(name: str, hidden: Effect, prior: str | None, folder: Path) -
     path = folder / "arm.yaml"
     path.write_text(robot_file(ROBOTS[name]), encoding="utf-8")
     wanted = Request(sources[:1], sources[1:2], sources[2:3], prior)
-    found, new, _ = diagnosed(path, read(path), wanted, folder / "out", lambda *about: {})
+    found, new = answered(path, wanted, folder / "out")
     assert new is not None
     assert (folder / "out" / new.generated / "c" / f"{name}.c").is_file()
 

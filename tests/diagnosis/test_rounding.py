@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from generator.errors import Place
 from generator.resources import find_robot
@@ -29,8 +28,6 @@ from tests.plant.robots import ROBOTS
 from tests.plant.run import write_csv
 from tests.plant.simulate import make_run
 from tests.plant.trajectories.fourier import fourier
-
-Array = NDArray[np.float64]
 
 ARM, STEP = "three_axis", 1e-4
 

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from generator.robot.readers import read
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.mending.mended import Mended
 from identification.observation import Regressors
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.diagnosis.diagnosed_arm import answered
+from tests.recorded import TRUTH, TWO_LINKS, as_recorded, fourier
 
 #: Stiffness of a spring that the file does not know [N m/rad], step of the encoders [rad], noise in parts of a torque.
 SPRING, STEP, NOISE = 20.0, 2e-5, 0.01
@@ -41,9 +42,8 @@ def diagnosis(
         tau[0] += spring * motion.q[0]
         tau += NOISE * np.sqrt(np.mean(tau**2, axis=1, keepdims=True)) * draw.normal(size=tau.shape)
         q = STEP * np.round(motion.q / STEP)
-        columns = {"t": t, "q1": q[0], "q2": q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{number}.csv")))
-    found, new, _ = diagnosed(path, robot, Request(sources), folder / "out", lambda *about: {})
+        sources.append(str(as_recorded(regressors, t, q, tau).save(folder / f"{number}.csv")))
+    found, new = answered(path, Request(sources), folder / "out")
     assert new is not None
     return found, new
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
@@ -15,17 +15,13 @@ from numpy.typing import NDArray
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import likely_orders
 from identification.diagnosis.search.invisible import invisible
-from identification.diagnosis.search.selection import Choice, Selection
+from identification.diagnosis.search.selection import Selection
 from identification.diagnosis.search.weighing import Weighing
 from identification.diagnosis.search.whole_orders import UNSURE
-from tests.diagnosis.drawn_data import COUNT, RUNS, TRAIN, VALIDATE, Data, fixed, search
+from tests.diagnosis.drawn_data import COUNT, RUNS, TRAIN, VALIDATE, Data, fixed, names, search
 from tests.matrices import hypothesis, several
 
 Array = NDArray[np.float64]
-
-
-def names(found: Sequence[Choice]) -> set[str]:
-    return {one.evidence.variant.hypothesis.effect for one in found}
 
 
 def crowd(data: Data, count: int = 30) -> list[Hypothesis]:

@@ -15,7 +15,7 @@ from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion, Regressors
 from identification.outcome import Value
 from tests.diagnosis.diagnosed_arm import diagnosis_of, ready
-from tests.recorded import Array, Recorded
+from tests.recorded import Array, Recorded, as_recorded
 
 #: Two links in a horizontal plane.
 PLANAR = """\
@@ -68,8 +68,7 @@ def test_a_rotor_that_stands_while_its_joints_move(seed: int, tmp_path: Path) ->
         t, motion = _of_time(draw)
         shared = FRICTION * _dry(motion.q.sum(axis=0)) + VISCOUS * motion.qd.sum(axis=0)
         tau = regressors.torques(TRUTH, motion) + shared + NOISE * draw.normal(size=motion.q.shape)
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(tmp_path / f"{number}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(tmp_path / f"{number}.csv")))
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings

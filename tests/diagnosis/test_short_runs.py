@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
+from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import TRUTH, as_recorded, fourier, two_links
 
 #: Frequency [Hz] of the slowest sine, and the noise [N m].
@@ -24,9 +25,7 @@ def found(folder: Path, seconds: float, delay: float) -> Finding:
         tau[1] = np.interp(t - delay, t, tau[1])
         tau += NOISE * draw.normal(size=tau.shape)
         sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
-    (one,) = diagnosed(
-        folder / "two_links.yaml", regressors.model.robot, Request(sources), folder / "out", lambda *about: {}
-    )[0].findings
+    (one,) = answered(folder / "two_links.yaml", Request(sources), folder / "out")[0].findings
     return one
 
 

@@ -11,12 +11,12 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import lfilter
 
-from generator.robot.readers import read
 from identification.diagnosis.candidates import backlash, base_tilt, elasticity
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.verdict.finding import FIRM
 from identification.observation import Motion
+from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import SLIDE, Array, Recorded
 
 MASS, VISCOUS, DRY, OFFSET = 95.0, 200.0, 20.0, -3.0
@@ -67,7 +67,7 @@ def diagnosis(folder: Path, dry: Dry, late: float, of: Callable[[int], tuple[Arr
         tau = np.interp(t - late, t, force) + lfilter([1], [1, -0.6], 0.8 * draw.normal(size=len(t)))
         q = np.round(motion.q[0] / 1e-7) * 1e-7
         sources.append(str(Recorded({"t": t, "q1": q, "tau1": tau}).save(folder / f"{seed}.csv")))
-    return diagnosed(path, read(path), Request(sources), folder / "out", lambda *about: {})[0]
+    return answered(path, Request(sources), folder / "out")[0]
 
 
 @pytest.mark.long

@@ -11,14 +11,14 @@ import pytest
 from generator.robot.readers import read
 from identification.diagnosis.columns.hypothesis import LOAD
 from identification.diagnosis.columns.payload_body import STATED_MASS, beyond, corrected
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from identification.sidecar import UNITS, Payload
-from tests.diagnosis.diagnosed_arm import diagnosis_of
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.diagnosis.diagnosed_arm import answered, diagnosis_of
+from tests.recorded import TRUTH, TWO_LINKS, as_recorded, fourier
 from tests.recorded import UNITS as OF_LINKS
 
 #: Mass that the arm carries at the tool frame's origin [kg], what sidecars state of it, the length of the first link
@@ -49,8 +49,7 @@ def recorded(
         t, motion = fourier(regressors.model.robot, 20.0, 200.0, seed)
         true = regressors.torques(carrying(mass), motion) + draw.normal(size=motion.q.shape)
         tau = N.T @ np.diag(gains) @ np.linalg.solve(N.T, true)
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(folder / f"{seed}.csv")))
         values = ["payload: none"] if not stated else ["payload:", f"  M: {stated} kg"]
         values += [f"  {stem}: 0 {unit}" for stem, unit in UNITS.items() if stated and stem != "M"]
         (folder / f"{seed}.yaml").write_text("\n".join(["robot: two_links", *values]) + "\n")
@@ -58,10 +57,10 @@ def recorded(
 
 
 def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [(MASS, STATED)] * 4)
+    _, sources = recorded(tmp_path, [(MASS, STATED)] * 4)
     path = tmp_path / "two_links.yaml"
     wanted = Request(sources[:3], test=sources[3:], prior="known")
-    found, new, _ = diagnosed(path, regressors.model.robot, wanted, tmp_path / "out", lambda *about: {})
+    found, new = answered(path, wanted, tmp_path / "out")
     (one,) = found.findings
     assert (one.hypothesis.effect, one.hypothesis.kind, one.status) == ("stated_payload", LOAD, FIRM)
     mass = one.parameters["M_beyond"]

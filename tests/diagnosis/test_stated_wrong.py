@@ -16,7 +16,7 @@ from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.drive_train import coupling
 from identification.observation import Regressors
 from tests.diagnosis.diagnosed_arm import diagnosis_of
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier, parameters_text
+from tests.recorded import TRUTH, TWO_LINKS, as_recorded, fourier, parameters_text
 
 #: The true position of joint 1 beyond the recorded one [rad]; of motor 2 true torque over the recorded one when it is
 #: cold, how much more it is when it is warm, and by what time that is [s].
@@ -35,8 +35,8 @@ def recorded(folder: Path) -> list[str]:
         motor = np.linalg.solve(N.T, regressors.torques(TRUTH, motion) + draw.normal(size=motion.q.shape))
         motor[1] /= GAIN * (1 + DRIFT * (1 - np.exp(-t / TIME)))
         tau = N.T @ motor
-        columns = {"t": t, "q1": motion.q[0] - OFFSET, "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(folder / f"{seed}.csv")))
+        logged = motion.q - np.array([[OFFSET], [0.0]])
+        sources.append(str(as_recorded(regressors, t, logged, tau).save(folder / f"{seed}.csv")))
     return sources
 
 

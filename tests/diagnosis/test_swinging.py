@@ -6,34 +6,15 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, ELASTIC, SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, ELASTIC, SIGNAL
 from identification.diagnosis.verdict.alternatives import OTHER_GEOMETRY, OTHER_TORQUE
 from identification.diagnosis.verdict.doubts import doubted, swinging
-from identification.diagnosis.verdict.finding import FIRM, TENTATIVE, Finding
+from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.diagnosis.verdict.unexplained import _loose
-from identification.outcome import Value
-
-
-def finding(effect: str, kind: str, std: float) -> Finding:
-    """On joint 2, whose torque reaches joint 1."""
-    hypothesis = Hypothesis(
-        effect, effect, 2, (Coefficient("c", "rad"),), lambda scene, shape: np.zeros((1, 2, 1)), kind=kind
-    )
-    evidence: Any = SimpleNamespace(score=100.0, size=5.0)
-    return Finding(
-        hypothesis=hypothesis,
-        joints=(2,),
-        shape={},
-        parameters={"c": Value(1e-3, std, "rad")},
-        evidence=evidence,
-        alternatives=(),
-        amplitude={1: 0.2, 2: 3.0},
-        shape_std={},
-    )
+from tests.diagnosis.findings import finding
 
 
 @pytest.mark.parametrize(

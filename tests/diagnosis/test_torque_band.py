@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from generator.robot.readers import read
 from identification import filtering
 from identification.diagnosis.candidates import backlash, elasticity
-from identification.diagnosis.command import Request, diagnosed
+from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING
 from identification.diagnosis.noise import torque_band
 from identification.diagnosis.noise.torque_band import end, notes
 from identification.diagnosis.runs.scene import Scene
 from tests.diagnosis.diagnosed import CLEAN, Known, known
+from tests.diagnosis.diagnosed_arm import answered
 from tests.plant.effect import Effect
 from tests.plant.robot import Array
 from tests.plant.robot_file import robot_file
@@ -168,7 +168,7 @@ def test_a_filter_is_not_taken_for_an_elastic_drive_train(tmp_path: Path) -> Non
         write_csv(run, Path(source))
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(ROBOTS[ARM]), encoding="utf-8")
-    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, Request(sources), tmp_path / "out")
     assert not {"joint_elasticity", "backlash"} & {one.hypothesis.effect for one in found.findings}
     assert any("elasticity and backlash of drive trains are not looked for" in note for note in found.notes)
 
@@ -191,6 +191,6 @@ def test_coarse_encoders_hide_no_elastic_drive_train(
         write_csv(replace(run, qm=STEP * np.round(run.qm / STEP)), Path(source))
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(ROBOTS[ARM]), encoding="utf-8")
-    found, _, _ = diagnosed(path, read(path), Request(sources), tmp_path / "out", lambda *about: {})
+    found, _ = answered(path, Request(sources), tmp_path / "out")
     assert [one.hypothesis.key for one in found.findings] == effects
     assert found.verdict == (NAMED if effects else NOTHING)

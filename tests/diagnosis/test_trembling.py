@@ -9,8 +9,7 @@ import pytest
 
 from identification.diagnosis.diagnosis import UNEXPLAINED
 from identification.diagnosis.verdict import trembling
-from tests.diagnosis.diagnosed_arm import Array, diagnosis_of, recorded
-from tests.recorded import Recorded
+from tests.diagnosis.diagnosed_arm import Array, diagnosis_of, recorded, rewritten
 
 
 def bump(q: Array, qd: Array) -> Array:
@@ -22,8 +21,7 @@ def bump(q: Array, qd: Array) -> Array:
 def test_coarse_steps_are_told_of_joints_that_keep_no_more_than_they_may_make(step: float, tmp_path: Path) -> None:
     regressors, sources = recorded(tmp_path, [bump] * 3)
     for source in sources:
-        t, q, tau = np.loadtxt(source, delimiter=",", skiprows=1).T
-        Recorded({"t": t, "q1": step * np.round(q / step) if step else q, "tau1": tau}).save(Path(source))
+        rewritten(source, lambda t, q, tau: (t, step * np.round(q / step) if step else q, tau))
     found = diagnosis_of(sources, regressors)
     assert found.verdict == UNEXPLAINED
     told = [note for note in found.notes if note.startswith("positions come in steps")]

@@ -18,8 +18,8 @@ from identification.diagnosis.mending.untouched import Untouched, hardly_shown, 
 from identification.diagnosis.runs.played import Played, aligned
 from identification.diagnosis.runs.roles import Roles
 from identification.residuals import Residual
-from tests.diagnosis.diagnosed_arm import NOISE, STAYS, ready, recorded, torque
-from tests.recorded import Recorded
+from tests.diagnosis.diagnosed_arm import NOISE, STAYS, ready, recorded, rewritten, torque
+from tests.recorded import Array
 
 RUNS = "untouched runs"
 
@@ -61,10 +61,12 @@ def test_joints_on_which_runs_are_noisier_are_told_so() -> None:
 def test_noise_of_a_run_is_told_from_what_its_model_lacks(loud: float, load: float, told: str, tmp_path: Path) -> None:
     """A last run with noise ``loud`` times that of the others, or with a weight of ``load`` N on an arm of a metre."""
     regressors, sources = recorded(tmp_path, [torque("")] * 3)
-    t, q, tau = np.loadtxt(sources[2], delimiter=",", skiprows=1).T
-    more = NOISE * np.sqrt(loud**2 - 1) * np.random.default_rng(7).normal(size=len(t))
-    tau += lfilter([1], [1, -STAYS], more) + load * np.cos(q)
-    Recorded({"t": t, "q1": q, "tau1": tau}).save(Path(sources[2]))
+
+    def worse(t: Array, q: Array, tau: Array) -> tuple[Array, Array, Array]:
+        more = NOISE * np.sqrt(loud**2 - 1) * np.random.default_rng(7).normal(size=len(t))
+        return t, q, tau + (lfilter([1], [1, -STAYS], more) + load * np.cos(q))
+
+    rewritten(sources[2], worse)
     *runs, test = (ready(one, regressors) for one in sources)
     roles = Roles((sources[0],), (sources[1],), (sources[2],), tuple(sources[:2]))
     found = diagnose(regressors, runs, roles, test=[test])

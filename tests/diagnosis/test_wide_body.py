@@ -9,8 +9,9 @@ import pytest
 
 from generator.robot.readers import read
 from identification.observation import Regressors
+from tests.bodies import ten_parameters
 from tests.diagnosis.diagnosed_arm import diagnosis_of
-from tests.recorded import Recorded, fourier
+from tests.recorded import as_recorded, fourier
 
 #: Two axes that cross, the first one level: of a welding positioner.
 POSITIONER = """\
@@ -47,14 +48,12 @@ def test_it_is_told_by_how_its_mass_is_spread(tmp_path: Path) -> None:
     (path := tmp_path / "true.yaml").write_text(POSITIONER)
     regressors, draw, sources = Regressors(read(path)), np.random.default_rng(3), []
     assert TRUTH.keys() == set(regressors.names)
-    inertia = MASS * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE)) + 0.1 * np.eye(3)
-    body = np.array([*inertia[np.triu_indices(3)], *MASS * CENTRE, MASS])
+    body = ten_parameters(MASS, CENTRE, 0.1 * np.eye(3))
     for seed in range(1, 4):
         t, motion = fourier(regressors.model.robot, 15.0, 200.0, seed)
         tau = regressors.torques(TRUTH, motion) + np.stack([body @ rows for rows in regressors.payload(motion)])
         tau += np.array([[1.0], [0.5]]) * draw.normal(size=tau.shape)
-        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
-        sources.append(str(Recorded(columns).save(tmp_path / f"{seed}.csv")))
+        sources.append(str(as_recorded(regressors, t, motion.q, tau).save(tmp_path / f"{seed}.csv")))
     known = {name: value * (1 + STD / 100 * draw.normal()) for name, value in TRUTH.items()}
     values = [f"\n      {name}: {{value: {x:g}, unit: {unit(name)}, relative_std: {STD}}}" for name, x in known.items()]
     path.write_text(f"{POSITIONER}parameters:\n  known:\n    values:{''.join(values)}\n")

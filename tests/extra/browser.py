@@ -16,7 +16,7 @@ from tests.extra.tools import tool
 
 #: Screenshots are taken at this scale: enough to see that something is drawn, and four times quicker to decode.
 _SCALE = 0.5
-_COMMANDS = ("chromium", "chromium-browser", "google-chrome")
+COMMANDS = ("chromium", "chromium-browser", "google-chrome")
 #: The browser's own services are kept quiet and offline: no name resolves.
 _FLAGS = (
     "--headless",
@@ -63,7 +63,7 @@ def document(page: Path, folder: Path, width: int, height: int) -> str:
 
 def _run(page: Path, folder: Path, width: int, height: int, *flags: str) -> subprocess.CompletedProcess[str]:
     command = [
-        tool(*_COMMANDS),
+        tool(*COMMANDS),
         *_FLAGS,
         f"--user-data-dir={folder / 'profile'}",
         f"--window-size={width},{height}",

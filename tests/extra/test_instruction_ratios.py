@@ -13,7 +13,7 @@ import pytest
 from benchmarks.peers import casadi_recursion, ours
 from benchmarks.peers.library import Library
 from benchmarks.peers.measuring import disagreement, instructions, measure
-from benchmarks.peers.subject import FUNCTIONS, Subject
+from benchmarks.peers.subject import FUNCTIONS, Chain
 from tests.extra.tools import tool
 
 #: A processor with fused multiply-add that valgrind knows.
@@ -39,18 +39,18 @@ AT_LEAST = {
 
 
 @pytest.fixture(scope="module", params=["kr500", "kr270"])
-def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Subject, Path]:
+def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Chain, Path]:
     """A robot, and the folder that its libraries are in."""
-    return Subject(request.param), tmp_path_factory.mktemp("ratios") / request.param
+    return Chain(request.param), tmp_path_factory.mktemp("ratios") / request.param
 
 
-def libraries(subject: Subject, folder: Path) -> Sequence[Library]:
+def libraries(subject: Chain, folder: Path) -> Sequence[Library]:
     """Ours, then CasADi's, as gcc makes them."""
     own = ours.libraries(subject.model, subject.parameters(subject.model), folder / "ours", FLAGS)
     return [one for one in (*own, *casadi_recursion.build(subject, folder, FLAGS)) if one.built == "gcc"]
 
 
-def test_instructions_of_casadi_over_ours(compared: tuple[Subject, Path]) -> None:
+def test_instructions_of_casadi_over_ours(compared: tuple[Chain, Path]) -> None:
     tool("valgrind")
     subject, folder = compared
     *own, other = libraries(subject, folder)

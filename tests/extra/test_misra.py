@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,10 +11,9 @@ from generator.backends import c, simulation
 from generator.derivation import derive
 from generator.resources import find_robot
 from generator.robot.readers import read
-from tests.compiled import run, write
+from tests.compiled import write
+from tests.misra import checked, documented_rules
 
-ROOT = Path(__file__).resolve().parents[2]
-OPTIONS = ["--addon=misra", "--enable=all", "--std=c99", "--suppress=missingIncludeSystem", "--quiet"]
 #: Documented in prose, see docs/misra.md: names that share their first 31 characters.
 LONG_NAMES = "5.1"
 
@@ -35,19 +31,10 @@ def library(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 @pytest.mark.parametrize("ending", [".c", "_simulation.c"])
 def test_no_rule_beyond_the_documented_ones(ending: str, library: tuple[str, Path]) -> None:
     name, folder = library
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
-    report = run(
-        [
-            shutil.which("cppcheck", path=path) or "cppcheck",
-            *OPTIONS,
-            f"-U{name.upper()}_USE_FLOAT",
-            f"-D{name.upper()}_LANES=1",
-            folder / f"{name}{ending}",
-        ]
-    )
+    report = checked(folder / f"{name}{ending}", f"-U{name.upper()}_USE_FLOAT", f"-D{name.upper()}_LANES=1")
     found = set(re.findall(r"\[misra-c2012-([\d.]+)\]$", report, re.MULTILINE))
     others = set(re.findall(r"\[([A-Za-z]\w+)\]$", report, re.MULTILINE)) - REMARKS
-    documented = set(re.findall(r"^\| (\d+\.\d+) \|", (ROOT / "docs/misra.md").read_text(), re.MULTILINE))
+    documented = documented_rules()
     assert found
     assert found <= documented | {LONG_NAMES}
     assert not others
