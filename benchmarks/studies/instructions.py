@@ -25,6 +25,11 @@ class Limit:
     flexible: bool
     most: int
 
+    @property
+    def of(self) -> str:
+        """What the robot has, in words."""
+        return ", ".join(self.effects or ("all",)) + (", elastic axes" if self.flexible else "")
+
     def robot(self, name: str) -> Robot:
         return variant(name, self.effects, self.flexible)
 
@@ -49,7 +54,7 @@ def run(build: Path) -> dict[str, object]:
         rows.append(
             {
                 "function": limit.function,
-                "effects": ", ".join(limit.effects or ("all",)) + (", elastic axes" if limit.flexible else ""),
+                "effects": limit.of,
                 "limit": limit.most,
                 "own sine": own,
                 "libm": libm,

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import json
 import platform
 from pathlib import Path
 
 import pytest
 
+from benchmarks.documents import RESULTS
 from benchmarks.instructions import FLAGS, instructions
 from benchmarks.studies.instructions import LIMITS, ROTORS, Limit
 from benchmarks.variants import variant
 from tests.compiled import run
 from tests.extra.tools import tool
 
-#: Over the limits, which another release of the compiler may use up.
+#: Over the limits, and over what was counted last, which another release of the compiler may use up.
 _SLACK = 1.03
+#: Instructions of KR500's functions as `make bench` counted them last, by function and what the robot has.
+COUNTED = {
+    (row["function"], row["effects"]): row["own sine"]
+    for row in json.loads(RESULTS.read_text(encoding="utf-8"))["studies"]["instructions"]["rows"]
+}
 
 
 def _is_gcc_12() -> bool:
@@ -32,7 +39,8 @@ def test_no_function_takes_more_than_its_limit(name: str, limit: Limit, tmp_path
     if not _is_gcc_12():
         pytest.skip("the limits are those of gcc 12 on x86-64")
     counted = instructions(limit.robot(name), [limit.function], tmp_path)
-    assert counted[limit.function] <= _SLACK * limit.most
+    least = limit.most if name == "kr270" else min(limit.most, COUNTED[limit.function, limit.of])
+    assert counted[limit.function] <= _SLACK * least
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="the flags are those of x86-64")
