@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -15,23 +12,7 @@ from identification.factors import factors
 from identification.least_squares import Problem
 from identification.observed import Observed
 from identification.sampling import Rows
-
-
-@dataclass(frozen=True)
-class Told:
-    """Rows that need no robot, of a run of so many ``samples`` at 1 kHz."""
-
-    parts: tuple[Rows, ...]
-    samples: int
-
-    @property
-    def sampled(self) -> SimpleNamespace:
-        return SimpleNamespace(
-            run=SimpleNamespace(period=1e-3, start=0.0), motion=SimpleNamespace(samples=self.samples)
-        )
-
-    def rows(self) -> Iterator[Rows]:
-        return iter(self.parts)
+from tests.told_rows import Told
 
 
 @pytest.mark.parametrize("seconds", [0.8, 3.0, 40.0])

@@ -113,7 +113,7 @@ def derived(path: Path) -> tuple[Robot, Regressors]:
     return robot, Regressors(robot)
 
 
-def recorded(
+def run_of(
     path: Path, out: Path, seed: int, truth: Mapping[str, float], warm: float | None = None, noise: float = 1.0
 ) -> Path:
     """A run of the robot with the values ``truth``: states by implicit steps far below a sample."""
@@ -172,7 +172,7 @@ def test_the_effects_are_identified(effects: tuple[str, ...], tmp_path: Path, pr
     warm = "\nsignals: {warm_up_time: 10 s}\n" if "warm_friction" in effects else ""
     path = with_effects(effects, tmp_path, warm)
     sought = {name: value for effect in effects for name, value in EFFECTS[effect][1].items()}
-    run = recorded(path, tmp_path / "run.csv", 1, prior | sought, 10.0 if warm else None)
+    run = run_of(path, tmp_path / "run.csv", 1, prior | sought, 10.0 if warm else None)
     robot, regressors = derived(path)
     found = identify(robot, [run], regressors=regressors)
     solution = found.full.solution

@@ -32,12 +32,12 @@ LATENCY = 0.003
 RUN = Settings(flexible=True, further=("qs",), duration=30.0, link_delay=LATENCY, noise=(0.05,), resolution=(1e-4,))
 
 
-def recorded(machine: Machine, settings: Settings, path: Path) -> str:
+def simulated(machine: Machine, settings: Settings, path: Path) -> str:
     return str(save(simulate(machine, settings), machine.robot.name, machine.robot.digest, path)[0])
 
 
 def test_latency_and_stiffness_are_told_apart(machine: Machine, tmp_path: Path) -> None:
-    runs = [recorded(machine, replace(RUN, seed=seed), tmp_path / f"{seed}.csv") for seed in (1, 2)]
+    runs = [simulated(machine, replace(RUN, seed=seed), tmp_path / f"{seed}.csv") for seed in (1, 2)]
     found = link_encoders(machine.robot, runs, MOTORS)
     for name in ("k1", "k2"):
         one, mistaken = found.stiffness[name], found.mistaken[name]
@@ -63,7 +63,7 @@ def test_the_latency_moves_no_stiffness(machine: Machine, tmp_path: Path) -> Non
         found = []
         for delay in (0.0, 0.01):
             settings = replace(RUN, seed=seed, link_delay=delay, noise=(0.001,), resolution=(1e-6,))
-            found.append(link_encoders(machine.robot, [recorded(machine, settings, tmp_path / "a.csv")], MOTORS))
+            found.append(link_encoders(machine.robot, [simulated(machine, settings, tmp_path / "a.csv")], MOTORS))
         at_once, late = found
         for name, one in at_once.stiffness.items():
             assert late.stiffness[name].value == pytest.approx(one.value, rel=5e-3)
@@ -76,7 +76,7 @@ def test_the_latency_moves_no_stiffness(machine: Machine, tmp_path: Path) -> Non
 def test_an_encoder_that_does_not_follow_its_motor_is_refused(
     machine: Machine, tmp_path: Path, wrong: Callable[[np.ndarray], np.ndarray]
 ) -> None:
-    path = Path(recorded(machine, RUN, tmp_path / "a.csv"))
+    path = Path(simulated(machine, RUN, tmp_path / "a.csv"))
     good = Recorded.read(path)
     good.with_columns(qs2=wrong(good.columns["qs2"])).save(path)
     with pytest.raises(InputError, match=r"a.csv:1:1: qs2 differs from the motor's position by \d+ % of how far"):
@@ -86,7 +86,7 @@ def test_an_encoder_that_does_not_follow_its_motor_is_refused(
 
 
 def test_an_encoder_that_is_too_late_is_refused(machine: Machine, tmp_path: Path) -> None:
-    run = load(recorded(machine, RUN, tmp_path / "a.csv"), machine.robot)
+    run = load(simulated(machine, RUN, tmp_path / "a.csv"), machine.robot)
     steps = round(0.4 / run.period)
     late = {**run.others, "qs1": np.roll(run.others["qs1"], steps)}
     found = of_runs(machine.robot, [replace(run, others=late)], MOTORS)
@@ -117,7 +117,7 @@ def test_a_linear_axis_has_a_latency_too(tmp_path: Path) -> None:
 
 def test_rows_near_a_torque_that_was_lost_are_not_used(machine: Machine, tmp_path: Path) -> None:
     """It stays what it was; the late encoder asks for the torques of then."""
-    run = load(recorded(machine, replace(RUN, link_delay=0.0055), tmp_path / "a.csv"), machine.robot)
+    run = load(simulated(machine, replace(RUN, link_delay=0.0055), tmp_path / "a.csv"), machine.robot)
     lost = np.zeros((2, run.samples), dtype=bool)
     tau = run.tau.copy()
     for start in range(2000, 28000, 3000):
@@ -131,7 +131,7 @@ def test_rows_near_a_torque_that_was_lost_are_not_used(machine: Machine, tmp_pat
 
 
 def test_a_rigid_robot_has_no_stiffness_left(machine: Machine, tmp_path: Path) -> None:
-    run = recorded(machine, replace(RUN, flexible=False), tmp_path / "rigid.csv")
+    run = simulated(machine, replace(RUN, flexible=False), tmp_path / "rigid.csv")
     found = link_encoders(machine.robot, [run])
     for number in (1, 2):
         assert found.stiffness[f"k{number}"].value is None
@@ -181,7 +181,7 @@ def test_a_joint_that_creeps_tells_nothing(machine: Machine, tmp_path: Path) -> 
     assert found.residuals[1].rows == 0
     refused = found.latency["latency2"].refused
     assert refused == found.stiffness["k2"].refused == "no row is above the joint's standstill speed"
-    both = link_encoders(machine.robot, [str(run), recorded(machine, RUN, tmp_path / "moving.csv")])
+    both = link_encoders(machine.robot, [str(run), simulated(machine, RUN, tmp_path / "moving.csv")])
     for one in (found, both):
         page = stiffness_report.report(one).decode()
         assert ("k2 cannot be told" in page) is (one is found)
@@ -195,7 +195,7 @@ def test_friction_that_sticks_is_no_compliance(tmp_path: Path) -> None:
     text = robot_text().replace("Fcm1: 9 N m", "Fcm1: 36 N m").replace("Fcm2: 4 N m", "Fcm2: 16 N m")
     (tmp_path / "two_links.yaml").write_text(text)
     with compiled(read(tmp_path / "two_links.yaml")) as rubbing:
-        run = recorded(rubbing, replace(RUN, noise=(0.01,), seed=1), tmp_path / "run.csv")
+        run = simulated(rubbing, replace(RUN, noise=(0.01,), seed=1), tmp_path / "run.csv")
         found = link_encoders(rubbing.robot, [run], MOTORS).stiffness
     for name in ("k1", "k2"):
         assert found[name].value == pytest.approx(MOTORS[name], rel=0.03)
@@ -212,12 +212,12 @@ def test_cut_off_currents_shift_no_stiffness(machine: Machine, tmp_path: Path) -
 
 
 def test_runs_without_link_encoders_are_refused(machine: Machine, tmp_path: Path) -> None:
-    run = recorded(machine, replace(RUN, further=(), link_delay=0.0, duration=10.0), tmp_path / "a.csv")
+    run = simulated(machine, replace(RUN, further=(), link_delay=0.0, duration=10.0), tmp_path / "a.csv")
     with pytest.raises(InputError, match="no columns of link-side encoders, expected qs1 to qs2, any of them"):
         link_encoders(machine.robot, [run])
     short = replace(RUN, duration=1.0)
     with pytest.raises(InputError, match=r"1000 rows \(1 s at 1000 Hz\), expected at least"):
-        link_encoders(machine.robot, [recorded(machine, short, tmp_path / "b.csv")])
+        link_encoders(machine.robot, [simulated(machine, short, tmp_path / "b.csv")])
 
 
 @RECORDINGS.needed
@@ -244,7 +244,7 @@ def test_a_real_robots_twist_is_mostly_latency(tmp_path: Path, capsys: pytest.Ca
 
 
 def test_a_joint_that_crawls_is_refused_and_the_other_is_not(machine: Machine, tmp_path: Path) -> None:
-    path = recorded(machine, RUN, tmp_path / "a.csv")
+    path = simulated(machine, RUN, tmp_path / "a.csv")
     run = load(path, machine.robot)
     crawling = 0.02 * np.sin(0.2 * run.period * np.arange(run.samples))
     slow = replace(run, q=np.stack([run.q[0], crawling]), others={**run.others, "qs2": crawling})

@@ -29,7 +29,7 @@ def links(tmp_path_factory: pytest.TempPathFactory) -> Regressors:
     return Regressors(read(path))
 
 
-def recorded(links: Regressors, folder: Path, seed: int, loaded: bool, unit: str) -> str:
+def under_load(links: Regressors, folder: Path, seed: int, loaded: bool, unit: str) -> str:
     """A run whose friction by load is written out: the load is all but the other friction."""
     t, motion = fourier(links.model.robot, 20.0, 200.0, seed, slowest=0.15)
     rest = {name: 0.0 for name in TRUTH if name.startswith("F")}
@@ -52,7 +52,7 @@ def within(found: tuple[float, float], truth: float) -> bool:
 
 def test_gains_with_friction_by_load(links: Regressors, tmp_path: Path) -> None:
     empty, loaded = (
-        [recorded(links, tmp_path, seed, carries, "i") for seed in seeds]
+        [under_load(links, tmp_path, seed, carries, "i") for seed in seeds]
         for seeds, carries in (((1, 2), False), ((3, 4), True))
     )
     found = drive_gains(links.model.robot, empty, loaded, Payload("L", {"M": 20.0}), regressors=links)
@@ -67,8 +67,8 @@ def test_gains_with_friction_by_load(links: Regressors, tmp_path: Path) -> None:
 
 
 def test_parameters_with_friction_by_the_load_of_a_payload(links: Regressors, tmp_path: Path) -> None:
-    empty = recorded(links, tmp_path, 1, False, "tau")
-    loaded = recorded(links, tmp_path, 3, True, "tau")
+    empty = under_load(links, tmp_path, 1, False, "tau")
+    loaded = under_load(links, tmp_path, 3, True, "tau")
     payload = Path(loaded).with_suffix(".yaml")
     payload.write_text("payload: {name: L}\n")
     found = identify(links.model.robot, [empty, loaded], options=Options(), regressors=links)

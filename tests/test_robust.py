@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 from typing import cast
 
@@ -16,21 +14,12 @@ from identification.least_squares import Problem
 from identification.observed import Observed
 from identification.robust import robust
 from identification.sampling import Rows
+from tests.told_rows import Told
 
 Array = NDArray[np.float64]
 
 TRUTH = {"a": 1.0, "b": 2.0, "c": 3.0}
 RUNS, ROWS = 800, 200
-
-
-@dataclass(frozen=True)
-class Told:
-    """Rows that need no robot."""
-
-    parts: tuple[Rows, ...]
-
-    def rows(self) -> Iterator[Rows]:
-        return iter(self.parts)
 
 
 @cache

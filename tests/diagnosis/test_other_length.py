@@ -48,7 +48,7 @@ def longer(robot: Robot, joint: int, field: str, by: float) -> Robot:
     return replace(robot, chain=tuple(chain))
 
 
-def recorded(robot: Robot, hidden: Sequence[Effect], folder: Path) -> list[str]:
+def logs(robot: Robot, hidden: Sequence[Effect], folder: Path) -> list[str]:
     """Files of five runs."""
     sources = [str(folder / f"{seed}.csv") for seed in range(1, 6)]
     for seed, source in enumerate(sources, 1):
@@ -83,7 +83,7 @@ def test_another_length_is_found_and_written(
 ) -> None:
     """With it fresh runs show nothing more."""
     true = ROBOTS[name]
-    sources = recorded(true, [], tmp_path)
+    sources = logs(true, [], tmp_path)
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(longer(true, joint, field, by)), encoding="utf-8")
     wanted = Request(sources[:2], [], sources[2:3], prior)
@@ -116,7 +116,7 @@ def test_a_column_is_what_another_length_makes_that_base_parameters_do_not(told:
     where these are known.
     """
     true, step = ROBOTS["three_axis"], 1e-4
-    (source, *_) = recorded(true, [], tmp_path)
+    (source, *_) = logs(true, [], tmp_path)
     path = tmp_path / "arm.yaml"
     path.write_text(robot_file(true), encoding="utf-8")
     robot = read(path)

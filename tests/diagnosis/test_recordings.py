@@ -50,7 +50,7 @@ DRY = ("coulomb_friction", "dahl_friction", "lugre_friction")
 OPEN = {("torque_delay", (6,)), ("torque_gain", (6,))}
 
 
-def rewritten(source: Path, folder: Path, digits: int) -> Path:
+def with_digits(source: Path, folder: Path, digits: int) -> Path:
     """The recording with so many significant digits."""
     names = source.open(encoding="utf-8").readline().strip()
     path = folder / source.name
@@ -66,7 +66,7 @@ def test_friction_payload_and_balancer_of_a_heavy_arm_are_named(digits: int, tmp
     only tried, and must not change what is named.
     """
     path = without("kr300", tmp_path, "viscous_friction", "coulomb_friction", "gas_balancer")
-    runs = [str(rewritten(Path(one), tmp_path, digits)) for one in data(A, B)]
+    runs = [str(with_digits(Path(one), tmp_path, digits)) for one in data(A, B)]
     found, new = diagnosis(path, Request(runs, prior="a_priori"))
     assert found.verdict == NAMED
     named = {(one.hypothesis.effect, one.joints): one for one in found.findings}

@@ -72,7 +72,7 @@ def test_motors_take_the_steps_that_coupled_joints_do_not(name: str) -> None:
     np.testing.assert_allclose(deviations(logged, robot), np.std(logged.q - q, axis=1), rtol=0.05)
 
 
-def recorded(folder: Path, decimals: int, periods: int) -> tuple[Any, Scene]:
+def rounded_run(folder: Path, decimals: int, periods: int) -> tuple[Any, Scene]:
     """A run of the arm without any noise whose positions are rounded, and the scene of the true model."""
     robot = known(ROBOTS[ARM], folder)
     one = make_run(ROBOTS[ARM], fourier(3, period=5.0, periods=periods), sensors=Sensors(noise=0.0, quantised=False))
@@ -89,8 +89,8 @@ def recorded(folder: Path, decimals: int, periods: int) -> tuple[Any, Scene]:
 
 
 def test_rounding_of_the_log_is_as_large_as_it_says(tmp_path: Path) -> None:
-    fine, true = recorded(tmp_path, 10, 3)
-    coarse, scene = recorded(tmp_path, 4, 3)
+    fine, true = rounded_run(tmp_path, 10, 3)
+    coarse, scene = rounded_run(tmp_path, 4, 3)
     said = rounding(coarse, scene)
     made = coarse.decimated(scene.model_torque) - fine.decimated(true.model_torque)
     for k in range(3):
@@ -99,7 +99,7 @@ def test_rounding_of_the_log_is_as_large_as_it_says(tmp_path: Path) -> None:
 
 
 def test_nothing_repeats_in_a_run_of_one_period(tmp_path: Path) -> None:
-    ready, scene = recorded(tmp_path, 4, 1)
+    ready, scene = rounded_run(tmp_path, 4, 1)
     assert not rounding(ready, scene).any()
 
 

@@ -35,7 +35,7 @@ def carrying(mass: float) -> dict[str, float]:
     return {name: value + mass * more.get(name, 0.0) for name, value in TRUTH.items()}
 
 
-def recorded(
+def with_masses(
     folder: Path, masses: Sequence[tuple[float, float]], gains: Sequence[float] = (1.0, 1.0)
 ) -> tuple[Regressors, list[str]]:
     """Runs with a mass each and what its sidecar states, that of none states that; what is recorded of the motors'
@@ -57,7 +57,7 @@ def recorded(
 
 
 def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path) -> None:
-    _, sources = recorded(tmp_path, [(MASS, STATED)] * 4)
+    _, sources = with_masses(tmp_path, [(MASS, STATED)] * 4)
     path = tmp_path / "two_links.yaml"
     wanted = Request(sources[:3], test=sources[3:], prior="known")
     found, new = answered(path, wanted, tmp_path / "out")
@@ -76,7 +76,7 @@ def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path)
 
 
 def test_beside_a_free_fit_gains_may_be_wrong_as_well(tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (MASS, STATED), (0.0, 0.0), (MASS, STATED)])
+    regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, STATED), (0.0, 0.0), (MASS, STATED)])
     found = diagnosis_of(sources, regressors)
     assert found.verdict == NAMED
     (one,) = found.findings
@@ -88,7 +88,7 @@ def test_beside_a_free_fit_gains_may_be_wrong_as_well(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("known", [None, "known"])
 def test_a_payload_that_is_as_stated_is_nothing(known: str | None, tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (MASS, MASS), (0.0, 0.0)])
+    regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, MASS), (0.0, 0.0)])
     assert diagnosis_of(sources, regressors, known).verdict == NOTHING
 
 
@@ -98,7 +98,7 @@ def test_a_payload_that_is_as_stated_is_nothing(known: str | None, tmp_path: Pat
 )
 def test_gains_are_not_taken_for_a_payload(gains: Sequence[float], found: dict[int, float], tmp_path: Path) -> None:
     """Known values tell that the payload is as stated: one error of all motors, or of each."""
-    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (STATED, STATED)] * 2, gains)
+    regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (STATED, STATED)] * 2, gains)
     told = diagnosis_of(sources, regressors, "known").findings
     assert {(one.hypothesis.effect, one.status) for one in told} == {("torque_gain", FIRM)}
     assert {one.hypothesis.joint: one.main[0].value for one in told} == pytest.approx(found, abs=0.005)
@@ -116,7 +116,7 @@ def test_what_is_found_adds_to_the_payload_of_that_mass_alone() -> None:
 
 
 def test_runs_with_another_payload_are_played_with_what_they_state(tmp_path: Path) -> None:
-    regressors, sources = recorded(tmp_path, [(0.0, 0.0), (MASS, STATED), (1.0, 1.0), (MASS, STATED)])
+    regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, STATED), (1.0, 1.0), (MASS, STATED)])
     found = diagnosis_of(sources, regressors, "known")
     (one,) = found.findings
     assert (one.hypothesis.effect, one.shape) == ("stated_payload", {STATED_MASS: STATED})

@@ -24,7 +24,7 @@ OFFSET, GAIN, DRIFT, TIME = 0.05, 0.9, -0.2, 15.0
 RIGHT = {"position_offset": OFFSET, "torque_gain": GAIN, "torque_drift": DRIFT}
 
 
-def recorded(folder: Path) -> list[str]:
+def wrong_logs(folder: Path) -> list[str]:
     """Files of three runs, whose log is as wrong as that."""
     path = folder / "true.yaml"
     path.write_text(TWO_LINKS)
@@ -51,7 +51,7 @@ def stating(position_offset: float, torque_gain: float, torque_drift: float) -> 
 def diagnosed(folder: Path, text: str) -> Diagnosis:
     path = folder / "two_links.yaml"
     path.write_text(text)
-    return diagnosis_of(recorded(folder), Regressors(read(path)), "known")
+    return diagnosis_of(wrong_logs(folder), Regressors(read(path)), "known")
 
 
 @pytest.mark.parametrize(("wrong", "stated"), [("torque_gain", 0.7), ("torque_drift", 0.1)])
