@@ -24,6 +24,8 @@ from tests.subject import Subject, subject
 
 Vector = NDArray[np.float64]
 
+#: Without start files, which after -ffast-math round small numbers of the whole process to zero.
+_SHARED = ("-shared", "-fPIC", "-nostartfiles")
 QUANTITIES = (
     "direct_dynamics_sliding",
     "direct_dynamics_smooth",
@@ -132,7 +134,7 @@ class Simulation:
         sources = [self.folder / "c" / f"{self.name}.c", self.folder / "simulation" / f"{self.name}_simulation.c"]
         library = self.folder / f"lib{self.name}{len(list(self.folder.iterdir()))}.so"
         include = f"-I{self.folder / 'c'}"
-        run(["gcc", "-std=c99", "-shared", "-fPIC", *self.flags, include, *sources, "-o", library, "-lm"])
+        run(["gcc", "-std=c99", *_SHARED, *self.flags, include, *sources, "-o", library, "-lm"])
         header = self.folder / "simulation" / f"{self.name}_simulation.h"
         self._c = Bound(self.name, library, header, ["-D__STDC_HOSTED__=1", *self.flags, include])
         self.real = np.dtype(np.float32 if any("USE_FLOAT" in flag for flag in self.flags) else np.float64)

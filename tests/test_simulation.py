@@ -205,6 +205,8 @@ def test_a_run_that_diverges_ends(flag: str, make: Make) -> None:
     still = np.zeros(simulated.size)
     done = simulated.simulate(wild, simulated.integration("RK4", 1, 0.01), reference, simulated.start(still, still))
     assert 0 < done.done < 400
+    smallest = np.nextafter(0.0, 1.0)
+    assert np.float64(2.0) * smallest > 0.0
 
 
 # -- the code ---------------------------------------------------------------------------------------------------------
