@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from benchmarks.growth_picture import CURVES
+from benchmarks.growth_picture import CURVES, ENDING
 from benchmarks.study import alone
 from generator.derivation import derive
 from generator.generation import emitted, uncollected
@@ -29,7 +29,7 @@ def run(build: Path) -> dict[str, Any]:
     report = read(find_robot("kr500"))
     _measured(report)
     rows = [{"chain": "kr500", **_measured(report)}]
-    grown = [{"chain": f"{count} joints", **_measured(random_chain(Random(count), count))} for count in JOINTS]
+    grown = [{"chain": f"{count}{ENDING}", **_measured(random_chain(Random(count), count))} for count in JOINTS]
     notes = [_growth(name, [row[column] for row in grown]) for name, column in CURVES.items()]
     return {"rows": rows + grown, "notes": notes}
 

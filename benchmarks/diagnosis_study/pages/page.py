@@ -23,19 +23,20 @@ _POWER = "Share of cases in which an effect is named, over its size"
 
 def tables(results: Sequence[summary.Result], every: Sequence[summary.Result]) -> dict[str, Any]:
     """All that the page shows, for JSON: ``results`` of the code as it is, and ``every`` case as last answered."""
+    shown, every_shown = summary.placed(results), summary.placed(every)
     return {
         "counts": summary.counts(results),
-        "cells": summary.rows_of_cells(results),
+        "cells": summary.rows_of_cells(shown),
         "every": {"codes": len({one["code"] for one in every}), **summary.counts(every)},
-        "every cell": summary.rows_of_cells(every),
-        "apart": summary.rows_apart(every),
-        "laws": summary.rows_of_laws(every),
-        "numbers": summary.rows_of_numbers(every),
-        "baselines": rows_of_simpler_ways(every),
-        "limits": summary.detection_limits(every),
+        "every cell": summary.rows_of_cells(every_shown),
+        "apart": summary.rows_apart(every_shown),
+        "laws": summary.rows_of_laws(every_shown),
+        "numbers": summary.rows_of_numbers(every_shown),
+        "baselines": rows_of_simpler_ways(every_shown),
+        "limits": summary.detection_limits(every_shown),
         "power": {
             law: [{"size": size, "hits": one.hits, "count": one.count} for size, one in curve]
-            for law, curve in summary.power(every).items()
+            for law, curve in summary.power(every_shown).items()
         },
     }
 
@@ -101,7 +102,7 @@ def _filled(text: str) -> str:
 def write(every: Sequence[summary.Result], found: Mapping[str, Any]) -> None:
     """Page, and picture where there is a power curve."""
     PAGE.write_text(page(found), encoding="utf-8")
-    curves = summary.power(every)
+    curves = summary.power(summary.placed(every))
     if curves:
         PICTURE.write_text(power_curve(_POWER, curves), encoding="utf-8")
 

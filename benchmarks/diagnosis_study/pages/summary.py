@@ -132,6 +132,11 @@ def detection_limits(results: Sequence[Result]) -> list[Row]:
     return rows
 
 
+def placed(results: Sequence[Result]) -> list[Result]:
+    """Without those that hide a law where no effect of the library may stand for it."""
+    return [one for one in results if not _misplaced(one)]
+
+
 def counts(results: Sequence[Result]) -> dict[str, int]:
     """Cases scored, left out since no size would do, broken off, and scored apart."""
     return {
@@ -158,11 +163,9 @@ def _misplaced(one: Result) -> bool:
 
 
 def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:
-    """Scored cases of a cell and mode, without those that are scored apart or have an effect where none has a place."""
+    """Scored cases of a cell and mode, without those that are scored apart."""
     return [
         one
         for one in results
-        if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode)
-        and "score" in one
-        and not (_apart(one) or _misplaced(one))
+        if (one["case"]["cell"], one["case"]["mode"]) == (cell, mode) and "score" in one and not _apart(one)
     ]
