@@ -30,6 +30,13 @@ def pendulum(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture
+def own_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Takes away what the machine's environment says of terminals."""
+    for name in ("TTY_COMPATIBLE", "TTY_INTERACTIVE", "FORCE_COLOR"):
+        monkeypatch.delenv(name, raising=False)
+
+
 def refused(done: Done) -> str:
     """The message of a command that refused its input in the agreed way."""
     assert done.status == 2, done
@@ -170,19 +177,23 @@ def test_letters_that_the_terminal_lacks_are_told_by_number(pendulum: Path) -> N
 
 
 def test_stages_are_told_on_a_terminal_and_elsewhere(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    own_terminal: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with stages() as announced:
         announced("reading [a/b]")
         announced("writing [/c]")
-    assert capsys.readouterr().err == "reading [a/b]\nwriting [/c]\n"
-    terminal = StringIO()
-    monkeypatch.setattr(terminal, "isatty", lambda: True, raising=False)
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with stages() as announced:
-        announced("reading [a/b]")
-        announced("writing [/c]")
-    assert "writing [/c]" in terminal.getvalue()
+    lines = "reading [a/b]\nwriting [/c]\n"
+    assert capsys.readouterr().err == lines
+    for kind, moves in (("xterm", True), ("dumb", False)):
+        terminal = StringIO()
+        monkeypatch.setenv("TERM", kind)
+        monkeypatch.setattr(terminal, "isatty", lambda: True, raising=False)
+        monkeypatch.setattr(sys, "stderr", terminal)
+        with stages() as announced:
+            announced("reading [a/b]")
+            announced("writing [/c]")
+        assert "writing [/c]" in terminal.getvalue()
+        assert (terminal.getvalue() != lines) == moves
 
 
 def test_list_shows_every_robot_with_its_sets(capsys: pytest.CaptureFixture[str]) -> None:
@@ -259,7 +270,7 @@ def test_stages_are_plain_lines_where_there_is_no_terminal(
     assert done.err == f"reading {pendulum.name}\nderiving the model of pendulum\nemitting the files\n"
 
 
-def test_stages_are_shown_on_a_terminal(pendulum: Path) -> None:
+def test_stages_are_shown_on_a_terminal(own_terminal: None, pendulum: Path) -> None:
     terminal, end = pty.openpty()
     with os.fdopen(terminal, "rb", buffering=0) as screen:
         done = subprocess.run(

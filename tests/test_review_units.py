@@ -70,4 +70,4 @@ def test_what_a_body_before_carries_is_not_told_to_be_unseen() -> None:
     assert "MX2R" in gone["MX3"].into
     assert gone["MX3"].rule == "this joint's motion does not show it: it acts as a part of the antecedent"
     assert not gone["XX1"].into
-    assert gone["XX1"].rule == "the joints before this one do not move the body in a way that shows it"
+    assert gone["XX1"].rule == "the joints up to this one do not move the body in a way that shows it"

@@ -14,7 +14,7 @@ _REVOLUTE = ("Ia", "M", "MZ", "YY", "XX", "XY", "XZ", "YZ", "MY", "MX", "ZZ", "O
 _PRISMATIC = ("Ia", "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MZ", "MY", "MX", "M", "Off")
 
 #: Why one leaves that no motion shows by itself: it acts in no torque, or as a part of the bodies before.
-_UNSEEN = "the joints before this one do not move the body in a way that shows it"
+_UNSEEN = "the joints up to this one do not move the body in a way that shows it"
 _CARRIED = "this joint's motion does not show it: it acts as a part of the antecedent"
 
 

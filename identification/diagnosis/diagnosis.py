@@ -116,6 +116,7 @@ def diagnose(
         *remarks.of_elasticity(found),
         *remarks.of_motion(runs, bool(named) and not found.repeats),
         *(() if dry else remarks.of_warmth(found)),
+        *remarks.of_warm_starts(found),
         *remarks.of_findings(named, gone),
         *_of_rest(found, last, left, bool(named)),
     ]

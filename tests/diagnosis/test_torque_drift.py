@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +30,7 @@ from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.roles import Roles
 from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.loop import search
+from identification.diagnosis.verdict import remarks
 from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.trial import along
 from identification.drive_train import coupling
@@ -69,15 +71,14 @@ def logged(folder: Path, seed: int, drift: Drift, temperatures: Sequence[int] = 
     return str(Recorded({**run, "tau1": tau1, "tau2": tau2, **temps}).save(path))
 
 
-def heated(folder: Path, seed: int, square: float) -> str:
+def heated(folder: Path, seed: int, square: float, w: float = 0.0) -> str:
     """The run's file, of a motor 2 that in 12 s gets warm by the square of its torque in parts of ``square`` [N2 m2],
-    and whose constant is lower by 0.3 then.
+    and whose constant is lower by 0.3 then. It begins with a warmth ``w``.
     """
     of = two_links(folder)
     run = recorded(of, TRUTH, 60.0, 200.0, seed).columns
     N = coupling(of.model.robot)
     motor = np.linalg.solve(N.T, np.stack([run["tau1"], run["tau2"]]))
-    w = 0.0
     for k, true in enumerate(motor[1].tolist()):
         motor[1, k] = true / (1 - 0.3 * w)
         w += (motor[1, k] ** 2 / square - w) / 200 / 12
@@ -142,6 +143,26 @@ def test_a_drift_by_heat_is_found_and_written_as_it_is(tmp_path: Path) -> None:
     assert float(robot.signals.warm_torque[1]) == pytest.approx(told["warm_torque"], rel=1e-5)
     assert float(robot.signals.warm_torque[0]) == corrections.NEVER
     assert left < 0.05
+
+
+def test_how_warm_a_drive_was_when_a_run_began_is_of_that_run_alone(tmp_path: Path) -> None:
+    of, warm = two_links(tmp_path), (0.8, 0.0, 0.4)
+    runs = [ready(heated(tmp_path, seed, 0.3, w), of) for seed, w in enumerate(warm, 1)]
+    found = search(runs, (0, 1), (2,), of)
+    (one,) = found.choices
+    variant = one.evidence.variant
+    assert variant.key == ("torque_drift", 2)
+    names = [each.name for each in variant.coefficients]
+    told = dict(zip(names, one.evidence.coefficients, strict=True))
+    per_square = variant.shape["warm_torque"] ** 2 / 0.3
+    assert told["torque_drift2"] / per_square == pytest.approx(-0.3, rel=0.05)
+    assert told.get("start2", 0.0) == pytest.approx(0.0, abs=0.01)
+    began = [torque_drift.warm_at_start(1, scene) * per_square for scene in found.bank.scenes]
+    assert began == pytest.approx(warm, abs=0.15)
+    (note,) = remarks.of_warm_starts(found)
+    files, parts = zip(*re.findall(r"(\S+) \((\S+) %\)", note), strict=True)
+    assert files == ("1.csv", "3.csv")
+    assert [float(part) for part in parts] == pytest.approx([-24, -12], abs=3)
 
 
 def by(kind: str, scenes: Sequence[Scene], joint: int) -> Hypothesis:

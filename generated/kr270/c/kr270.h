@@ -58,7 +58,7 @@
  * Use: fill in kr270_params, call kr270_prepare() once, then any function, from any thread. Nothing is
  * allocated, and no state is kept. Compile kr270.c as C99 or later with -O2 -ffp-contract=fast and for your
  * processor (-march=native, -mcpu=...), and link the mathematics library (-lm). -std=c99 alone forbids fused
- * multiply-add, which makes the code a quarter longer; -O3 changes little, -ffast-math makes it slower.
+ * multiply-add, which makes the code a fifth longer; -O3 changes little, -ffast-math makes it slower.
  *
  * Operations per call
  *                                         mul      add      div  sin/cos    other

@@ -6,7 +6,8 @@ or what the square of the motor's torque has heated since then, or a temperature
 ``start`` the constant differs already where w is 0.
 
 The true torque is linear in both, what is recorded is not: columns are of the torque that is recorded, not of the true
-one, as soon as an earlier search has found a drift, and a large one is exact.
+one, as soon as an earlier search has found a drift, and a large one is exact. From then on each run also tells how warm
+the drive was when it began: all that fades from there belongs to that run alone.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from generator.robot.description import Joint
 from identification.arrays import Array
@@ -22,15 +24,27 @@ from identification.corrections import by_heat, drifting
 from identification.diagnosis.columns.hypothesis import BEYOND, DRIVE, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.warming import following, warm_up_times
 from identification.diagnosis.runs.scene import Scene
-from identification.drive_train import supplied
+from identification.drive_train import motor_torques, supplied
 from identification.residuals import rms
 
+#: What is found, as section drives of the robot file calls it.
+EFFECT = "torque_drift"
 #: Of what is found, and of that and what the file states.
 _LARGEST, _WHOLE = 0.6, 0.95
 #: Of the warmth, in what part of a torque is recorded.
 _DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
 _RISE = 2.0
+
+
+def drift_name(joint: Joint) -> str:
+    """How the coefficient of a motor's drift is called."""
+    return f"{EFFECT}{joint.number}"
+
+
+def start_name(joint: Joint) -> str:
+    """How that of the part is called by which the constant differs already where it is cold."""
+    return f"start{joint.number}"
 
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
@@ -78,12 +92,12 @@ def _hypothesis(
 ) -> Hypothesis:
     lower, upper = max(-_LARGEST, min(-_WHOLE - stated, 0.0)), min(_LARGEST, max(_WHOLE - stated, 0.0))
     return Hypothesis(
-        "torque_drift",
+        EFFECT,
         f"drift of the torque constant with the {along}{BEYOND * bool(stated)}",
         joint.number,
         (
-            Coefficient(f"torque_drift{joint.number}", "1", lower, upper, essential=True),
-            Coefficient(f"start{joint.number}", "1", -_LARGEST, _LARGEST),
+            Coefficient(drift_name(joint), "1", lower, upper, essential=True),
+            Coefficient(start_name(joint), "1", -_LARGEST, _LARGEST),
         ),
         partial(_columns, k),
         shapes=shapes,
@@ -112,19 +126,52 @@ def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
 def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> Array:
     own, w = supplied(scene.robot, k, torque), _warmth(k, scene, shape)
     w = w / (1 + dict(drifting(scene.robot)).get(k, 0.0) * w)
-    number = scene.robot.moving[k].number
-    if not scene.found(f"torque_drift{number}") or not np.all(np.isfinite(w)):
+    joint = scene.robot.moving[k]
+    if not scene.found(drift_name(joint)) or not np.all(np.isfinite(w)):
         return -np.stack([own * w, own])
+    w = w + warm_at_start(k, scene) * _fading(scene, shape)
     recorded = own * _part(k, scene, w)
-    return -np.stack([(1 + scene.found(f"start{number}")) * recorded * w, recorded])
+    return -np.stack([(1 + scene.found(start_name(joint))) * recorded * w, recorded])
 
 
 def _part(k: int, scene: Scene, w: Array) -> Array:
     """What part of its torque the log holds of a motor: a polynomial of the warmth, which follows none of the noise."""
     powers = w ** np.arange(_DEGREE + 1)[:, None]
-    true, logged = (supplied(scene.robot, k, torque)[k] for torque in (scene.torque, scene.tau))
-    part: Array = np.linalg.lstsq((powers * true).T, logged, rcond=None)[0] @ powers
+    true, logged, told = _torques(k, scene)
+    part: Array = np.linalg.lstsq((powers * true)[:, told].T, logged[told], rcond=None)[0] @ powers
     return part
+
+
+def warm_at_start(k: int, scene: Scene) -> float:
+    """How warm the drive was already when the recording began, by what was found before: what it had done until then
+    nobody knows, and it differs from run to run.
+    """
+    joint = scene.robot.moving[k]
+    shape = scene.shape_found(EFFECT, joint.number)
+    drift, gain = scene.found(drift_name(joint)), 1 + scene.found(start_name(joint))
+    fading = _fading(scene, shape)
+    true, logged, told = _torques(k, scene)
+    per_warmth = gain * drift * fading * logged
+    missing = true - gain * (1 + drift * _warmth(k, scene, shape)) * logged
+    size = float(per_warmth[told] @ per_warmth[told])
+    return max(float(per_warmth[told] @ missing[told]) / size, 0.0) if size > 0 else 0.0
+
+
+def _fading(scene: Scene, shape: Mapping[str, float]) -> Array:
+    """What is left of a warmth (N) that a drive had when the recording began; nothing where its course is known."""
+    known = "warm_rise" in shape or "warm_up_time" not in shape
+    return np.zeros_like(scene.t) if known else np.exp(-scene.t / shape["warm_up_time"])
+
+
+def _torques(k: int, scene: Scene) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """What a motor supplies to its joint by the model and by the log (N each), and the samples (N) that tell of it.
+
+    Where a joint stands that the motor drives the model knows no friction: those tell nothing, if others do.
+    """
+    driven = motor_torques(scene.robot, np.eye(len(scene.tau)))[k] != 0
+    moves = ~scene.sampled.left_out[driven].any(axis=0)
+    true, logged = (supplied(scene.robot, k, torque)[k] for torque in (scene.torque, scene.tau))
+    return true, logged, moves if moves.any() else np.ones_like(moves)
 
 
 def _warmth(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:

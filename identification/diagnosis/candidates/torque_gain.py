@@ -9,6 +9,7 @@ from functools import partial
 
 from generator.robot.description import Joint
 from identification.arrays import Array
+from identification.diagnosis.candidates.torque_drift import drift_name
 from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
@@ -22,12 +23,14 @@ _BELIEVED = 0.6
 
 def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """One a motor, and of several one of all alike, as by another unit or a payload that is not the stated one; where
-    the robot's file states a gain, of what is left with it.
+    the robot's file states a gain, of what is left with it. None of a motor of which an earlier search has found a
+    drift: that tells with what gain it starts.
     """
     if not scenes:
         return []
     moving = scenes[0].robot.moving
-    own = [_hypothesis(scenes, (joint,), k) for k, joint in enumerate(moving)]
+    drifts = {k for k, joint in enumerate(moving) if any(scene.found(drift_name(joint)) for scene in scenes)}
+    own = [_hypothesis(scenes, (joint,), k) for k, joint in enumerate(moving) if k not in drifts]
     return [*([_hypothesis(scenes, moving, None)] if len(moving) > 1 else []), *own]
 
 

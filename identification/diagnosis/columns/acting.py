@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +37,10 @@ class Acting:
         """By name."""
         names = [coefficient.name for one in self.variants for coefficient in one.coefficients]
         return dict(zip(names, self.values, strict=True))
+
+    def shape(self, effect: str, joint: int) -> Mapping[str, float]:
+        """That of an effect on a joint by number, empty where it was not found."""
+        return next((one.shape for one in self.variants if one.key == (effect, joint)), {})
 
     @property
     def jumps(self) -> tuple[Jump, ...]:

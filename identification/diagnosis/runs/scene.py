@@ -30,6 +30,9 @@ class Beside(Protocol):
     def coefficients(self) -> Mapping[str, float]:
         """Their values by name [SI]."""
 
+    def shape(self, effect: str, joint: int) -> Mapping[str, float]:
+        """That of an effect on a joint by number, empty where it does not act."""
+
     def torque(self, scene: Scene) -> Array:
         """Torques of what acts (n x N) [N m, N], on the joint side, along the scene's motion."""
 
@@ -200,6 +203,10 @@ class Scene:
     def found(self, name: str) -> float:
         """A coefficient that an earlier search has found, zero where it has not."""
         return 0.0 if self.beside is None else self.beside.coefficients.get(name, 0.0)
+
+    def shape_found(self, effect: str, joint: int) -> Mapping[str, float]:
+        """The shape of an effect on a joint by number that an earlier search has found, empty where it has not."""
+        return {} if self.beside is None else self.beside.shape(effect, joint)
 
     def derivative(self, x: Array) -> Array:
         """Time derivative of signals with samples along the last axis, as the motion's speeds are."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence, Set
 
 from generator.words import listed, numbered
+from identification.diagnosis.candidates.torque_drift import EFFECT as DRIFT
+from identification.diagnosis.candidates.torque_drift import drift_name, warm_at_start
 from identification.diagnosis.columns.hypothesis import ELASTIC, Key
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
@@ -23,6 +25,8 @@ from identification.diagnosis.verdict.unexplained import Unexplained
 _WHOLE = 0.98
 #: Part of what is unexplained that a drive train must explain to be told without being named.
 _MOST = 0.5
+#: Change of a torque constant before a run from which it is told.
+_WARM = 0.005
 #: What a finding is told with, by its effect: what else makes the same torque.
 _LIKE = {
     "torque_delay": "a filter of the drive or of the log that lags as long looks like a delay between torque and "
@@ -138,6 +142,20 @@ def of_warmth(found: Search) -> Iterator[str]:
             yield (
                 f"{files}: how warm the drive of joint {found.bank.robot.numbers[k]} was is not recorded, as it is in "
                 "other runs: friction that warms up and a torque that drifts are not looked for on that joint"
+            )
+
+
+def of_warm_starts(found: Search) -> Iterator[str]:
+    """Of runs that began with a warm drive, by the drift of its torque constant that was found."""
+    drifts = {one.evidence.variant.key for one in found.choices}
+    for k, joint in enumerate(found.bank.robot.moving):
+        scenes = found.bank.scenes if (DRIFT, joint.number) in drifts else ()
+        parts = {one.sampled.run.file: one.found(drift_name(joint)) * warm_at_start(k, one) for one in scenes}
+        began = [f"{file} ({100 * part:+.2g} %)" for file, part in parts.items() if abs(part) > _WARM]
+        if began:
+            yield (
+                f"the torque constant of joint {joint.number} had drifted already when {listed(began)} began, which "
+                "the search takes into account; the robot file takes a drive to be cold when a recording begins"
             )
 
 
