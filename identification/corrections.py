@@ -36,10 +36,10 @@ def recorded_positions(q: Array, robot: Robot) -> Array:
 
 
 def warmth(rises: Mapping[str, Array], t: Array, tau: Array, robot: Robot, place: Place) -> Array | None:
-    """How warm each joint's drive is (n x N), ``t`` (N) [s] after the recording began; None if nothing says it.
+    """How warm each joint's drive is (n x N), ``t`` (N) [s] after a cold start; None if nothing says it.
 
-    By the rise [K] of its temperature ``temp1`` ... (N) since then, one of ``rises``, over its ``warm_rise``; without
-    the one or the other ``heated`` by the recorded torques ``tau`` (n x N) [N m, N] of its motor beside its
+    By the rise [K] of its temperature ``temp1`` ... (N) in the recording, one of ``rises``, over its ``warm_rise``;
+    without the one or the other ``heated`` by the recorded torques ``tau`` (n x N) [N m, N] of its motor beside its
     ``warm_torque``, or 1 - exp(-t/warm_up_time). A drive of which nothing tells, and on whose warmth nothing depends,
     has rows that are no numbers.
 

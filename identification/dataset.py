@@ -43,7 +43,8 @@ class Run:
     ``by_motors`` tells that both were recorded on the motor side and brought over by the file's ratios. ``warmth`` of
     the drives (n x N) is there where the robot file says it. ``others`` are the file's further columns of known meaning
     by name (N each). ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a
-    part of, the run's own where they are not given. ``notes`` tell every repair. ``coarse`` is how the efforts of cold
+    part of, the run's own where they are not given, and ``since_cold`` is how long before that the drives were set in
+    motion, cold [s]. ``notes`` tell every repair. ``coarse`` is how the efforts of cold
     drives were rounded in the record, None where they take no steps.
     """
 
@@ -60,6 +61,7 @@ class Run:
     warmth: Array | None = None
     others: Mapping[str, Array] = field(default_factory=dict)
     began: Mapping[str, float] = field(default_factory=dict)
+    since_cold: float = 0.0
     sha256: str = ""
     notes: tuple[str, ...] = ()
     coarse: Resolution | None = None
@@ -100,6 +102,11 @@ class Run:
         return self.start - self.began.get("t", self.start) + self.period * np.arange(self.samples, dtype=float)
 
     @property
+    def warming(self) -> Array:
+        """Time for which the drives have been getting warm [s] (N)."""
+        return self.since_cold + self.elapsed
+
+    @property
     def rises(self) -> dict[str, Array]:
         """Of the temperatures ``temp1`` ... since the recording began [K] (N each)."""
         temperatures = {name: values for name, values in self.others.items() if name.startswith("temp")}
@@ -137,7 +144,13 @@ def load(
     wanted = {name: one for name, one in wanted.items() if _signal(name) not in lacking}
     recording = numbered(renamed(renamed(recording, wanted), beside.columns), robot)
     recorded = _recorded(source, named.rows_of(recording), robot, efforts, resting)
-    known = replace(recorded, payload=beside.payload, empty=beside.empty, began=_beginning(recording, robot))
+    known = replace(
+        recorded,
+        payload=beside.payload,
+        empty=beside.empty,
+        since_cold=beside.since_cold,
+        began=_beginning(recording, robot),
+    )
     return _corrected(known, robot)
 
 
@@ -279,7 +292,7 @@ def _left_out(ticks: Clock, unusable: NDArray[np.bool_] | None, n: int) -> NDArr
 
 def _corrected(run: Run, robot: Robot) -> Run:
     """The run with its torques and further columns as they truly were, and with the warmth of the drives."""
-    warmth = corrections.warmth(run.rises, run.elapsed, run.tau, robot, run.place)
+    warmth = corrections.warmth(run.rises, run.warming, run.tau, robot, run.place)
     marks = [one for one in (run.unusable, corrections.saturated(run.tau, robot)) if one is not None]
     unusable = None
     if marks:

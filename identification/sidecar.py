@@ -54,14 +54,16 @@ class Payload:
 class Sidecar:
     """All that identification takes from a sidecar; ``robot`` and ``notes`` are empty where it does not say.
 
-    ``empty`` tells that it says there is no payload, which it may leave open. What a simulation was made of, under
-    ``simulated``, is for people.
+    ``empty`` tells that it says there is no payload, which it may leave open. ``since_cold`` is how long before the
+    recording the drives were set in motion, cold [s]. What a simulation was made of, under ``simulated``, is for
+    people.
     """
 
     robot: str = ""
     notes: str = ""
     payload: Payload | None = None
     empty: bool = False
+    since_cold: float = 0.0
     columns: Mapping[str, Formula] = field(default_factory=dict)
 
 
@@ -94,15 +96,25 @@ def read(run: Path) -> Sidecar:
     if isinstance(root, Table) and "joints" in root.entries:
         problem = f"the robot file of this name would be the sidecar of {run.name}"
         raise InputError(root.place, problem, "another name for the run or for the robot's file")
-    keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "columns", "simulated"))
+    keys = fields.table(root, "the sidecar", (), ("robot", "notes", "payload", "since_cold", "columns", "simulated"))
     payload = _payload(keys["payload"]) if "payload" in keys else None
     return Sidecar(
         robot=fields.prose(keys.get("robot"), "robot"),
         notes=fields.prose(keys.get("notes"), "notes"),
         payload=payload,
         empty="payload" in keys and payload is None,
+        since_cold=_since_cold(keys["since_cold"]) if "since_cold" in keys else 0.0,
         columns=formulas(keys.get("columns")),
     )
+
+
+def _since_cold(entry: Entry) -> float:
+    """A time [s]; raises InputError for a negative one."""
+    what = "the time since the drives were cold"
+    value = float(fields.quantity(entry.value, what, "s").value)
+    if value < 0:
+        raise InputError(entry.value.place, f"{what} is {value:g} s", "0 s or more")
+    return value
 
 
 def _payload(entry: Entry) -> Payload | None:

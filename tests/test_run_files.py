@@ -110,9 +110,11 @@ def test_a_sidecar_tells_robot_payload_and_columns(good: Recorded, robot: Robot,
     for content, message in (
         ("", "the file is empty, expected the sidecar of a run"),
         ("{", "the sidecar of a run in YAML"),
+        ("since_cold: -1 s\n", "the time since the drives were cold is -1 s, expected 0 s or more"),
+        ("since_cold: 1 m\n", "'m' is the wrong unit, expected s"),
     ):
         side.write_text(content)
-        with pytest.raises(InputError, match=rf"a.yaml:1:\d: .*{message}"):
+        with pytest.raises(InputError, match=rf"a.yaml:1:\d+: .*{message}"):
             load(str(path), robot)
     with pytest.raises(InputError, match=r"a.yaml:1:1: a run file ending in '.yaml', expected a run in .csv"):
         load(str(side), robot)

@@ -173,6 +173,23 @@ def test_a_part_of_a_run_is_as_warm_as_the_whole_run_there(tmp_path: Path) -> No
     np.testing.assert_allclose(measured.warmth[1], (measured.start + timed.period * np.arange(timed.samples)) * 5 / 20)
 
 
+def test_a_recording_may_begin_long_after_a_cold_start(tmp_path: Path) -> None:
+    """Before it each drive was loaded as in the mean; a temperature tells a rise in the recording alone."""
+    of = robot(tmp_path, "warm_up_time: [1 s, 2 s, 4 s], warm_torque: [1000000 N m, 1000000 N m, 3 N m]")
+    (tmp_path / "run.yaml").write_text("since_cold: 500 ms\n")
+    run = Recorded(tmp_path).run(of, positions(T), currents(T))
+    part = (KT * currents(T))[2] / 3
+    before = (1 - np.exp(-0.5 / 4)) * np.mean(part**2)
+    assert run.warmth is not None
+    np.testing.assert_allclose(run.warmth[:2], 1 - np.exp(-(T + 0.5) / np.array([[1.0], [2.0]])), atol=1e-12)
+    np.testing.assert_allclose(run.warmth[2], heat(part, 2e-3, 4.0, before), atol=2e-3)
+    np.testing.assert_allclose(run.elapsed, T, atol=1e-12)
+    of, temperature = robot(tmp_path, "warm_rise: 20 K"), 25 + 5 * T[None] + np.zeros((3, 1))
+    measured = Recorded(tmp_path).run(of, positions(T), currents(T), temp=temperature)
+    assert measured.warmth is not None
+    np.testing.assert_allclose(measured.warmth[0], 5 * T / 20, atol=1e-12)
+
+
 def test_without_a_word_on_the_warmth_it_is_asked_for(tmp_path: Path) -> None:
     of = robot(tmp_path, "warm_up_time: [1000000 s, 2 s, 2 s]", "  torque_drift: [-1/10, 0, 1/20]\n")
     with pytest.raises(InputError, match=r"how warm the drive of joint 1 is.*expected warm_up_time.*column temp1"):

@@ -1,6 +1,6 @@
 """Torque constants that change while a motor gets warm: true torque = (1 + start)(1 + drift w) recorded.
 
-The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from the recording's beginning,
+The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from a cold start,
 or what the square of the motor's torque has heated since then, or a temperature's rise where the runs have one.
 ``drift`` adds to ``torque_drift`` of the robot's drives, d: (1 + d w)(1 + drift w/(1 + d w)) is 1 + (d + drift) w. With
 ``start`` the constant differs already where w is 0.

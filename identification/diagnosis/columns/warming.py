@@ -10,17 +10,20 @@ from identification.arrays import Array
 from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.runs.scene import Scene
 
-#: Time constants that are tried, in durations of the longest run; none that no motor's winding has [s].
+#: Time constants that are tried, in parts of the longest recording, and of what is the longest since a cold start; none
+#: that no motor's winding has [s].
 _SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
 #: How many are held against another warmth.
 _TIMES = 60
 
 
 def warm_up_times(scenes: Sequence[Scene]) -> ShapeRange:
-    """The time constant T [s] of a warmth 1 - exp(-t/T) since the recordings began."""
-    duration = max(float(scene.sampled.run.elapsed[-1]) for scene in scenes)
-    shortest = max(_SHORTEST * duration, _QUICK)
-    return ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * duration, 2 * shortest))
+    """The time constant T [s] of a warmth 1 - exp(-t/T) since a cold start."""
+    runs = [scene.sampled.run for scene in scenes]
+    recorded = max(float(run.elapsed[-1]) for run in runs)
+    warming = max(float(run.warming[-1]) for run in runs)
+    shortest = max(_SHORTEST * recorded, _QUICK)
+    return ShapeRange("warm_up_time", "s", shortest, max(_LONGEST * warming, 2 * shortest))
 
 
 def following(k: int, scenes: Sequence[Scene], warmths: Sequence[Array]) -> float:

@@ -78,11 +78,11 @@ class Scene:
         return self._inside(self.sampled.run.elapsed)
 
     def warmth(self, k: int, warm_up_time: float | None = None) -> Array:
-        """How warm the drive of coordinate ``k`` is (N), 0 when the recording began: as the robot's file says, or by
+        """How warm the drive of coordinate ``k`` is (N), 0 after a cold start: as the robot's file says, or by
         ``warm_up_time`` [s]; not a number where neither tells.
         """
         if warm_up_time is not None:
-            return warming_up(self.t, warm_up_time)
+            return warming_up(self._inside(self.sampled.run.warming), warm_up_time)
         if self.motion.warmth is None:
             return np.full(self.motion.samples, np.nan)
         told: Array = self.motion.warmth[k]
@@ -100,7 +100,7 @@ class Scene:
 
     def heat(self, k: int, warm_torque: float, warm_up_time: float) -> Array:
         """How warm the drive of coordinate ``k`` is (N) by its motor's torque, as ``corrections.heated``."""
-        return self._inside(heated(self.motor_torque(k) / warm_torque, self.sampled.run.elapsed, warm_up_time))
+        return self._inside(heated(self.motor_torque(k) / warm_torque, self.sampled.run.warming, warm_up_time))
 
     def warmth_is_stated(self, k: int) -> bool:
         """Whether the robot's file says how warm the drive of coordinate ``k`` is."""

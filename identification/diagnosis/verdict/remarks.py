@@ -155,7 +155,7 @@ def of_warm_starts(found: Search) -> Iterator[str]:
         if began:
             yield (
                 f"the torque constant of joint {joint.number} had drifted already when {listed(began)} began, which "
-                "the search takes into account; the robot file takes a drive to be cold when a recording begins"
+                "the search takes into account; for the new robot file since_cold of their sidecars can tell it"
             )
 
 
