@@ -13,6 +13,7 @@ from generator.effects.library import library
 from generator.robot.description import PRISMATIC, REVOLUTE
 from tests.plant.effect import Effect
 from tests.plant.known_effects import entry
+from tests.plant.library import LAWS
 from tests.plant.robots import ROBOTS
 
 MODES = (FREE, KNOWN)
@@ -65,8 +66,9 @@ def _hidden(
         case _:
             raise ValueError(f"no cell {cell}")
     drawn = [_somewhere(name, robot, size, rng) for name in names]
-    places = {(one.joint, STUDY.laws[one.law].named if one.law in STUDY.laws else one.law) for one in drawn if one}
-    return tuple(one for one in drawn if one) if len(places) == len(names) else None
+    hidden = tuple(one for one in drawn if one)
+    places = {(one.joint, STUDY.laws[one.law].named if one.law in STUDY.laws else one.law) for one in hidden}
+    return hidden if len(places) == len(names) and not takes_more(hidden) else None
 
 
 def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) -> tuple[Hidden, ...]:
@@ -74,6 +76,12 @@ def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) ->
     law, joint = str(rng.choice(STUDY.beside)), int(rng.integers(1, ROBOTS[robot].joints + 1))
     there = rng.random() < 1 / 3 and joint not in {one.joint for one in hidden}
     return (Hidden(law, joint),) if there and has_place(law, robot, joint) else ()
+
+
+def takes_more(hidden: Sequence[Hidden]) -> bool:
+    """Whether a law takes the place of Coulomb friction that is hidden too: of less than that, what is left pushes."""
+    hiding = {one.joint for one in hidden if one.law == "coulomb"}
+    return any(one.joint in hiding and LAWS[one.law].replaces_coulomb for one in hidden)
 
 
 def has_place(law: str, robot: str, joint: int) -> bool:

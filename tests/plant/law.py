@@ -37,6 +37,8 @@ class Law:
     values: Mapping[str, Value] = field(default_factory=dict)
     #: Beyond it the law makes no sense: more Coulomb friction replaced than there is.
     largest: Value = inf
+    #: Whether it stands in the place of Coulomb friction, as much as its size.
+    replaces_coulomb: bool = False
     torque: str = ""
     friction: bool = False
     of_links: bool = False

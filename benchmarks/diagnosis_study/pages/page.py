@@ -89,7 +89,10 @@ def _misplaced(counts: Mapping[str, int]) -> str:
     """What is said of cases that no table counts, if there are any."""
     if not (count := counts["misplaced"]):
         return ""
-    return f"{count} with a law on a joint where no effect of the library may stand for it are in no table. "
+    return (
+        f"{count} with a law on a joint where no effect of the library may stand for it, or in the place of Coulomb "
+        "friction that is hidden too, are in no table. "
+    )
 
 
 def _filled(text: str) -> str:

@@ -12,6 +12,7 @@ LAW = Law(
     unit="N m",
     typical=lambda robot, j: 0.6 * robot.chain[j].coulomb,
     largest=lambda robot, j: robot.chain[j].coulomb,
+    replaces_coulomb=True,
     values={"speed": lambda robot, j: 0.03 * robot.chain[j].range[2], "distance": stiff_way},
     torque="""
 const double smooth = 0.63661977236758134 * atan(v / speed);

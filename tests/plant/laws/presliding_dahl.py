@@ -9,6 +9,7 @@ LAW = Law(
     unit="N m",
     typical=lambda robot, j: 0.8 * robot.chain[j].coulomb,
     largest=lambda robot, j: robot.chain[j].coulomb,
+    replaces_coulomb=True,
     values={"way": 5e-3, "distance": stiff_way},
     torque="""
 const double side = v > 0.0 ? 1.0 : (v < 0.0 ? -1.0 : 0.0), before = s[0], u = 1.0 - side * s[0];

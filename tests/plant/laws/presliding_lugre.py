@@ -11,6 +11,7 @@ LAW = Law(
     unit="N m",
     typical=lambda robot, j: 0.8 * robot.chain[j].coulomb,
     largest=lambda robot, j: robot.chain[j].coulomb,
+    replaces_coulomb=True,
     values={"way": 1e-2, "speed": lambda robot, j: 0.02 * robot.chain[j].range[2], "distance": stiff_way},
     torque="""
 const double x = v / speed, strength = 1.0 + 0.15 * exp(-x * x);
